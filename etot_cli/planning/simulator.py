@@ -1,0 +1,66 @@
+"""What the search needs of a physics world: start states, and actions tried from stored states.
+
+Planning knows nothing of MuJoCo; the skills room implements this protocol.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Protocol
+
+from etot_cli.skills.action import Action
+from etot_cli.world.state import RolloutRecord, SceneState
+
+StateToken = bytes
+"""An opaque stored end state of the world(s); bit-exact, picklable."""
+
+
+@dataclass(frozen=True, slots=True)
+class WorldOutcome:
+    """One world's account of an action.
+
+    ``trajectory``: opaque decimated trajectory for later rendering (picklable), or None.
+    """
+
+    record: RolloutRecord
+    trajectory: object | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """An action stepped from a stored state, in one world or several varied ones.
+
+    ``outcomes[0]`` is the nominal world (the task's own parameters); ``end`` restores all worlds.
+    """
+
+    outcomes: Sequence[WorldOutcome]
+    end: StateToken
+    wall_s: float
+
+
+class Simulator(Protocol):
+    """Runs actions from stored states; results depend on nothing but their arguments."""
+
+    @property
+    def jobs(self) -> int:
+        """How many submissions run at the same time."""
+        ...
+
+    @property
+    def world_count(self) -> int:
+        """Number of varied worlds in each state (``--worlds``)."""
+        ...
+
+    def start(self) -> tuple[StateToken, SceneState]:
+        """The settled initial state and the nominal world's view of it."""
+        ...
+
+    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+        """Tries ``action`` from ``state``; never raises for a physical failure."""
+        ...
+
+    def close(self) -> None:
+        """Ends workers; idempotent."""
+        ...

@@ -1,0 +1,86 @@
+"""The roles that the paper gives its VLM, behind one protocol.
+
+Every reasoner (built in, or a VLM) takes and returns the plain data defined here; planning and
+execution know nothing else of it. Source: paper, sections "Priori Branching" and "Tree Searching
+and Reflective Branching".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Protocol
+
+from etot_cli.skills.action import Action
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import Cause, RolloutRecord, SceneState
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """What the planner is asked to do. ``goal``, when given, replaces the instruction."""
+
+    instruction: str
+    goal: tuple[Condition, ...] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A full action sequence from the root to a leaf, with a word on its purpose."""
+
+    actions: tuple[Action, ...]
+    reason: str = ""
+
+
+class Outcome(StrEnum):
+    SUCCESS = "success"
+    FAILURE = "failure"
+    UNSAFE = "unsafe"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The judge's decision on one action.
+
+    ``changes``: names of objects whose state changed, the acted-on ones included.
+    """
+
+    outcome: Outcome
+    cause: Cause | None = None
+    changes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FailedStep:
+    """A failed node and the branch it stood in.
+
+    ``branch`` is the whole branch root to leaf; ``index`` the failed action's place in it;
+    ``record`` what happened; ``verdict`` why it counts as failed; ``start`` the scene at the root.
+    """
+
+    branch: Branch
+    index: int
+    record: RolloutRecord
+    verdict: Verdict
+    start: SceneState
+
+
+class Reasoner(Protocol):
+    """Scene and task understanding, branching, judging and reflecting."""
+
+    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
+        """Priori branching: all candidate branches, best first; empty when the goal already holds.
+
+        Raises:
+            InstructionError: the assignment cannot be understood against this scene.
+        """
+        ...
+
+    def judge(self, action: Action, record: RolloutRecord) -> Verdict:
+        """Compares all objects before and after the action."""
+        ...
+
+    def reflect(self, failed: FailedStep) -> Branch | None:
+        """A corrected branch from the root, or None where no revision keeps the purpose."""
+        ...

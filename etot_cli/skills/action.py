@@ -1,0 +1,137 @@
+"""The five action primitives and how they are written.
+
+Source: paper, section "Action Skills Set". Written form: ``[PICK UP, pen] (vertical)``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from etot_cli.errors import PlanSyntaxError
+
+
+class Verb(StrEnum):
+    """An action primitive; the value is its written form."""
+
+    PICK_UP = "PICK UP"
+    PUT_ON = "PUT ON"
+    PUT_INTO = "PUT INTO"
+    OPEN = "OPEN"
+    CLOSE = "CLOSE"
+
+
+class GraspPose(StrEnum):
+    """How an object is picked up: from the side with level fingers, or from above."""
+
+    HORIZONTAL = "horizontal"
+    VERTICAL = "vertical"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Keepout:
+    """A disc of the desk plane that a safe place must not touch: centre x, y and radius [m]."""
+
+    x: float
+    y: float
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """One action.
+
+    Args:
+        verb: the primitive.
+        target: object, surface, container or articulated object; ``object`` or ``object.part``.
+        pose: grasp pose asked for, None when any will do.
+        safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
+        keepout: the discs that such a place avoids, from the failed rollout; base frame.
+    """
+
+    verb: Verb
+    target: str
+    pose: GraspPose | None = None
+    safe: bool = False
+    keepout: tuple[Keepout, ...] = ()
+
+    def __str__(self) -> str:
+        text = f"[{self.verb.value}, {self.target}]"
+        return f"{text} ({self.pose.value})" if self.pose else text
+
+
+_ACTION = re.compile(
+    r"\s*(?:\d+[.)]\s*)?\[\s*(?P<verb>[A-Za-z][A-Za-z _]*?)\s*,\s*(?P<target>[A-Za-z][\w.]*)\s*\]"
+    r"\s*(?:\(\s*(?P<note>[^()]*?)\s*\))?\s*[,;]?"
+)
+MAX_PLAN_ACTIONS = 64
+"""Longer textual plans are refused."""
+
+
+def parse_plan(text: str, targets: Iterable[str] | None = None) -> tuple[Action, ...]:
+    """Reads ``[PICK UP, pen] (vertical) [PUT INTO, holder]`` strictly.
+
+    Args:
+        text: the plan; numbering and commas between actions are allowed, nothing else is.
+        targets: valid targets; None skips that check.
+
+    Raises:
+        PlanSyntaxError: naming the first words that cannot be read and what is expected.
+    """
+    actions: list[Action] = []
+    position = 0
+    allowed = None if targets is None else set(targets)
+    while position < len(text) and text[position:].strip():
+        match = _ACTION.match(text, position)
+        if match is None:
+            found = text[position:].strip()[:60]
+            raise PlanSyntaxError(
+                f"cannot read {found!r} as an action; expected e.g. [PICK UP, pen] or "
+                "[PICK UP, holder] (horizontal)"
+            )
+        actions.append(_action(match, allowed))
+        if len(actions) > MAX_PLAN_ACTIONS:
+            raise PlanSyntaxError(f"a plan may have at most {MAX_PLAN_ACTIONS} actions")
+        position = match.end()
+    if not actions:
+        raise PlanSyntaxError("the plan is empty; expected e.g. [PICK UP, pen] [PUT INTO, holder]")
+    return tuple(actions)
+
+
+def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
+    written = " ".join(match["verb"].replace("_", " ").upper().split())
+    try:
+        verb = Verb(written)
+    except ValueError:
+        expected = ", ".join(item.value for item in Verb)
+        raise PlanSyntaxError(
+            f"unknown action {match['verb']!r}; expected one of {expected}"
+        ) from None
+    target = match["target"]
+    if allowed is not None and target not in allowed:
+        raise PlanSyntaxError(
+            f"[{verb.value}, {target}]: the scene has no {target!r}; it has "
+            f"{', '.join(sorted(allowed))}"
+        )
+    note = (match["note"] or "").lower()
+    pose: GraspPose | None = None
+    safe = False
+    if note in ("horizontal", "horizontally"):
+        pose = GraspPose.HORIZONTAL
+    elif note in ("vertical", "vertically"):
+        pose = GraspPose.VERTICAL
+    elif note == "safe place":
+        safe = True
+    elif note:
+        raise PlanSyntaxError(
+            f"unknown note ({match['note']}) after [{verb.value}, {target}]; expected "
+            "(horizontal), (vertical) or (safe place)"
+        )
+    return Action(verb, target, pose, safe)
+
+
+def format_plan(actions: Iterable[Action]) -> str:
+    """Writes a plan on one line, the inverse of :func:`parse_plan`."""
+    return " ".join(str(action) for action in actions)

@@ -1,0 +1,74 @@
+"""What a task is: an instruction about a scene, and how an evaluator tells success."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from etot_cli.specs.scene import Finite, Name, Scene, Spec
+
+Reference = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,47}(\.[A-Za-z][A-Za-z0-9_]{0,47})?$")]
+"""An object, or one of its parts as ``object.part``."""
+
+
+class Condition(Spec):
+    """One statement about the world; exactly one key is given.
+
+    ``on: [a, b]`` a rests on b (the desk is ``desk``); ``inside: [a, b]``; ``in_hand: a``;
+    ``open: part`` at least half way; ``closed: part``; ``upright: a``; ``present: a`` still on the
+    desk or on something; ``any`` / ``all``: lists of conditions; ``not``: one condition.
+    """
+
+    on: tuple[Reference, Reference] | None = None
+    inside: tuple[Reference, Reference] | None = None
+    in_hand: Reference | None = None
+    open: Reference | None = None
+    closed: Reference | None = None
+    upright: Reference | None = None
+    present: Reference | None = None
+    any: tuple[Condition, ...] | None = None
+    all: tuple[Condition, ...] | None = None
+    not_: Condition | None = Field(default=None, alias="not")
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> Condition:
+        if len(self.model_fields_set) != 1:
+            raise ValueError(
+                "a condition has exactly one key of on, inside, in_hand, open, closed, upright, "
+                "present, any, all, not"
+            )
+        return self
+
+
+class Disturbance(Spec):
+    """What a person does to the scene while the robot acts (used by ``execute``).
+
+    After the robot has finished its ``after_action``-th action, or right when it commits to the
+    object (``when: committed``), ``move`` (an object name, or ``chosen`` for the object the robot
+    has committed to) is put ``inside`` or ``on`` another object, or ``at`` a place on the desk.
+    """
+
+    when: Literal["committed", "after_action"] = "committed"
+    after_action: Annotated[int, Field(ge=0, le=50)] = 0
+    move: str = "chosen"
+    inside: Reference | None = None
+    on: Reference | None = None
+    at: tuple[Finite, Finite] | None = None
+
+
+class Task(Spec):
+    """A task: the planner sees ``instruction`` (or ``goal``) and ``scene``; ``success`` is the
+    evaluator's alone."""
+
+    name: str
+    instruction: Annotated[str, Field(min_length=1, max_length=2000)]
+    scene: Scene
+    success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
+    goal: tuple[Condition, ...] | None = None
+    disturbance: Disturbance | None = None
+    file: str = ""
+    """The task file as the user named it; set by the loader, refused in YAML."""
+
+
+__all__ = ["Condition", "Disturbance", "Name", "Reference", "Task"]
