@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from etot_cli.specs.scene import Finite, Name, Scene, Spec
+from etot_cli.specs.base import Name, Spec, Title
+from etot_cli.specs.quantity import Coordinate, Meaning
+from etot_cli.specs.scene import Scene
 
-Reference = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,47}(\.[A-Za-z][A-Za-z0-9_]{0,47})?$")]
+Reference = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,47}(\.[A-Za-z][A-Za-z0-9_]{0,47})?$"),
+    Meaning("an object's name, or object.part"),
+]
 """An object, or one of its parts as ``object.part``."""
+
+
+Pair = tuple[Reference, Reference]
 
 
 class Condition(Spec):
@@ -20,20 +29,21 @@ class Condition(Spec):
     desk or on something; ``any`` / ``all``: lists of conditions; ``not``: one condition.
     """
 
-    on: tuple[Reference, Reference] | None = None
-    inside: tuple[Reference, Reference] | None = None
+    on: Pair | None = None
+    inside: Pair | None = None
     in_hand: Reference | None = None
     open: Reference | None = None
     closed: Reference | None = None
     upright: Reference | None = None
     present: Reference | None = None
-    any: tuple[Condition, ...] | None = None
-    all: tuple[Condition, ...] | None = None
+    any: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
+    all: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     not_: Condition | None = Field(default=None, alias="not")
 
     @model_validator(mode="after")
     def _exactly_one(self) -> Condition:
-        if len(self.model_fields_set) != 1:
+        given = [key for key in self.model_fields_set if getattr(self, key) is not None]
+        if len(given) != 1 or len(self.model_fields_set) != 1:
             raise ValueError(
                 "a condition has exactly one key of on, inside, in_hand, open, closed, upright, "
                 "present, any, all, not"
@@ -51,24 +61,41 @@ class Disturbance(Spec):
 
     when: Literal["committed", "after_action"] = "committed"
     after_action: Annotated[int, Field(ge=0, le=50)] = 0
-    move: str = "chosen"
+    move: Name = "chosen"
     inside: Reference | None = None
     on: Reference | None = None
-    at: tuple[Finite, Finite] | None = None
+    at: tuple[Coordinate, Coordinate] | None = None
+
+    @model_validator(mode="after")
+    def _one_destination(self) -> Disturbance:
+        given = [item for item in (self.inside, self.on, self.at) if item is not None]
+        if len(given) != 1:
+            raise ValueError("give one of 'inside', 'on' and 'at', where the object is put")
+        if self.when == "committed" and self.after_action:
+            raise ValueError("'after_action' needs 'when: after_action'")
+        return self
 
 
 class Task(Spec):
     """A task: the planner sees ``instruction`` (or ``goal``) and ``scene``; ``success`` is the
-    evaluator's alone."""
+    evaluator's alone.
+    """
 
-    name: str
+    name: Title
     instruction: Annotated[str, Field(min_length=1, max_length=2000)]
     scene: Scene
     success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
-    goal: tuple[Condition, ...] | None = None
+    goal: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     disturbance: Disturbance | None = None
     file: str = ""
     """The task file as the user named it; set by the loader, refused in YAML."""
+
+    @field_validator("instruction")
+    @classmethod
+    def _some_words(cls, value: str) -> str:
+        if not value.strip():
+            raise ValueError("is blank, expected a sentence that says what to do")
+        return value.strip()
 
 
 __all__ = ["Condition", "Disturbance", "Name", "Reference", "Task"]

@@ -8,6 +8,10 @@ from enum import StrEnum
 
 DESK = "desk"
 """Name of the table top as a surface."""
+OPEN_AT = 0.75
+"""A part counts as open from this share of its travel."""
+CLOSED_AT = 0.06
+"""A part counts as closed up to this share of its travel."""
 
 
 @dataclass(frozen=True, slots=True)

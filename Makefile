@@ -1,0 +1,51 @@
+# Every target sets up what it needs, in .venv; nothing else has to be installed first but
+# Python 3.11 or newer with its venv module.
+
+PYTHON ?= python3
+VENV ?= .venv
+WORKERS ?= 2
+
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+.PHONY: demo test lint format schemas bench check-tasks clean
+
+demo: $(VENV)/.run  ## plan a task and show the plan
+	$(BIN)/etot plan tasks/task5.yaml
+
+test: $(VENV)/.dev  ## all tests
+	$(BIN)/python -m pytest -n $(WORKERS)
+
+lint: $(VENV)/.dev  ## style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: $(VENV)/.dev  ## put the style right
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+schemas: $(VENV)/.run  ## write docs/schemas anew from the report models
+	$(BIN)/python -m etot_cli.reporting.schemas docs/schemas
+
+bench: $(VENV)/.dev  ## measure speed and success rates
+	$(BIN)/python -m tests.measure.bench
+
+check-tasks: $(VENV)/.dev  ## check that every shipped task is physically what it is meant to be
+	$(BIN)/python -m tests.measure.check_tasks
+
+clean:  ## remove the environment and caches, keep results
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis
+
+$(BIN)/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "etot needs Python 3.11 or newer; try: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.run: pyproject.toml | $(BIN)/python
+	$(PIP) install --editable .
+	@touch $@
+
+$(VENV)/.dev: pyproject.toml | $(BIN)/python
+	$(PIP) install --editable ".[dev]"
+	@touch $@ $(VENV)/.run

@@ -1,0 +1,110 @@
+"""The program ``etot``: its commands, and what happens to every error.
+
+Errors meant for the user become one line and their exit code; only a defect of this program can
+end otherwise, and even that shows its traceback on request alone.
+"""
+
+from __future__ import annotations
+
+import io
+import signal
+import sys
+import traceback
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from etot_cli.cli.exits import INTERNAL, INTERRUPTED, OK, UNUSABLE
+from etot_cli.cli.plan import plan
+from etot_cli.cli.simulate import simulate
+from etot_cli.errors import EtotError
+
+app = typer.Typer(
+    name="etot",
+    help="Plan robot manipulation by a tree search in a physics simulator.",
+    invoke_without_command=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command()(plan)
+app.command()(simulate)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"etot {version('etot')}")
+        except PackageNotFoundError:
+            print("etot (not installed)")
+        raise typer.Exit(OK)
+
+
+@app.callback()
+def _root(
+    context: typer.Context,
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    """Plan robot manipulation by a tree search in a physics simulator."""
+    if context.invoked_subcommand is None:
+        print(context.get_help(), file=sys.stderr)
+        raise typer.Exit(UNUSABLE)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Runs the program.
+
+    Args:
+        arguments: the command line without the program's name.
+
+    Returns:
+        the exit code; see :mod:`etot_cli.cli.exits`.
+    """
+    try:
+        code = app(list(arguments), prog_name="etot", standalone_mode=False)
+    except EtotError as error:
+        _complain(str(error))
+        return error.exit_code
+    except typer.TyperException as error:  # a flag or argument that cannot be used
+        _complain(error.format_message())
+        return error.exit_code
+    except (KeyboardInterrupt, typer.Abort):
+        _complain("interrupted")
+        return INTERRUPTED
+    except Exception as error:  # a defect: whatever it is, a person gets a sentence
+        return _confess(error, detailed="-v" in arguments or "--verbose" in arguments)
+    return code if isinstance(code, int) else OK
+
+
+def main() -> None:
+    """Entry point of the script ``etot``."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a symbol never breaks an ASCII terminal
+    # A shell starts background jobs with SIGINT ignored; who sends it to a planner means it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    sys.exit(run(sys.argv[1:]))
+
+
+def _complain(message: str) -> None:
+    print(f"error: {message}", file=sys.stderr)
+
+
+def _confess(error: Exception, *, detailed: bool) -> int:
+    if detailed:
+        traceback.print_exception(error)
+    _complain(
+        f"internal error: {type(error).__name__}: {error}. This is a defect of etot; please report "
+        "it with the command and its input" + ("" if detailed else " (-v shows the details)")
+    )
+    return INTERNAL
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+"""The command ``etot plan``."""
+
+from __future__ import annotations
+
+import os
+from enum import StrEnum
+from math import isnan
+from typing import Annotated
+
+import typer
+
+from etot_cli.cli.options import Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.session import Session
+from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
+
+MAX_JOBS = 256
+MAX_WORLDS = 1000
+MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
+
+
+class ReasonerName(StrEnum):
+    """Who proposes, judges and reflects."""
+
+    BUILTIN = "builtin"
+
+
+def _a_number(value: float | None) -> float | None:
+    """Refuses nan, which no comparison with a bound catches."""
+    if value is not None and isnan(value):
+        raise typer.BadParameter("nan is not a number of seconds")
+    return value
+
+
+def plan(
+    task: TaskFile,
+    reasoner: Annotated[
+        ReasonerName, typer.Option("--reasoner", help="Who proposes, judges and reflects.")
+    ] = ReasonerName.BUILTIN,
+    vary: Vary = False,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            "--jobs",
+            min=1,
+            max=MAX_JOBS,
+            metavar="N",
+            help="Nodes simulated at the same time; changes no result. "
+            "[default: the processor cores]",
+        ),
+    ] = None,
+    without: Annotated[
+        list[Ablation] | None,
+        typer.Option("--without", help="Switch a mechanism off. May be repeated."),
+    ] = None,
+    max_nodes: Annotated[
+        int, typer.Option("--max-nodes", min=1, metavar="N", help="Actions to simulate at most.")
+    ] = DEFAULT_MAX_NODES,
+    time_limit: Annotated[
+        float | None,
+        typer.Option(
+            "--time-limit",
+            min=0.0,
+            max=MAX_TIME_LIMIT_S,
+            callback=_a_number,
+            metavar="S",
+            help="Seconds to search at most. [default: no limit]",
+        ),
+    ] = None,
+    worlds: Annotated[
+        int,
+        typer.Option(
+            "--worlds",
+            min=1,
+            max=MAX_WORLDS,
+            metavar="N",
+            help="Varied worlds that each action is tried in; the plan that holds in more wins.",
+        ),
+    ] = 1,
+    out: Out = None,
+    seed: Seed = 0,
+    json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> int:
+    """Find a plan that works in the simulator, and say why others do not.
+
+    Exit code 0: a feasible plan; 1: none found; 2: unusable input; 130: interrupted.
+    """
+    session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose)
+    from etot_cli.commands.plan import PlanOptions, run_plan
+
+    options = PlanOptions(
+        task=task,
+        seed=seed,
+        reasoner=reasoner.value,
+        vary=vary,
+        jobs=jobs or _cores(),
+        worlds=worlds,
+        without=frozenset(without or ()),
+        limits=Limits(max_nodes=max_nodes, time_limit_s=time_limit),
+    )
+    with session.search_observer() as observer:
+        report = run_plan(options, observer)
+    path = session.save(report)
+    return session.conclude(report, path, lambda summary: summary.plan(report, path))
+
+
+def _cores() -> int:
+    """Processor cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return min(MAX_JOBS, len(os.sched_getaffinity(0)))
+    return min(MAX_JOBS, os.cpu_count() or 1)

@@ -1,0 +1,50 @@
+"""The command ``etot simulate``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from etot_cli.cli.options import Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.session import Session
+
+
+def simulate(
+    task: TaskFile,
+    plan: Annotated[
+        str,
+        typer.Option(
+            "--plan",
+            metavar="PLAN",
+            help="The actions, e.g. '[PICK UP, pen] [PUT INTO, holder]', or a report.json of "
+            "etot plan.",
+        ),
+    ],
+    vary: Vary = False,
+    video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
+    frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
+    out: Out = None,
+    seed: Seed = 0,
+    json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> int:
+    """Carry a plan out in the simulator, judging every action.
+
+    Exit code 0: the plan works and the task is done; 1: it is not; 2: unusable input; 3: --video
+    or --frames without OpenGL; 130: interrupted.
+    """
+    session = Session("simulate", task, out=out, json=json, quiet=quiet, verbose=verbose)
+    from etot_cli.commands.render import render_files
+    from etot_cli.commands.simulate import SimulateOptions, run_simulate
+
+    options = SimulateOptions(task=task, plan=plan, seed=seed, vary=vary, record=video or frames)
+    simulation = run_simulate(options, session.log())
+    report = simulation.report
+    # Saved before rendering: what happened is on record even where OpenGL is missing.
+    path = session.save(report)
+    if (video or frames) and not report.interrupted:
+        render_files(simulation, session.folder, video=video, frames=frames)
+        session.save(report)
+    return session.conclude(report, path, lambda summary: summary.simulate(report, path))

@@ -1,0 +1,141 @@
+"""``etot plan``: from a task file to a report with a plan, or with the reasons why not."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from etot_cli.commands import rooms as doors
+from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.result import (
+    SearchObserver,
+    SearchResult,
+    SearchStatus,
+    Statistics,
+)
+from etot_cli.planning.search import search
+from etot_cli.planning.tree import PlanTree
+from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reporting.models import TaskModel
+from etot_cli.reporting.plan_report import (
+    PlanOptionsModel,
+    PlanReport,
+    statistics_model,
+    survival_model,
+    tree_model,
+    understood_model,
+)
+from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.specs.task import Task
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanOptions:
+    """What ``etot plan`` is asked to do."""
+
+    task: Path
+    seed: int = 0
+    reasoner: str = "builtin"
+    vary: bool = False
+    jobs: int = 1
+    worlds: int = 1
+    without: frozenset[Ablation] = frozenset()
+    limits: Limits = field(default_factory=Limits)
+
+
+def run_plan(
+    options: PlanOptions,
+    observer: SearchObserver | None = None,
+    rooms: doors.Rooms | None = None,
+) -> PlanReport:
+    """Plans a task.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
+
+    Args:
+        options: the task and how to plan it.
+        observer: told of every step of the search.
+        rooms: the rooms below; this package's own when None.
+
+    Raises:
+        EtotError: the input is unusable or something that is needed is missing.
+    """
+    watch = Stopwatch()
+    task: Task | None = None
+    result: SearchResult | None = None
+    interrupted = False
+    try:
+        rooms = rooms or doors.default_rooms()
+        with watch.phase("load"):
+            task = rooms.load_task(options.task)
+            scene = rooms.vary(task.scene, options.seed) if options.vary else task.scene
+        with watch.phase("world"):
+            reasoner = rooms.reasoners[options.reasoner]()
+            simulator = rooms.open_simulator(
+                scene, seed=options.seed, jobs=options.jobs, worlds=options.worlds, record=False
+            )
+        with closing(simulator), watch.phase("search"):
+            result = search(
+                Assignment(task.instruction, task.goal),
+                simulator,
+                reasoner,
+                limits=options.limits,
+                without=options.without,
+                observer=observer,
+            )
+    except KeyboardInterrupt:
+        interrupted = True
+    return _report(options, task, result or _nothing(), interrupted, watch)
+
+
+def _nothing() -> SearchResult:
+    """Stands for a search that was interrupted before it began."""
+    return SearchResult(
+        status=SearchStatus.INTERRUPTED,
+        leaf=None,
+        tree=PlanTree(),
+        statistics=Statistics(),
+        branches=(),
+    )
+
+
+def _report(
+    options: PlanOptions,
+    task: Task | None,
+    result: SearchResult,
+    interrupted: bool,
+    watch: Stopwatch,
+) -> PlanReport:
+    status = SearchStatus.INTERRUPTED if interrupted else result.status
+    return PlanReport(
+        status=status.value,
+        seed=options.seed,
+        interrupted=status is SearchStatus.INTERRUPTED,
+        versions=versions(),
+        timing=watch.timing(),
+        task=task_model(options.task, task),
+        files={},
+        options=PlanOptionsModel(
+            reasoner=options.reasoner,
+            vary=options.vary,
+            jobs=options.jobs,
+            worlds=options.worlds,
+            without=[ablation.value for ablation in Ablation if ablation in options.without],
+            max_nodes=options.limits.max_nodes,
+            time_limit_s=options.limits.time_limit_s,
+        ),
+        plan=[str(action) for action in result.plan],
+        plan_nodes=[] if result.leaf is None else [node.id for node in result.leaf.path],
+        survival=survival_model(result.survival),
+        understood=understood_model(result.goal_holds, result.branches),
+        tree=tree_model(result),
+        statistics=statistics_model(result),
+    )
+
+
+def task_model(file: Path, task: Task | None) -> TaskModel:
+    """The task as it stands in reports; None when the command was stopped before it was read."""
+    if task is None:
+        return TaskModel(name=file.stem, file=str(file), instruction="")
+    return TaskModel(name=task.name, file=str(file), instruction=task.instruction)

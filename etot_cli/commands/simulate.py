@@ -1,0 +1,232 @@
+"""``etot simulate``: carries a given plan out in the simulator, judging every action."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from etot_cli.commands import rooms as doors
+from etot_cli.commands.plan import task_model
+from etot_cli.errors import PlanSyntaxError
+from etot_cli.planning.conditions import describe, holds
+from etot_cli.planning.simulator import Simulator
+from etot_cli.planning.survival import NOMINAL
+from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
+from etot_cli.reporting.models import action_fields, cause_model, seconds
+from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.reporting.replay import plan_from_report
+from etot_cli.reporting.simulate_report import (
+    ConditionModel,
+    SimulateReport,
+    StepModel,
+    SuccessConditionsModel,
+)
+from etot_cli.skills.action import Action, parse_plan
+from etot_cli.specs.scene import Scene
+from etot_cli.specs.task import Task
+from etot_cli.world.state import SceneState
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulateOptions:
+    """What ``etot simulate`` is asked to do. ``plan``: the actions, or a plan report's path."""
+
+    task: Path
+    plan: str
+    seed: int = 0
+    vary: bool = False
+    record: bool = False
+    """Keep the trajectories, so that frames or a video can be rendered afterwards."""
+
+
+class StepObserver(Protocol):
+    """Watches a simulation."""
+
+    def step_started(self, index: int, action: Action, total: int) -> None:
+        """An action begins; ``index`` counts from 0."""
+        ...
+
+    def step_judged(self, step: StepModel) -> None:
+        """It has its verdict."""
+        ...
+
+
+@dataclass(slots=True)
+class Simulation:
+    """A simulation's report, and what rendering needs of it."""
+
+    report: SimulateReport
+    scene: Scene | None
+    """As simulated, varied or not; None when interrupted before it was read."""
+    trajectories: list[object] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class _Run:
+    """What a simulation has come to so far; complete enough for a report at any moment."""
+
+    task: Task | None = None
+    scene: Scene | None = None
+    plan: tuple[Action, ...] = ()
+    steps: list[StepModel] = field(default_factory=list)
+    trajectories: list[object] = field(default_factory=list)
+    final: SceneState | None = None
+    interrupted: bool = False
+
+
+def run_simulate(
+    options: SimulateOptions,
+    observer: StepObserver | None = None,
+    rooms: doors.Rooms | None = None,
+) -> Simulation:
+    """Simulates a plan from the task's start, up to the first action that does not succeed.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
+
+    Args:
+        options: the task and the plan.
+        observer: told of every action.
+        rooms: the rooms below; this package's own when None.
+
+    Raises:
+        EtotError: the input is unusable or something that is needed is missing.
+    """
+    watch = Stopwatch()
+    run = _Run()
+    try:
+        rooms = rooms or doors.default_rooms()
+        with watch.phase("load"):
+            run.task = rooms.load_task(options.task)
+            # Text that is no plan is refused before the world is built; names need the world.
+            run.plan = read_plan(options.plan)
+            scene = run.task.scene
+            run.scene = rooms.vary(scene, options.seed) if options.vary else scene
+        with watch.phase("world"):
+            reasoner = rooms.reasoners["builtin"]()
+            simulator = rooms.open_simulator(
+                run.scene, seed=options.seed, jobs=1, worlds=1, record=options.record
+            )
+        with closing(simulator), watch.phase("simulate"):
+            _carry_out(run, simulator, reasoner, rooms, observer)
+    except KeyboardInterrupt:
+        run.interrupted = True
+    return Simulation(_report(options, run, watch), run.scene, run.trajectories)
+
+
+def read_plan(given: str) -> tuple[Action, ...]:
+    """A plan from what ``--plan`` was given: actions, or the path of a plan report.
+
+    Raises:
+        PlanSyntaxError: it is neither.
+    """
+    if "[" in given and not given.rstrip().endswith(".json"):
+        return parse_plan(given)
+    path = Path(given)
+    if path.is_dir():
+        path = path / "report.json"
+    if path.exists() or given.endswith(".json"):
+        return plan_from_report(path)
+    raise PlanSyntaxError(
+        f"{given!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report file"
+    )
+
+
+def _carry_out(
+    run: _Run,
+    simulator: Simulator,
+    reasoner: Reasoner,
+    rooms: doors.Rooms,
+    observer: StepObserver | None,
+) -> None:
+    state, run.final = simulator.start()
+    _check_targets(run.plan, rooms.known_targets(run.final))
+    for index, action in enumerate(run.plan):
+        if observer is not None:
+            observer.step_started(index, action, len(run.plan))
+        simulated = simulator.submit(state, action).result()
+        outcome = simulated.outcomes[NOMINAL]
+        verdict = reasoner.judge(action, outcome.record)
+        run.final = outcome.record.after
+        state = simulated.end
+        if outcome.trajectory is not None:
+            run.trajectories.append(outcome.trajectory)
+        step = _step(index, action, verdict, outcome.record.simulated_s, simulated.wall_s)
+        run.steps.append(step)
+        if observer is not None:
+            observer.step_judged(step)
+        if verdict.outcome is not Outcome.SUCCESS:
+            return
+
+
+def _check_targets(plan: Sequence[Action], targets: Sequence[str]) -> None:
+    """Refuses names that the scene does not have, in the words of the plan parser."""
+    for action in plan:
+        parse_plan(str(action), targets)
+
+
+def _step(
+    index: int, action: Action, verdict: Verdict, simulated_s: float, wall_s: float
+) -> StepModel:
+    return StepModel.model_validate(
+        {
+            **action_fields(action),
+            "index": index,
+            "status": verdict.outcome.value,
+            "cause": cause_model(verdict.cause),
+            "changes": list(verdict.changes),
+            "simulated_s": seconds(simulated_s),
+            "wall_s": seconds(wall_s),
+        }
+    )
+
+
+def _report(options: SimulateOptions, run: _Run, watch: Stopwatch) -> SimulateReport:
+    conditions = None if run.interrupted else _conditions(run.task, run.final)
+    status, cause = _conclude(run, conditions)
+    return SimulateReport.model_validate(
+        {
+            "status": status,
+            "seed": options.seed,
+            "interrupted": run.interrupted,
+            "versions": versions(),
+            "timing": watch.timing(),
+            "task": task_model(options.task, run.task),
+            "files": {},
+            "vary": options.vary,
+            "plan": [str(action) for action in run.plan],
+            "steps": run.steps,
+            "cause": cause,
+            "success_conditions": conditions,
+        }
+    )
+
+
+def _conditions(task: Task | None, final: SceneState | None) -> SuccessConditionsModel | None:
+    if task is None or final is None:
+        return None
+    conditions = [
+        ConditionModel(condition=describe(condition), held=holds(condition, final))
+        for condition in task.success
+    ]
+    return SuccessConditionsModel(
+        held=all(condition.held for condition in conditions), conditions=conditions
+    )
+
+
+def _conclude(run: _Run, conditions: SuccessConditionsModel | None) -> tuple[str, str | None]:
+    """The status and, unless it is success, the reason in one sentence."""
+    if run.interrupted:
+        return "interrupted", "stopped before the end of the plan"
+    last = run.steps[-1]
+    if last.status != Outcome.SUCCESS.value:
+        return last.status, last.cause.text if last.cause else f"{last.action} did not succeed"
+    if conditions is not None and not conditions.held:
+        missing = ", ".join(item.condition for item in conditions.conditions if not item.held)
+        return (
+            Outcome.FAILURE.value,
+            f"every action succeeded, but the task is not done: {missing} does not hold",
+        )
+    return Outcome.SUCCESS.value, None

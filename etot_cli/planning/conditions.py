@@ -1,0 +1,132 @@
+"""Whether a task's conditions hold in a scene: the evaluator's reading, never the planner's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from etot_cli.errors import SpecError
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import CLOSED_AT, DESK, ObjectState, PartInfo, SceneState
+
+HALF_OPEN = 0.5
+"""An open part is open at least this far, of 0…1."""
+
+
+def holds(condition: Condition, scene: SceneState) -> bool:
+    """Whether a condition holds.
+
+    Args:
+        condition: exactly one key is set, as the model guarantees.
+        scene: what the world looks like.
+
+    Raises:
+        SpecError: the condition names something that the scene does not have.
+    """
+    if condition.any is not None:
+        return any(holds(part, scene) for part in condition.any)
+    if condition.all is not None:
+        return all(holds(part, scene) for part in condition.all)
+    if condition.not_ is not None:
+        return not holds(condition.not_, scene)
+    if condition.on is not None:
+        return _on(*condition.on, scene)
+    if condition.inside is not None:
+        return _inside(*condition.inside, scene)
+    if condition.in_hand is not None:
+        return _object(condition.in_hand, scene).in_hand
+    if condition.open is not None:
+        return scene.openness(_part(condition.open, scene)) >= HALF_OPEN
+    if condition.closed is not None:
+        return scene.openness(_part(condition.closed, scene)) <= CLOSED_AT
+    if condition.upright is not None:
+        state = _object(condition.upright, scene)
+        return not (state.toppled or state.lost)
+    if condition.present is not None:
+        return not _object(condition.present, scene).lost
+    raise SpecError("a condition has no key that can be checked")
+
+
+def describe(condition: Condition) -> str:
+    """A condition in words, e.g. ``cup on desk`` or ``not (lid open)``."""
+    if condition.any is not None:
+        return " or ".join(f"({describe(part)})" for part in condition.any)
+    if condition.all is not None:
+        return " and ".join(f"({describe(part)})" for part in condition.all)
+    if condition.not_ is not None:
+        return f"not ({describe(condition.not_)})"
+    for relation in ("on", "inside"):
+        pair = getattr(condition, relation)
+        if pair is not None:
+            return f"{pair[0]} {relation} {pair[1]}"
+    for state in ("in_hand", "open", "closed", "upright", "present"):
+        name = getattr(condition, state)
+        if name is not None:
+            return f"{name} {state.replace('_', ' ')}"
+    return "nothing"
+
+
+def _on(name: str, support: str, scene: SceneState) -> bool:
+    state = _object(name, scene)
+    if support in state.on:
+        return True
+    _check_place(support, scene)
+    # A thing on one of a shelf's boards is on the shelf; a thing in a drawer is not on the unit.
+    return state.inside is None and any(item.partition(".")[0] == support for item in state.on)
+
+
+def _inside(name: str, container: str, scene: SceneState) -> bool:
+    """Also true for a thing in a cup that is itself in the container."""
+    _check_place(container, scene)
+    wanted = _addresses(container, scene)
+    seen: set[str] = set()
+    current: str | None = name
+    while current is not None and current not in seen:
+        seen.add(current)
+        around = _object(current, scene).inside
+        if around is None:
+            return False
+        if wanted & _addresses(around, scene):
+            return True
+        part = scene.part(around)
+        current = part.owner if part is not None else around
+    return False
+
+
+def _addresses(place: str, scene: SceneState) -> frozenset[str]:
+    """The containers that a name means.
+
+    A part by its address, an object by its name; an object with movable containers means them too.
+    """
+    part = scene.part(place)
+    if part is not None:
+        return frozenset({part.address})
+    info = scene.infos.get(place)
+    parts = () if info is None else info.parts
+    return frozenset({place, *(item.address for item in parts if item.container)})
+
+
+def _object(name: str, scene: SceneState) -> ObjectState:
+    if name not in scene.states:
+        raise SpecError(f"the scene has no object {name!r}; it has {_names(scene.states)}")
+    return scene.states[name]
+
+
+def _part(address: str, scene: SceneState) -> PartInfo:
+    part = scene.part(address)
+    if part is None:
+        parts = (part.address for info in scene.infos.values() for part in info.parts)
+        raise SpecError(
+            f"the scene has no part {address!r} that opens or closes; it has "
+            f"{_names(parts) or 'none'}"
+        )
+    return part
+
+
+def _check_place(place: str, scene: SceneState) -> None:
+    owner = place.partition(".")[0]
+    if place != DESK and owner not in scene.infos:
+        raise SpecError(f"the scene has no {place!r}; it has {_names((DESK, *scene.infos))}")
+
+
+def _names(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))

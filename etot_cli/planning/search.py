@@ -1,0 +1,290 @@
+"""The search: the paper's Algorithm 1, "Planning Tree Construction and Search".
+
+Breadth first: simulate a node from its parent's end state, judge it, go on with its children; on a
+failure, take it out of the tree and let the reasoner revise every branch that ran through it.
+What goes beyond the algorithm (several worlds, known failures, limits) is told in docs/plan.md.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+
+from etot_cli.planning.lookahead import Lookahead, OutOfTimeError
+from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.result import (
+    LimitKind,
+    SearchObserver,
+    SearchResult,
+    SearchStatus,
+    SilentObserver,
+    Statistics,
+)
+from etot_cli.planning.simulator import Simulated, Simulator, StateToken, WorldOutcome
+from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
+from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Reasoner
+from etot_cli.skills.action import Action
+from etot_cli.world.state import RolloutRecord, SceneState
+
+
+def search(
+    assignment: Assignment,
+    simulator: Simulator,
+    reasoner: Reasoner,
+    *,
+    limits: Limits | None = None,
+    without: frozenset[Ablation] = frozenset(),
+    observer: SearchObserver | None = None,
+) -> SearchResult:
+    """Looks for a plan that works in the simulator from its first action to its last.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: it ends the search with status ``interrupted``.
+
+    Args:
+        assignment: what is asked for.
+        simulator: opened on the scene; the caller closes it.
+        reasoner: proposes, judges and reflects.
+        limits: bounds; the defaults when None.
+        without: mechanisms to switch off.
+        observer: told of every step.
+
+    Raises:
+        InstructionError: the assignment cannot be understood against the scene.
+    """
+    run = _Search(
+        assignment, simulator, reasoner, limits or Limits(), without, observer or SilentObserver()
+    )
+    return run.result()
+
+
+class _Search:
+    """One run of the algorithm; the names in capitals of the paper are given in brackets."""
+
+    def __init__(
+        self,
+        assignment: Assignment,
+        simulator: Simulator,
+        reasoner: Reasoner,
+        limits: Limits,
+        without: frozenset[Ablation],
+        observer: SearchObserver,
+    ) -> None:
+        self._assignment = assignment
+        self._simulator = simulator
+        self._reasoner = reasoner
+        self._limits = limits
+        self._without = without
+        self._observer = observer
+
+        self._tree = PlanTree()  # [T]
+        self._queue: deque[PlanNode] = deque()  # [Q]
+        self._lookahead = Lookahead(simulator, self._start_of)
+        self._worlds = tuple(range(simulator.world_count))
+        self._statistics = Statistics()
+        self._started = time.monotonic()
+        self._branches: tuple[Branch, ...] = ()
+        self._root_state: StateToken = b""
+        self._root_scene: SceneState | None = None
+        self._end_states: dict[int, StateToken] = {}
+        self._failures: dict[int, RolloutRecord] = {}
+        self._reflected: set[tuple[int, tuple[Action, ...]]] = set()
+        self._rollouts: dict[int, WorldOutcome] = {}
+        self._best: PlanNode | None = None
+        self._goal_holds = False
+        self._limit: LimitKind | None = None
+
+    def result(self) -> SearchResult:
+        """Runs the search to its end, whatever that is."""
+        interrupted = False
+        try:
+            self._run()
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            self._lookahead.cancel()
+        self._statistics.wall_s = time.monotonic() - self._started
+        result = SearchResult(
+            status=self._status(interrupted),
+            leaf=self._best,
+            tree=self._tree,
+            statistics=self._statistics,
+            branches=self._branches,
+            goal_holds=self._goal_holds,
+            survival=self._survival(),
+            limit=self._limit,
+            rollouts=self._rollouts,
+        )
+        self._observer.finished(result)
+        return result
+
+    def _run(self) -> None:
+        self._root_state, self._root_scene = self._simulator.start()
+        self._branch_a_priori(self._root_scene)
+        self._observer.proposed(self._tree)
+        self._queue.extend(self._tree.roots)
+        while self._queue:
+            node = self._queue.popleft()
+            if not self._can_beat_best(node):
+                continue
+            self._limit = self._limit_reached()
+            if self._limit is not None:
+                return
+            self._observer.started(node)
+            try:
+                simulated = self._lookahead.fetch(
+                    node,
+                    (ahead for ahead in self._queue if self._can_beat_best(ahead)),
+                    allowance=self._limits.max_nodes - self._statistics.nodes_evaluated,
+                    timeout_s=self._time_left(),
+                )
+            except OutOfTimeError:
+                self._limit = LimitKind.TIME
+                return
+            self._judge(node, simulated)
+            self._observer.judged(node)
+            if node.status is NodeStatus.SUCCESS:
+                if node.end is not None:
+                    self._offer(node)
+                self._queue.extend(node.live_children)
+            else:
+                self._revise(node)
+
+    def _branch_a_priori(self, scene: SceneState) -> None:
+        """[PrioriBranching] Builds the initial tree."""
+        branches = tuple(self._reasoner.propose(self._assignment, scene))
+        self._goal_holds = not branches
+        if Ablation.PRIORI in self._without:
+            branches = branches[:1]
+        self._branches = branches
+        for branch in branches:
+            self._tree.merge_branch(branch, Origin.PRIORI)
+
+    def _judge(self, node: PlanNode, simulated: Simulated) -> None:
+        """[VLMJudge] Puts the verdict on the node and keeps what later steps need of it."""
+        judgement = judge_worlds(
+            self._reasoner, node.action, simulated, self._alive(node.parent),
+            self._limits.min_survival,
+        )  # fmt: skip
+        node.verdict = judgement.verdict
+        node.survived = judgement.survived
+        node.losses = judgement.losses
+        node.simulated_s = sum(outcome.record.simulated_s for outcome in simulated.outcomes)
+        node.steps = sum(outcome.record.steps for outcome in simulated.outcomes)
+        node.wall_s = simulated.wall_s
+        node.status = NodeStatus(judgement.verdict.outcome.value)
+        self._rollouts[node.id] = simulated.outcomes[NOMINAL]
+        if node.status is NodeStatus.SUCCESS:
+            self._end_states[node.id] = simulated.end
+        else:
+            self._failures[node.id] = judgement.record
+        self._statistics.nodes_evaluated += 1
+        self._statistics.simulated_s += node.simulated_s
+        self._statistics.steps += node.steps
+
+    def _revise(self, node: PlanNode) -> None:
+        """Takes a failed node out and reflects on every branch that ran through it."""
+        paths = self._tree.extract_paths(node)  # [P]
+        self._tree.remove_subtree(node)
+        if Ablation.REFLECTIVE in self._without:
+            return
+        for path in paths:
+            # With a plan in hand, only what the tree already holds is still compared with it.
+            if self._best is None:
+                self._reflect(node, path)
+
+    def _reflect(self, node: PlanNode, path: TreePath) -> None:
+        """[ReflectiveBranching] Revises one branch.
+
+        A revision that runs into another known failure is revised in turn from the record of that
+        failure, which is what simulating the failed action again would lead to.
+        """
+        failed: PlanNode | None = node
+        while (
+            failed is not None
+            and path.revisions < self._limits.revisions_per_branch
+            and (failed.id, path.branch.actions) not in self._reflected
+        ):
+            if self._out_of_time():
+                self._limit = LimitKind.TIME
+                return
+            self._reflected.add((failed.id, path.branch.actions))
+            revised = self._reasoner.reflect(self._failed_step(failed, path.branch))  # [B]
+            self._statistics.reflections += 1
+            self._observer.revised(failed, revised)
+            if revised is None:
+                return
+            path = TreePath(revised, path.revisions + 1)
+            failed = self._insert(path)
+
+    def _insert(self, path: TreePath) -> PlanNode | None:
+        """[mergeBranch, nInQ] Merges a revision; returns the known failure it runs into, if any."""
+        merged, new, blocked = self._tree.merge_branch(
+            path.branch, Origin.REFLECTIVE, path.revisions
+        )
+        if new is not None:
+            # Behind a node that still waits, the new one gets its turn when that one succeeds.
+            if not any(node in self._queue for node in merged):
+                self._queue.append(new)
+        elif blocked is None and merged and merged[-1].status is NodeStatus.SUCCESS:
+            self._offer(merged[-1])  # the revision is a plan whose every step has succeeded
+        return blocked
+
+    def _failed_step(self, node: PlanNode, branch: Branch) -> FailedStep:
+        assert node.verdict is not None  # a failed node has been judged
+        assert self._root_scene is not None  # and the root was there before it
+        return FailedStep(
+            branch=branch,
+            index=node.depth - 1,
+            record=self._failures[node.id],
+            verdict=node.verdict,
+            start=self._root_scene,
+        )
+
+    def _offer(self, node: PlanNode) -> None:
+        """[extractPath] A plan was found; it is kept when it survives in more worlds."""
+        if self._best is None or len(self._alive(node)) > len(self._alive(self._best)):
+            self._best = node
+
+    def _can_beat_best(self, node: PlanNode) -> bool:
+        """Whether a plan through ``node`` could survive in more worlds than the best one.
+
+        Survivors only become fewer along a path. In a single world no plan beats the first.
+        """
+        return self._best is None or len(self._alive(node.parent)) > len(self._alive(self._best))
+
+    def _alive(self, node: PlanNode | None) -> tuple[int, ...]:
+        """The worlds alive after a successful node; all of them at the root (None)."""
+        if node is None:
+            return self._worlds
+        assert node.survived is not None  # only asked of nodes that have been judged
+        return node.survived
+
+    def _start_of(self, node: PlanNode) -> StateToken:
+        return self._root_state if node.parent is None else self._end_states[node.parent.id]
+
+    def _limit_reached(self) -> LimitKind | None:
+        if self._statistics.nodes_evaluated >= self._limits.max_nodes:
+            return LimitKind.MAX_NODES
+        return LimitKind.TIME if self._out_of_time() else None
+
+    def _time_left(self) -> float | None:
+        if self._limits.time_limit_s is None:
+            return None
+        return max(0.0, self._started + self._limits.time_limit_s - time.monotonic())
+
+    def _out_of_time(self) -> bool:
+        left = self._time_left()
+        return left is not None and left <= 0.0
+
+    def _status(self, interrupted: bool) -> SearchStatus:
+        if interrupted:
+            return SearchStatus.INTERRUPTED
+        if self._best is not None or self._goal_holds:
+            return SearchStatus.FEASIBLE
+        return SearchStatus.INFEASIBLE if self._limit is None else SearchStatus.LIMIT
+
+    def _survival(self) -> Survival | None:
+        if self._best is not None:
+            return Survival(len(self._alive(self._best)), len(self._worlds))
+        return Survival(len(self._worlds), len(self._worlds)) if self._goal_holds else None

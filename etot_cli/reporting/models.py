@@ -1,0 +1,139 @@
+"""What all reports have in common: their head, and the pieces that several of them use.
+
+A report is the product of a command; its JSON form is a contract with the scripts that read it, so
+each model here is also a JSON Schema in ``docs/schemas/``. Times are in seconds.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from etot_cli.skills.action import Action, Keepout
+from etot_cli.world.state import Cause, CauseKind
+
+Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Metres = Annotated[float, Field(allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Count = Annotated[int, Field(ge=0)]
+
+DECIMALS = 6
+"""Microseconds are the finest a clock reading means."""
+
+
+class Model(BaseModel):
+    """Base of everything in a report: no unknown keys, field docstrings become descriptions."""
+
+    model_config = ConfigDict(
+        extra="forbid",
+        use_attribute_docstrings=True,
+        validate_by_name=True,
+        validate_by_alias=True,
+        serialize_by_alias=True,
+        allow_inf_nan=False,
+    )
+
+
+class VersionsModel(Model):
+    """What the result depends on besides input and seed."""
+
+    etot: str
+    python: str
+    mujoco: str
+    numpy: str
+
+
+class TimingModel(Model):
+    """When the command ran and for how long."""
+
+    started: str
+    """Start, ISO 8601 in UTC."""
+    wall_s: Seconds
+    """From the start of the command to the writing of the report."""
+    phases: dict[str, Seconds]
+    """Wall time of each phase by name."""
+
+
+class CauseModel(Model):
+    """Why an action failed."""
+
+    kind: CauseKind
+    """Physical kind; docs/reports.md tells what each means."""
+    objects: list[str]
+    """The objects to blame, most important first."""
+    text: str
+    """One sentence for a person."""
+    time_s: Seconds | None = None
+    """Simulated time within the action."""
+
+
+class KeepoutModel(Model):
+    """A disc of the desk plane, base frame, that a safe place must not touch."""
+
+    x: Metres
+    y: Metres
+    radius: Metres
+
+
+class ActionModel(Model):
+    """An action, exactly enough to repeat it."""
+
+    action: str
+    """As written in plans, e.g. [PUT ON, desk]."""
+    safe: bool
+    """It looks for a place that stays clear of everything that moves, see keepout."""
+    keepout: list[KeepoutModel]
+    """Discs that the safe place avoids."""
+
+
+class TaskModel(Model):
+    """The task as it was given."""
+
+    name: str
+    file: str
+    """The task file as named on the command line."""
+    instruction: str
+
+
+class Report(Model):
+    """The head of every report. Each kind of report narrows ``schema`` and ``status``."""
+
+    schema_: str = Field(alias="schema")
+    status: str
+    seed: Count
+    interrupted: bool
+    """Stopped by Ctrl-C; the rest of the report holds what was found so far."""
+    versions: VersionsModel
+    timing: TimingModel
+    task: TaskModel
+    files: dict[str, str]
+    """Other files of this run by purpose, relative to the report's folder."""
+
+
+def cause_model(cause: Cause | None) -> CauseModel | None:
+    """A cause as it stands in reports."""
+    if cause is None:
+        return None
+    return CauseModel(
+        kind=cause.kind, objects=list(cause.objects), text=cause.text, time_s=cause.time_s
+    )
+
+
+def keepout_models(keepout: tuple[Keepout, ...]) -> list[KeepoutModel]:
+    """The discs of an action as they stand in reports."""
+    return [KeepoutModel(x=disc.x, y=disc.y, radius=disc.radius) for disc in keepout]
+
+
+def action_fields(action: Action) -> dict[str, object]:
+    """The fields of :class:`ActionModel` for an action."""
+    return {
+        "action": str(action),
+        "safe": action.safe,
+        "keepout": keepout_models(action.keepout),
+    }
+
+
+def seconds(value: float) -> float:
+    """A time rounded for people and never negative [s]."""
+    return round(max(value, 0.0), DECIMALS)

@@ -1,0 +1,202 @@
+"""The report of ``etot plan``: schema ``etot.plan/1``."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from etot_cli.planning.result import SearchResult
+from etot_cli.planning.survival import Survival
+from etot_cli.planning.tree import PlanNode
+from etot_cli.reasoning.protocol import Branch
+from etot_cli.reporting.models import (
+    ActionModel,
+    CauseModel,
+    Count,
+    Model,
+    Report,
+    Seconds,
+    Share,
+    action_fields,
+    cause_model,
+    seconds,
+)
+
+
+class PlanOptionsModel(Model):
+    """The options that the search ran with."""
+
+    reasoner: str
+    vary: bool
+    jobs: Count
+    worlds: Count
+    without: list[Literal["priori", "reflective"]]
+    max_nodes: Count
+    time_limit_s: Seconds | None
+
+
+class BranchModel(Model):
+    """A proposed action sequence and its purpose."""
+
+    actions: list[str]
+    reason: str
+
+
+class UnderstoodModel(Model):
+    """What the reasoner made of the instruction."""
+
+    goal_holds: bool
+    """The goal already held at the start: nothing is to be done."""
+    branches: list[BranchModel]
+    """The candidate branches, best first."""
+
+
+class SurvivalModel(Model):
+    """In how many varied worlds the plan holds from its first action to its last."""
+
+    worlds: Count
+    alive: Count
+    probability: Share
+    ci95: tuple[Share, Share]
+    """Wilson 95 % interval of the probability."""
+
+
+class LossModel(Model):
+    """A varied world in which the plan went wrong at this node."""
+
+    world: Count
+    """0 is the nominal world."""
+    status: Literal["failure", "unsafe"]
+    cause: CauseModel | None
+
+
+class NodeModel(ActionModel):
+    """One node of the planning tree."""
+
+    id: Count
+    parent: Count | None
+    """Null for a first action."""
+    origin: Literal["priori", "reflective"]
+    """The mechanism that put the node into the tree."""
+    status: Literal["pending", "success", "failure", "unsafe", "removed"]
+    """Removed: below a failed node, never tried. Pending: the search ended before its turn."""
+    cause: CauseModel | None
+    changes: list[str]
+    """Objects whose state changed."""
+    branch_end: bool
+    """A branch ends here: with it the goal should hold."""
+    revisions: Count | None
+    """Reflections behind the branch that ends here; null elsewhere."""
+    worlds_alive: Count | None
+    """Varied worlds in which the plan still held after this action; null when not evaluated."""
+    losses: list[LossModel]
+    simulated_s: Seconds
+    """Physics time stepped for this node, all worlds together."""
+    wall_s: Seconds
+
+
+class TreeModel(Model):
+    """The planning tree, with everything that failed or was removed."""
+
+    nodes: list[NodeModel]
+
+
+class StatisticsModel(Model):
+    """What the search cost."""
+
+    nodes_evaluated: Count
+    reflections: Count
+    simulated_s: Seconds
+    wall_s: Seconds
+    steps: Count
+    """Physics steps, all worlds together."""
+    limit: Literal["max_nodes", "time_limit"] | None
+    """The bound that stopped the search."""
+
+
+class PlanReport(Report):
+    """What ``etot plan`` found."""
+
+    schema_: Literal["etot.plan/1"] = Field(default="etot.plan/1", alias="schema")
+    status: Literal["feasible", "infeasible", "limit", "interrupted"]
+    options: PlanOptionsModel
+    plan: list[str]
+    """The feasible plan; empty when there is none, or when the goal already holds."""
+    plan_nodes: list[Count]
+    """The tree nodes of the plan's actions, in order."""
+    survival: SurvivalModel | None
+    """Null without a plan."""
+    understood: UnderstoodModel
+    tree: TreeModel
+    statistics: StatisticsModel
+
+
+def understood_model(goal_holds: bool, branches: tuple[Branch, ...]) -> UnderstoodModel:
+    """What the reasoner proposed, as it stands in reports."""
+    return UnderstoodModel(
+        goal_holds=goal_holds,
+        branches=[
+            BranchModel(actions=[str(action) for action in branch.actions], reason=branch.reason)
+            for branch in branches
+        ],
+    )
+
+
+def survival_model(survival: Survival | None) -> SurvivalModel | None:
+    """A plan's survival as it stands in reports."""
+    if survival is None:
+        return None
+    return SurvivalModel(
+        worlds=survival.worlds,
+        alive=survival.alive,
+        probability=survival.probability,
+        ci95=survival.interval,
+    )
+
+
+def node_model(node: PlanNode) -> NodeModel:
+    """A tree node as it stands in reports."""
+    verdict = node.verdict
+    return NodeModel.model_validate(
+        {
+            **action_fields(node.action),
+            "id": node.id,
+            "parent": None if node.parent is None else node.parent.id,
+            "origin": node.origin.value,
+            "status": node.status.value,
+            "cause": None if verdict is None else cause_model(verdict.cause),
+            "changes": [] if verdict is None else list(verdict.changes),
+            "branch_end": node.end is not None,
+            "revisions": None if node.end is None else node.end.revisions,
+            "worlds_alive": None if node.survived is None else len(node.survived),
+            "losses": [
+                {
+                    "world": loss.world,
+                    "status": loss.verdict.outcome.value,
+                    "cause": cause_model(loss.verdict.cause),
+                }
+                for loss in node.losses
+            ],
+            "simulated_s": seconds(node.simulated_s),
+            "wall_s": seconds(node.wall_s),
+        }
+    )
+
+
+def tree_model(result: SearchResult) -> TreeModel:
+    """The planning tree as it stands in reports."""
+    return TreeModel(nodes=[node_model(node) for node in result.tree])
+
+
+def statistics_model(result: SearchResult) -> StatisticsModel:
+    """The search's cost as it stands in reports."""
+    cost = result.statistics
+    return StatisticsModel(
+        nodes_evaluated=cost.nodes_evaluated,
+        reflections=cost.reflections,
+        simulated_s=seconds(cost.simulated_s),
+        wall_s=seconds(cost.wall_s),
+        steps=cost.steps,
+        limit=None if result.limit is None else result.limit.value,
+    )

@@ -1,0 +1,60 @@
+"""Where a report comes from: versions and times."""
+
+from __future__ import annotations
+
+import platform
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+
+from etot_cli.reporting.models import TimingModel, VersionsModel, seconds
+
+UNKNOWN = "unknown"
+"""Stands for the version of a package that is not installed."""
+
+
+def package_version(name: str) -> str:
+    """The installed version of a distribution, read from its metadata without importing it."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return UNKNOWN
+
+
+def versions() -> VersionsModel:
+    """The versions that results depend on."""
+    return VersionsModel(
+        etot=package_version("etot"),
+        python=platform.python_version(),
+        mujoco=package_version("mujoco"),
+        numpy=package_version("numpy"),
+    )
+
+
+class Stopwatch:
+    """Times a command and its phases."""
+
+    def __init__(self) -> None:
+        self._started_at = datetime.now(UTC)
+        self._start = time.monotonic()
+        self._phases: dict[str, float] = {}
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """Times the block, also when it is left by an exception."""
+        start = time.monotonic()
+        try:
+            yield
+        finally:
+            spent = time.monotonic() - start
+            self._phases[name] = self._phases.get(name, 0.0) + spent
+
+    def timing(self) -> TimingModel:
+        """What has been measured up to now."""
+        return TimingModel(
+            started=self._started_at.isoformat(timespec="milliseconds"),
+            wall_s=seconds(time.monotonic() - self._start),
+            phases={name: seconds(spent) for name, spent in self._phases.items()},
+        )

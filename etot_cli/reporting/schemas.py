@@ -1,0 +1,39 @@
+"""JSON Schemas of all reports: ``python -m etot_cli.reporting.schemas docs/schemas``."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.models import Report
+from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.simulate_report import SimulateReport
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+REPORTS: dict[str, type[Report]] = {
+    "etot.plan-1.json": PlanReport,
+    "etot.simulate-1.json": SimulateReport,
+}
+"""Schema file name → report model."""
+
+
+def schema_text(model: type[Report]) -> str:
+    """A report model's JSON Schema, as it stands in its file."""
+    schema = model.model_json_schema(mode="serialization")
+    return json.dumps({"$schema": DIALECT, **schema}, indent=2, ensure_ascii=False) + "\n"
+
+
+def main(arguments: list[str]) -> int:
+    """Writes all schema files into the folder given as the only argument."""
+    if len(arguments) != 1:
+        print("usage: python -m etot_cli.reporting.schemas FOLDER", file=sys.stderr)
+        return 2
+    for name, model in REPORTS.items():
+        write_atomically(Path(arguments[0]) / name, schema_text(model))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,170 @@
+"""Collision checks of arm configurations against a frozen scene, object in hand included."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.kinematics import Pose
+from etot_cli.world.model import World
+from etot_cli.world.placing import object_bounds
+
+Vector = NDArray[np.float64]
+
+CLEARANCE = 0.008
+"""Distance that transits keep from everything [m]."""
+_MARGIN = 0.02
+"""Distances are known up to this [m]."""
+
+
+@dataclass(frozen=True)
+class Attached:
+    """An object carried by the hand: its pose in the tool frame."""
+
+    name: str
+    in_tool: Pose
+
+
+class CollisionChecker:
+    """Answers "is this arm configuration free?" for the scene as it stood at :meth:`freeze`."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self._model = copy.copy(world.model)
+        self._data = mujoco.MjData(self._model)
+        self._object_names = list(world.entries)
+        self._owner = np.array(
+            [
+                -3 if o == "robot" else -2 if o == "gripper" else -1
+                if o not in world.entries else self._object_names.index(o)
+                for o in world.geom_object
+            ]
+        )  # fmt: skip
+        moving = self._owner < -1
+        self._model.geom_margin[moving] = _MARGIN
+        for name, entry in world.entries.items():
+            if entry.free:
+                self._model.geom_margin[world.geoms_of(name)] = _MARGIN
+        self._tool = world.robot.tool_site
+        self.checks = 0
+
+    def freeze(self, data: mujoco.MjData) -> None:
+        """Takes the scene's configuration from ``data``."""
+        self._data.qpos[:] = data.qpos
+
+    def set_joint(self, joint: str, value: float) -> None:
+        """Moves a furniture joint of the frozen scene."""
+        self._data.joint(joint).qpos[0] = value
+
+    def set_fingers(self, opening: float) -> None:
+        """Sets the distance between the pads [m] of the frozen scene's hand."""
+        self._data.qpos[self.world.robot.finger_qpos] = opening / 2
+
+    def hits(
+        self,
+        joints: Vector,
+        attached: Attached | None = None,
+        *,
+        clearance: float = CLEARANCE,
+        allow: Iterable[str] = (),
+        allow_attached: Iterable[str] = (),
+        hand_only: bool = False,
+    ) -> list[str]:
+        """Addresses of what the robot or the attached object would come too close to.
+
+        Args:
+            joints: arm joint values (n,).
+            attached: the object in the hand.
+            clearance: required distance [m].
+            allow: objects that the gripper (not the arm) may touch.
+            allow_attached: addresses that the attached object may touch.
+            hand_only: look at gripper and attached object alone.
+
+        Returns:
+            Addresses as in ``World.geom_address``; ``robot`` for a self-collision. Empty: free.
+        """
+        self.checks += 1
+        model, data, world = self._model, self._data, self.world
+        data.qpos[world.robot.qpos] = joints
+        if attached is not None:
+            mujoco.mj_kinematics(model, data)
+            tool = Pose(
+                data.site_xpos[self._tool], data.site_xmat[self._tool].reshape(3, 3)
+            )
+            pose = tool @ attached.in_tool
+            address = data.joint(attached.name).qpos
+            address[:3] = pose.position
+            mujoco.mju_mat2Quat(address[3:], pose.rotation.ravel())
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        if data.ncon == 0:
+            return []
+        geoms = data.contact.geom
+        owners = self._owner[geoms]
+        held = self._object_names.index(attached.name) if attached else -9
+        moving = (owners < -1) | (owners == held)
+        close = data.contact.dist < clearance
+        candidates = np.nonzero(close & moving.any(axis=1))[0]
+        if len(candidates) == 0:
+            return []
+        allowed = {self._object_names.index(n) for n in allow if n in world.entries}
+        allow_desk = "desk" in allow
+        allowed_contacts = set(allow_attached)
+        found: dict[str, None] = {}
+        for index in candidates:
+            first, second = (int(value) for value in owners[index])
+            one, two = (int(value) for value in geoms[index])
+            if first == second and first < -1:
+                continue
+            if not (first < -1 or first == held):
+                first, second, one, two = second, first, two, one
+            if first == held and second < -1:
+                first, second, one, two = second, first, two, one
+            # `one` now belongs to the robot if a robot geom is involved, else to the held object.
+            if second == held and first < -1:
+                if first == -2:
+                    continue
+                found[world.geom_address[one]] = None
+                continue
+            if first == held:
+                if world.geom_address[two] in allowed_contacts:
+                    continue
+                if world.geom_object[two] in allowed_contacts:
+                    continue
+            elif first == -2:
+                if second in allowed or (allow_desk and world.geom_address[two] == "desk"):
+                    continue
+            elif hand_only:
+                continue
+            if second < -1 and first < -1 and data.contact.dist[index] > -0.002:
+                continue  # arm links near each other are no obstacle to themselves
+            found[world.geom_address[two]] = None
+        return list(found)
+
+    def extent(self, name: str, rotation: Vector) -> tuple[Vector, Vector]:
+        """Bounds (3,), (3,) of an object turned to ``rotation`` (3, 3), relative to its origin."""
+        address = self._data.joint(name).qpos
+        kept = address.copy()
+        address[:3] = 0.0
+        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(rotation).ravel())
+        mujoco.mj_kinematics(self._model, self._data)
+        low, high = object_bounds(self.world, self._data, name)
+        address[:] = kept
+        return low, high
+
+    def bounds(self, name: str) -> tuple[Vector, Vector]:
+        """World-aligned bounds (3,), (3,) of an object of the frozen scene."""
+        mujoco.mj_kinematics(self._model, self._data)
+        return object_bounds(self.world, self._data, name)
+
+    def tool_pose(self) -> Pose:
+        """Tool pose of the configuration checked last."""
+        data = self._data
+        return Pose(
+            data.site_xpos[self._tool].copy(), data.site_xmat[self._tool].reshape(3, 3).copy()
+        )

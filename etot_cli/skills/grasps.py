@@ -1,0 +1,272 @@
+"""Grasp candidates: pairs of opposed surfaces that the fingers can close on.
+
+Lines along many closing directions are cut with the object's solids. Every solid interval (the
+whole width of a ball, the wall of a cup at its rim) is a candidate when it fits between the
+fingers and there is room for a finger on either side of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.action import GraspPose
+from etot_cli.skills.kinematics import Pose, rotation_from_axes, turn_about
+from etot_cli.skills.solids import Interval, Solids
+from etot_cli.world.model import World
+from etot_cli.world.placing import object_bounds
+
+Vector = NDArray[np.float64]
+
+FINGER_ROOM = 0.014
+"""Free width that a finger needs beside what it closes on [m]."""
+WIDTH_MARGIN = 0.004
+"""The gripper must open this much wider than the object [m]."""
+TIP_BEYOND_TOOL = 0.0075
+"""The fingertips reach this far beyond the tool point [m]."""
+SUPPORT_GAP = 0.002
+"""Distance kept between fingertips and what the object stands on [m]."""
+FINGER_DEPTH = 0.05
+"""Depth of the space between the fingers, from the tool point backwards [m]."""
+TOO_WIDE_TRIES = 1.35
+"""Objects up to so many times the opening are still tried, off their widest line."""
+
+
+@dataclass(frozen=True)
+class Grasp:
+    """A tool pose to close the fingers at.
+
+    ``width``: distance between the surfaces [m]; ``opening``: distance between the pads for the
+    approach [m]; ``pose``: from above or from the side; ``score``: lower is better.
+    """
+
+    tool: Pose
+    width: float
+    opening: float
+    pose: GraspPose
+    score: float
+
+
+@dataclass(frozen=True)
+class GraspSet:
+    """All candidates, best first. ``too_wide``: grasps that were left out for width alone,
+    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen."""
+
+    grasps: tuple[Grasp, ...]
+    too_wide: tuple[Grasp, ...]
+    narrowest: float
+
+
+def sample_grasps(
+    world: World, solids: Solids, data: mujoco.MjData, name: str, pose: GraspPose | None
+) -> GraspSet:
+    """Candidates for one object as it stands now.
+
+    Args:
+        world: the world.
+        solids: the world's solids.
+        data: current poses.
+        name: the object.
+        pose: only grasps from above (vertical) or from the side (horizontal); None: both.
+    """
+    low, high = object_bounds(world, data, name)
+    center = data.body(name).xipos.copy() if world.entries[name].free else (low + high) / 2
+    axis = _axis(world, data, name)
+    closings = _closings(axis)
+    grasps: list[Grasp] = []
+    wide: list[Grasp] = []
+    if pose in (None, GraspPose.VERTICAL):
+        _from_above(world, solids, data, name, (low, high, center, axis), closings, grasps, wide)
+    if pose in (None, GraspPose.HORIZONTAL):
+        _from_side(world, solids, data, name, (low, high, center, axis), grasps, wide)
+    widths = [grasp.width for grasp in (*grasps, *wide)]
+    return GraspSet(
+        tuple(sorted(grasps, key=lambda grasp: grasp.score)),
+        tuple(sorted(wide, key=lambda grasp: (grasp.width, grasp.score))),
+        min(widths, default=float("inf")),
+    )
+
+
+Bounds = tuple[Vector, Vector, Vector, Vector | None]
+
+
+def _axis(world: World, data: mujoco.MjData, name: str) -> Vector | None:
+    own = world.entries[name].axis
+    if own is None:
+        return None
+    return np.asarray(data.body(name).xmat.reshape(3, 3) @ np.array(own))
+
+
+def _closings(axis: Vector | None) -> list[Vector]:
+    """Level closing directions; for a lying rod first straight across it."""
+    first = 0.0
+    if axis is not None and np.hypot(axis[0], axis[1]) > 0.3:
+        first = float(np.arctan2(axis[1], axis[0])) + np.pi / 2
+        return [_level(first + turn) for turn in (0.0, 0.15, -0.15)]
+    return [_level(first + i * np.pi / 12) for i in range(12)]
+
+
+def _level(angle: float) -> Vector:
+    return np.array([np.cos(angle), np.sin(angle), 0.0])
+
+
+def _from_above(
+    world: World,
+    solids: Solids,
+    data: mujoco.MjData,
+    name: str,
+    bounds: Bounds,
+    closings: Iterable[Vector],
+    grasps: list[Grasp],
+    wide: list[Grasp],
+) -> None:
+    low, high, center, axis = bounds
+    height = float(high[2] - low[2])
+    depths = sorted({round(d, 4) for d in _depths(height)})
+    origins, directions, labels = [], [], []
+    for closing in closings:
+        across = np.array([-closing[1], closing[0], 0.0])
+        half = float(np.abs(across) @ (high - low)) / 2
+        offsets = _offsets(half, axis, across, center, low, high)
+        for depth in depths:
+            for offset in offsets:
+                point = center + across * offset
+                point[2] = high[2] - depth
+                origins.append(point)
+                directions.append(closing)
+                labels.append((closing, offset, depth))
+    lines = solids.intervals(data, name, np.array(origins), np.array(directions))
+    for origin, (closing, offset, depth), line in zip(origins, labels, lines, strict=True):
+        deepest = high[2] - low[2] - TIP_BEYOND_TOOL - SUPPORT_GAP
+        tool_depth = min(depth, deepest)
+        for interval, rim in _choices(line):
+            middle = origin + closing * (interval.start + interval.end) / 2
+            middle[2] = high[2] - tool_depth
+            _add(
+                world, grasps, wide, middle, np.array([0.0, 0.0, -1.0]), closing, interval,
+                GraspPose.VERTICAL,
+                _score(center, middle, axis, interval, rim=rim, depth=depth, offset=offset),
+            )  # fmt: skip
+
+
+def _depths(height: float) -> list[float]:
+    if height <= 0.03:
+        return [height / 2]
+    middle = min(height / 2, FINGER_DEPTH)
+    return [min(0.022, middle), middle] if middle > 0.03 else [middle]
+
+
+def _offsets(
+    half: float, axis: Vector | None, across: Vector, center: Vector, low: Vector, high: Vector
+) -> list[float]:
+    if axis is not None and abs(float(axis @ across)) > 0.5:
+        sign = -np.sign(float(axis @ across))  # towards the tail, so that the point stays free
+        return [float(sign * share * half) for share in (0.3, 0.45, 0.15, 0.0, 0.6)]
+    return [share * half for share in (0.0, 0.35, -0.35, 0.7, -0.7)]
+
+
+def _choices(line: list[Interval]) -> list[tuple[Interval, bool]]:
+    """Single walls with room on both sides, and the whole outside; True marks a wall."""
+    if not line:
+        return []
+    outer = Interval(line[0].start, line[-1].end)
+    chosen = [(outer, False)]
+    if len(line) > 1:
+        for index, interval in enumerate(line):
+            before = interval.start - line[index - 1].end if index else np.inf
+            after = line[index + 1].start - interval.end if index + 1 < len(line) else np.inf
+            if before >= FINGER_ROOM and after >= FINGER_ROOM:
+                chosen.append((interval, True))
+    return chosen
+
+
+def _score(
+    center: Vector,
+    middle: Vector,
+    axis: Vector | None,
+    interval: Interval,
+    *,
+    rim: bool,
+    depth: float,
+    offset: float,
+) -> float:
+    """Prefers grasps whose line passes near the centre of mass, and thin walls over wide spans."""
+    lateral = middle - center
+    if axis is not None:
+        along = float(lateral @ axis)
+        score = abs(along + 0.03) * 4
+    else:
+        level = float(np.hypot(lateral[0], lateral[1]))
+        score = abs(offset) * 6 if rim else level * 8
+        score += abs(middle[2] - center[2]) * (1.0 if rim else 2.0)
+    return score + interval.width * 2
+
+
+def _from_side(
+    world: World,
+    solids: Solids,
+    data: mujoco.MjData,
+    name: str,
+    bounds: Bounds,
+    grasps: list[Grasp],
+    wide: list[Grasp],
+) -> None:
+    low, high, center, axis = bounds
+    outward = float(np.arctan2(center[1], center[0]))
+    height = float(high[2] - low[2])
+    levels = [center[2], low[2] + 0.62 * height, low[2] + 0.8 * height]
+    origins, directions, labels = [], [], []
+    for turn in (0.0, 0.35, -0.35, 0.7, -0.7, 1.1, -1.1, 1.5, -1.5):
+        approach = _level(outward + turn)
+        closing = np.array([-approach[1], approach[0], 0.0])
+        for level in levels:
+            for back in (0.0, 0.012, -0.012):
+                point = center + approach * back
+                point[2] = level
+                origins.append(point)
+                directions.append(closing)
+                labels.append((approach, closing, turn, back))
+    lines = solids.intervals(data, name, np.array(origins), np.array(directions))
+    for origin, (approach, closing, turn, back), line in zip(origins, labels, lines, strict=True):
+        if not line:
+            continue
+        outer = Interval(line[0].start, line[-1].end)
+        middle = origin + closing * (outer.start + outer.end) / 2
+        score = 1.0 + abs(turn) * 0.3 + abs(origin[2] - center[2]) * 4 + abs(back) * 5
+        if axis is not None and abs(float(axis @ closing)) > 0.5:
+            continue
+        _add(
+            world, grasps, wide, middle, approach, closing, outer, GraspPose.HORIZONTAL,
+            score + outer.width * 2,
+        )  # fmt: skip
+
+
+def _add(
+    world: World,
+    grasps: list[Grasp],
+    wide: list[Grasp],
+    point: Vector,
+    approach: Vector,
+    closing: Vector,
+    interval: Interval,
+    pose: GraspPose,
+    score: float,
+) -> None:
+    largest = world.robot.spec.gripper.opening
+    tool = Pose(point, rotation_from_axes(approach, closing))
+    if interval.width + WIDTH_MARGIN <= largest:
+        opening = min(largest, interval.width + 2 * FINGER_ROOM)
+        grasps.append(Grasp(tool, interval.width, opening, pose, score))
+    elif interval.width <= largest * TOO_WIDE_TRIES:
+        wide.append(Grasp(tool, interval.width, largest, pose, score))
+
+
+def tilted(grasp: Grasp, angle: float) -> Grasp:
+    """The same contact with the hand tilted about the closing direction by ``angle`` [rad]."""
+    rotation = turn_about(grasp.tool.rotation[:, 1], angle) @ grasp.tool.rotation
+    tool = Pose(grasp.tool.position, rotation)
+    return Grasp(tool, grasp.width, grasp.opening, grasp.pose, grasp.score + abs(angle))

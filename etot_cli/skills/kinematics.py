@@ -1,0 +1,236 @@
+"""Forward and inverse kinematics of the robot's arm (inverse by mink).
+
+Frames: base frame; tool frame as the robot's ``tool_site`` (z approach, y closing direction).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mink
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.world.robot import RobotSpec
+
+Vector = NDArray[np.float64]
+
+POSITION_TOLERANCE = 5e-4
+"""Accepted position error of a solution [m]."""
+ANGLE_TOLERANCE = 5e-3
+"""Accepted orientation error of a solution [rad]."""
+MAX_ITERATIONS = 40
+JUMP = 0.35
+"""Largest joint change between neighbouring points of a straight line [rad]; more is a change of
+the arm's branch in the middle of a path."""
+_LIMIT_MARGIN = 0.01
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A rigid transform to the base frame: ``position`` (3,) [m], ``rotation`` (3, 3)."""
+
+    position: Vector
+    rotation: Vector
+
+    def __matmul__(self, other: Pose) -> Pose:
+        return Pose(
+            self.position + self.rotation @ other.position, self.rotation @ other.rotation
+        )
+
+    def inverse(self) -> Pose:
+        """The inverse transform."""
+        return Pose(-self.rotation.T @ self.position, self.rotation.T)
+
+    def moved(self, offset: Vector) -> Pose:
+        """The same orientation, shifted by ``offset`` (3,) in the base frame [m]."""
+        return Pose(self.position + offset, self.rotation)
+
+
+@dataclass(frozen=True)
+class IkResult:
+    """An inverse-kinematics answer; ``joints`` (n,) [rad] is the best found, reached or not."""
+
+    reached: bool
+    joints: Vector
+    position_error: float
+    angle_error: float
+
+
+class Arm:
+    """Kinematics of one robot, on a model of the robot alone."""
+
+    def __init__(self, spec: RobotSpec) -> None:
+        self.spec = spec
+        self._model = mujoco.MjModel.from_xml_path(str(spec.model_path))
+        model = self._model
+        joints = [model.joint(name) for name in spec.joints]
+        self._qpos = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._dof = np.array([int(joint.dofadr[0]) for joint in joints])
+        self.lower, self.upper = np.array([joint.range for joint in joints], dtype=np.float64).T
+        self.home = np.array(spec.home, dtype=np.float64)
+        self._configuration = mink.Configuration(model)
+        self._limits = [mink.ConfigurationLimit(model)]
+        self._tasks: dict[bool, mink.FrameTask] = {
+            free: mink.FrameTask(
+                spec.tool_site,
+                "site",
+                position_cost=1.0,
+                orientation_cost=[0.4, 0.4, 0.0] if free else 0.4,
+                lm_damping=1e-6,
+            )
+            for free in (False, True)
+        }
+        frozen = [dof for dof in range(model.nv) if dof not in set(self._dof.tolist())]
+        self._constraints = [mink.DofFreezingTask(model, dof_indices=frozen)] if frozen else []
+
+    def forward(self, joints: Vector) -> Pose:
+        """Tool pose at joint values (n,) [rad]."""
+        self._set(joints)
+        data, site = self._configuration.data, self._model.site(self.spec.tool_site).id
+        return Pose(data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy())
+
+    def _set(self, joints: Vector) -> None:
+        q = self._configuration.q.copy()
+        q[self._qpos] = joints
+        self._configuration.update(q)
+
+    def solve(self, target: Pose, seed: Vector, *, free_spin: bool = False) -> IkResult:
+        """One inverse-kinematics descent from ``seed`` (n,).
+
+        Args:
+            target: tool pose, base frame.
+            seed: start of the descent; the solution stays on its branch.
+            free_spin: leave the rotation about the tool's z axis free.
+        """
+        task = self._tasks[free_spin]
+        task.set_target(
+            mink.SE3.from_rotation_and_translation(
+                mink.SO3.from_matrix(target.rotation), target.position
+            )
+        )
+        self._set(np.clip(seed, self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN))
+        configuration = self._configuration
+        best = np.inf
+        stalled = 0
+        position_error = angle_error = np.inf
+        for _ in range(MAX_ITERATIONS):
+            error = task.compute_error(configuration)
+            turn = error[3:5] if free_spin else error[3:]
+            position_error = float(np.linalg.norm(error[:3]))
+            angle_error = float(np.linalg.norm(turn))
+            if position_error < POSITION_TOLERANCE and angle_error < ANGLE_TOLERANCE:
+                break
+            total = position_error + 0.2 * angle_error
+            stalled = stalled + 1 if total > 0.97 * best else 0
+            best = min(best, total)
+            if stalled >= 5:
+                break
+            try:
+                velocity = mink.solve_ik(
+                    configuration,
+                    [task],
+                    1.0,
+                    "daqp",
+                    limits=self._limits,
+                    damping=1e-7,
+                    constraints=self._constraints or None,
+                )
+            except mink.MinkError:
+                break
+            largest = float(np.abs(velocity).max())
+            configuration.integrate_inplace(velocity * min(1.0, 0.6 / max(largest, 1e-9)), 1.0)
+        reached = position_error < POSITION_TOLERANCE and angle_error < ANGLE_TOLERANCE
+        joints = configuration.q[self._qpos].copy()
+        return IkResult(reached, joints, position_error, angle_error)
+
+    def reach(
+        self, target: Pose, near: Vector, *, free_spin: bool = False, tries: int = 4
+    ) -> IkResult:
+        """Inverse kinematics from a few fixed seeds, nearest to ``near`` first.
+
+        The seeds are ``near`` and the home pose turned towards the target, so the answer depends
+        on nothing but the arguments.
+        """
+        result = self.solve(target, near, free_spin=free_spin)
+        if result.reached:
+            return result
+        for seed in self._seeds(target)[: tries - 1]:
+            other = self.solve(target, seed, free_spin=free_spin)
+            if other.reached:
+                return other
+            if other.position_error < result.position_error:
+                result = other
+        return result
+
+    def _seeds(self, target: Pose) -> list[Vector]:
+        azimuth = float(np.arctan2(target.position[1], target.position[0]))
+        approach = target.rotation[:, 2]
+        seeds = []
+        heading = float(np.arctan2(approach[1], approach[0]))
+        for first, bend in ((azimuth, 0.0), (azimuth, -0.6), (heading, -1.0), (azimuth, 0.6)):
+            seed = self.home.copy()
+            seed[0] = np.clip(first, self.lower[0], self.upper[0])
+            seed[-2] += bend
+            seeds.append(np.clip(seed, self.lower, self.upper))
+        return seeds
+
+    def line(
+        self, poses: Sequence[Pose], start: Vector, *, free_spin: bool = False
+    ) -> tuple[Vector, int]:
+        """Joint values along closely spaced tool poses, on one branch of the arm.
+
+        Args:
+            poses: the path, first pose near ``forward(start)``.
+            start: joint values (n,) before the first pose.
+
+        Returns:
+            Joint values (k, n) of the first k poses that can be followed, and k.
+        """
+        rows: list[Vector] = []
+        joints = start
+        for pose in poses:
+            result = self.solve(pose, joints, free_spin=free_spin)
+            if not result.reached or float(np.abs(result.joints - joints).max()) > JUMP:
+                break
+            joints = result.joints
+            rows.append(joints)
+        return np.array(rows).reshape(len(rows), len(start)), len(rows)
+
+
+def rotation_from_axes(approach: Vector, closing: Vector) -> Vector:
+    """Tool rotation (3, 3) with z along ``approach`` and y along ``closing`` (made orthogonal)."""
+    z = approach / np.linalg.norm(approach)
+    y = closing - z * float(closing @ z)
+    y = y / np.linalg.norm(y)
+    return np.stack([np.cross(y, z), y, z], axis=1)
+
+
+def turn_about(axis: Vector, angle: float) -> Vector:
+    """Rotation matrix (3, 3) about a unit axis (3,) by an angle [rad]."""
+    quaternion, matrix = np.zeros(4), np.zeros(9)
+    mujoco.mju_axisAngle2Quat(quaternion, np.asarray(axis, dtype=np.float64), angle)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
+
+
+def straight(start: Pose, end: Pose, step: float = 0.008) -> list[Pose]:
+    """Poses along a straight line (spherical interpolation of the rotation), end included."""
+    distance = float(np.linalg.norm(end.position - start.position))
+    relative = start.rotation.T @ end.rotation
+    angle = float(np.arccos(np.clip((np.trace(relative) - 1) / 2, -1.0, 1.0)))
+    count = max(int(np.ceil(max(distance / step, angle / 0.08))), 1)
+    quaternion = np.zeros(4)
+    mujoco.mju_mat2Quat(quaternion, relative.ravel())
+    velocity = np.zeros(3)
+    mujoco.mju_quat2Vel(velocity, quaternion, 1.0)
+    poses = []
+    for i in range(1, count + 1):
+        share = i / count
+        norm = float(np.linalg.norm(velocity))
+        turn = turn_about(velocity / norm, norm * share) if norm > 1e-9 else np.eye(3)
+        position = start.position + share * (end.position - start.position)
+        poses.append(Pose(position, start.rotation @ turn))
+    return poses

@@ -1,0 +1,52 @@
+"""What a skill reports about itself."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from etot_cli.world.model import World
+from etot_cli.world.state import Cause, CauseKind
+
+
+@dataclass(frozen=True)
+class SkillOutcome:
+    """``effect``: the skill ran to its end and saw its own effect; else ``cause`` says why not.
+
+    ``attempted``: physics was stepped.
+    """
+
+    effect: bool
+    cause: Cause | None = None
+
+
+DONE = SkillOutcome(True)
+
+
+def failed(
+    kind: CauseKind, objects: Iterable[str], text: str, time_s: float | None = None
+) -> SkillOutcome:
+    """A failure with its physical cause; duplicate and foreign names are dropped."""
+    names = tuple(dict.fromkeys(name.split(".")[0] for name in objects))
+    return SkillOutcome(False, Cause(kind, names, text, None if time_s is None else round(time_s, 3)))
+
+
+class Blockers:
+    """Counts what stood in the way of rejected candidates."""
+
+    def __init__(self, world: World) -> None:
+        self._known = world.entries
+        self._count: Counter[str] = Counter()
+
+    def add(self, addresses: Iterable[str]) -> None:
+        """Notes the addresses that one candidate came too close to."""
+        for name in {address.split(".")[0] for address in addresses}:
+            if name in self._known:
+                self._count[name] += 1
+
+    def most(self, excluding: Iterable[str] = ()) -> tuple[str, ...]:
+        """Object names, the most frequent blocker first."""
+        out = set(excluding)
+        ranked = sorted(self._count.items(), key=lambda item: (-item[1], item[0]))
+        return tuple(name for name, _ in ranked if name not in out)

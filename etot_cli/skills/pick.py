@@ -1,0 +1,262 @@
+"""PICK UP: choose a grasp, approach, close, lift, and see whether the object came along."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.action import GraspPose
+from etot_cli.skills.collision import Attached
+from etot_cli.skills.grasps import Grasp, GraspSet, sample_grasps, tilted
+from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
+from etot_cli.skills.pilot import PhaseEnd, Pilot
+from etot_cli.skills.solids import Solids
+from etot_cli.world.state import CauseKind
+
+Vector = NDArray[np.float64]
+
+STANDOFF = 0.09
+"""Length of the straight approach [m]."""
+LIFT = 0.10
+"""Height of the lift [m]."""
+APPROACH_SPEED = 0.15
+LIFT_SPEED = 0.15
+HOLD_TIME = 0.4
+"""Time the object must stay in the hand after the lift [s]."""
+SLIP_LIMIT = 0.025
+"""Displacement in the hand that counts as slipping [m]."""
+MAX_PREPARED = 160
+"""Grasp candidates whose kinematics are looked at."""
+TILTS = (0.0, -0.4, 0.4)
+CONTACT_CLEARANCE = 0.0008
+"""Clearance of the hand at the grasp itself [m]."""
+
+
+@dataclass(frozen=True)
+class PreparedGrasp:
+    """A reachable, collision-free grasp: joint values before, along the approach and the lift."""
+
+    grasp: Grasp
+    before: Vector
+    approach: Vector
+    lift: Vector
+
+
+def prepare_grasps(
+    pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None, count: int
+) -> tuple[list[PreparedGrasp], SkillOutcome | None]:
+    """The best few grasps that can be reached, or the reason why there is none."""
+    found = sample_grasps(pilot.world, solids, pilot.data, name, pose)
+    blockers = Blockers(pilot.world)
+    prepared: list[PreparedGrasp] = []
+    pilot.checker.freeze(pilot.data)
+    unreachable = 0
+    for candidate in _variants(found):
+        result = _prepare(pilot, name, candidate, blockers)
+        if result is None:
+            unreachable += 1
+        elif isinstance(result, PreparedGrasp):
+            if _is_new(result, prepared):
+                prepared.append(result)
+            if len(prepared) >= count:
+                break
+    if prepared:
+        return prepared, None
+    return [], _explain(pilot, name, found, blockers, unreachable)
+
+
+def _variants(found: GraspSet) -> Iterator[Grasp]:
+    """Candidates best first, level ones before tilted ones; objects too wide for the gripper are
+    tried all the same when nothing else is left: physics decides."""
+    ranked = found.grasps or found.too_wide[:12]
+    seen = 0
+    for tilt in TILTS:
+        for grasp in ranked:
+            if tilt and grasp.pose is GraspPose.HORIZONTAL:
+                continue
+            for spun in (grasp, _spun(grasp)):
+                seen += 1
+                if seen > MAX_PREPARED:
+                    return
+                yield tilted(spun, tilt) if tilt else spun
+
+
+def _spun(grasp: Grasp) -> Grasp:
+    """The same grasp with the fingers exchanged."""
+    rotation = grasp.tool.rotation @ np.diag([-1.0, -1.0, 1.0])
+    return Grasp(
+        Pose(grasp.tool.position, rotation), grasp.width, grasp.opening, grasp.pose, grasp.score
+    )
+
+
+def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:
+    return all(
+        float(np.abs(candidate.approach[-1] - other.approach[-1]).max()) > 0.1 for other in others
+    )
+
+
+def _prepare(
+    pilot: Pilot, name: str, grasp: Grasp, blockers: Blockers
+) -> PreparedGrasp | bool | None:
+    """A prepared grasp, False where something is in the way, None where the arm cannot get."""
+    checker, arm = pilot.checker, pilot.arm
+    checker.set_fingers(grasp.opening)
+    approach = grasp.tool.rotation[:, 2]
+    start = grasp.tool.moved(-STANDOFF * approach)
+    at_start = arm.reach(start, pilot.commanded)
+    if not at_start.reached:
+        return None
+    line, count = arm.line(straight(start, grasp.tool, 0.012), at_start.joints)
+    if count == 0 or np.linalg.norm(arm.forward(line[-1]).position - grasp.tool.position) > 2e-3:
+        return None
+    allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
+    for joints in (line[-1], line[len(line) // 2], at_start.joints):
+        hits = checker.hits(joints, clearance=CONTACT_CLEARANCE, allow=allow)
+        if hits:
+            blockers.add(hits)
+            return False
+    lift = _lift(pilot, name, grasp, line[-1], blockers)
+    if lift is None:
+        return False
+    return PreparedGrasp(grasp, at_start.joints, line, lift)
+
+
+def _lift(
+    pilot: Pilot, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
+) -> Vector | None:
+    """Joint values of the way up with the object, or None when it would hit something."""
+    checker, arm = pilot.checker, pilot.arm
+    attached = Attached(name, grasp.tool.inverse() @ pilot.object_pose(name))
+    checker.set_fingers(min(grasp.width, grasp.opening))
+    up = np.array([0.0, 0.0, LIFT])
+    path, count = arm.line(straight(grasp.tool, grasp.tool.moved(up), 0.02), joints)
+    if count < 2:
+        return None
+    resting = {*_supports(pilot, name)}
+    for row in (path[-1], path[len(path) // 2]):
+        hits = checker.hits(
+            row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
+        )
+        if hits:
+            blockers.add(hits)
+            checker.freeze(pilot.data)
+            return None
+    checker.freeze(pilot.data)
+    return path
+
+
+def _supports(pilot: Pilot, name: str) -> set[str]:
+    """Objects that touch it now, from below or the side, and so may do during the lift."""
+    world, data = pilot.world, pilot.data
+    found: set[str] = set()
+    for one, two in data.contact.geom:
+        first, second = world.geom_object[int(one)], world.geom_object[int(two)]
+        if first == name:
+            found.add(second)
+        elif second == name:
+            found.add(first)
+    return found
+
+
+def _explain(
+    pilot: Pilot, name: str, found: GraspSet, blockers: Blockers, unreachable: int
+) -> SkillOutcome:
+    opening = pilot.world.robot.spec.gripper.opening
+    if not found.grasps and not found.too_wide:
+        return failed(
+            CauseKind.NO_GRASP,
+            [name],
+            f"no two opposed surfaces of {name} fit the gripper (opening {opening * 1000:.0f} mm)",
+        )
+    blocking = blockers.most(excluding=[name])
+    if blocking:
+        return failed(
+            CauseKind.NO_GRASP,
+            [*blocking, name],
+            f"every grasp of {name} is obstructed by {', '.join(blocking)}",
+        )
+    if not found.grasps:
+        return failed(
+            CauseKind.NO_GRASP,
+            [name],
+            f"{name} is {found.narrowest * 1000:.0f} mm wide, the gripper opens "
+            f"{opening * 1000:.0f} mm",
+        )
+    return failed(
+        CauseKind.UNREACHABLE,
+        [name],
+        f"the arm reaches none of the {unreachable} grasps of {name}",
+    )
+
+
+def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutcome:
+    """Carries one prepared grasp out in physics."""
+    grasp, recorder = prepared.grasp, pilot.recorder
+    pilot.command_opening(grasp.opening)
+    end = pilot.transit(prepared.before)
+    if end is None:
+        return failed(
+            CauseKind.UNREACHABLE, [name], f"no collision-free way of the arm to {name}"
+        )
+    if end is PhaseEnd.BLOCKED:
+        return _blocked(pilot, name, "on the way to it")
+    if pilot.follow_line(prepared.approach, STANDOFF, APPROACH_SPEED) is PhaseEnd.BLOCKED:
+        return _blocked(pilot, name, "during the approach")
+    pilot.wait(0.08)
+    recorder.mark(pilot.data)
+    before = pilot.object_pose(name)
+    pilot.grip()
+    recorder.mark(pilot.data)
+    if pilot.held() != name:
+        return failed(
+            CauseKind.SLIP,
+            [name],
+            f"the fingers closed without getting hold of {name}",
+            pilot.data.time - recorder.start_time,
+        )
+    carried = pilot.attach(name)
+    pilot.follow_line(prepared.lift, LIFT, LIFT_SPEED)
+    pilot.wait(HOLD_TIME)
+    recorder.mark(pilot.data)
+    expected = pilot.tool() @ carried.in_tool
+    slipped = float(np.linalg.norm(expected.position - pilot.object_pose(name).position))
+    rise = float(pilot.object_pose(name).position[2] - before.position[2])
+    if pilot.held() != name or slipped > SLIP_LIMIT or rise < 0.3 * LIFT:
+        return failed(
+            CauseKind.SLIP,
+            [name],
+            f"{name} slipped out of the fingers "
+            f"({grasp.width * 1000:.0f} mm wide, gripper opens "
+            f"{pilot.world.robot.spec.gripper.opening * 1000:.0f} mm)",
+            pilot.data.time - recorder.start_time,
+        )
+    return DONE
+
+
+def _blocked(pilot: Pilot, name: str, where: str) -> SkillOutcome:
+    struck = struck_objects(pilot)
+    return failed(
+        CauseKind.BLOCKED,
+        [*struck, name],
+        f"the arm was stopped {where}" + (f" by {struck[0]}" if struck else ""),
+        pilot.data.time - pilot.recorder.start_time,
+    )
+
+
+def struck_objects(pilot: Pilot) -> list[str]:
+    """Objects in contact with the robot now, the desk left out."""
+    world, data = pilot.world, pilot.data
+    found: dict[str, None] = {}
+    for one, two in data.contact.geom:
+        pair = (world.geom_object[int(one)], world.geom_object[int(two)])
+        for robot, other in (pair, pair[::-1]):
+            if robot in ("robot", "gripper") and other in world.entries:
+                found[other] = None
+    return list(found)
+
+
+__all__ = ["DONE", "LIFT", "PreparedGrasp", "execute_grasp", "prepare_grasps", "struck_objects"]

@@ -1,0 +1,241 @@
+"""Where the objects of a scene are at the start, as far as plane geometry can tell.
+
+Base frame, metres. The physics world lets things settle; here it is enough to know outlines seen
+from above and heights from where to where. Meshes and MJCF objects have no known size at this
+point: they get no footprint, only a place.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from etot_cli.specs.footprint import (
+    Disc,
+    Footprint,
+    Polygon,
+    Vector,
+    hull,
+    rectangle,
+    shifted,
+    turned,
+)
+from etot_cli.specs.objects import (
+    Box,
+    Cabinet,
+    Capsule,
+    Cup,
+    Cylinder,
+    Drawer,
+    DrawerUnit,
+    ObjectBase,
+    Pen,
+    Shelf,
+    Sphere,
+)
+from etot_cli.specs.references import DESK, movable_parts, support_of
+from etot_cli.specs.scene import Scene
+
+Size = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """An object's place at the start.
+
+    Args:
+        x, y: centre.
+        base, top: heights of its lowest and highest point.
+        footprint: outline seen from above; None for an object of unknown size.
+    """
+
+    x: float
+    y: float
+    base: float
+    top: float
+    footprint: Footprint | None
+
+
+def size_of(item: ObjectBase) -> Size | None:
+    """Extents along the object's own axes at rest, drawers and doors closed; None if unknown."""
+    if isinstance(item, Sphere):
+        return (item.diameter, item.diameter, item.diameter)
+    if isinstance(item, Box | DrawerUnit | Cabinet | Shelf):
+        return item.size
+    if isinstance(item, Cylinder | Cup):
+        return (item.diameter, item.diameter, item.height)
+    if isinstance(item, Capsule | Pen):
+        return (item.length, item.diameter, item.diameter)
+    return None
+
+
+def yaw_of(item: ObjectBase) -> float:
+    """Turn about z in degrees; of a ``quaternion``, the heading of its own x axis."""
+    if item.quaternion is None:
+        return item.yaw_deg
+    w, x, y, z = item.quaternion
+    return math.degrees(math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+
+
+def stands_in(item: ObjectBase, vessel: ObjectBase) -> bool:
+    """Whether a rod put into a vessel has to stand, because it is too long to lie there."""
+    return (
+        isinstance(item, Pen | Capsule)
+        and isinstance(vessel, Cup)
+        and item.length > inner_diameter(vessel)
+    )
+
+
+def inner_diameter(cup: Cup) -> float:
+    """Width of a vessel's opening [m]."""
+    return cup.diameter - 2 * cup.wall
+
+
+def place_all(scene: Scene) -> dict[str, Placed]:
+    """Places every object. The scene's supports must exist and form no circle."""
+    placed: dict[str, Placed] = {}
+    for name in scene.objects:
+        _place(scene, name, placed)
+    return placed
+
+
+def _place(scene: Scene, name: str, placed: dict[str, Placed]) -> Placed:
+    if name in placed:
+        return placed[name]
+    item = scene.objects[name]
+    below = support_of(item)
+    under = None if below == DESK else _place(scene, below, placed)
+    x, y = _centre(scene, item, under)
+    size = size_of(item)
+    if size is None:
+        height = 0.0
+        footprint = None
+    else:
+        vessel = scene.objects.get(below)
+        if item.inside is not None and vessel is not None and stands_in(item, vessel):
+            size = (size[1], size[1], size[0])
+        footprint, height = _outline(item, size, x, y)
+    if item.at is not None and len(item.at) == 3:
+        base = item.at[2] - height / 2
+    else:
+        base = _floor(scene, item, under)
+    placed[name] = Placed(x, y, base, base + height, footprint)
+    return placed[name]
+
+
+def _outline(item: ObjectBase, size: Size, x: float, y: float) -> tuple[Footprint, float]:
+    """Outline seen from above and height of an object of a size."""
+    half = (size[0] / 2, size[1] / 2, size[2] / 2)
+    upright = item.quaternion is None
+    round_ = isinstance(item, Sphere | Cylinder | Cup | Pen | Capsule) and size[0] == size[1]
+    if isinstance(item, Sphere) or (upright and round_):
+        return Disc(x, y, half[0]), size[2]
+    signs = [(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+    corners = [_rotated(item, (a * half[0], b * half[1], c * half[2])) for a, b, c in signs]
+    outline = hull((x + corner[0], y + corner[1]) for corner in corners)
+    return outline, 2 * max(corner[2] for corner in corners)
+
+
+def _rotated(item: ObjectBase, point: Size) -> Size:
+    """A point of the object's own frame, turned as the object is."""
+    if item.quaternion is None:
+        return (*turned((point[0], point[1]), item.yaw_deg), point[2])
+    w, *axis = item.quaternion
+    first = _cross(axis, point)
+    second = _cross(axis, first)
+    x, y, z = (p + 2 * (w * f + s) for p, f, s in zip(point, first, second, strict=True))
+    return (x, y, z)
+
+
+def _cross(a: list[float] | Size, b: Size) -> Size:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _centre(scene: Scene, item: ObjectBase, under: Placed | None) -> Vector:
+    """Centre x y: as given, else the middle of the support or of the container."""
+    if item.at is not None:
+        return (item.at[0], item.at[1])
+    if under is None:
+        return scene.desk.center
+    unit = scene.objects[support_of(item)]
+    drawer = drawer_of(unit, item.inside)
+    if isinstance(unit, DrawerUnit) and drawer is not None:
+        return shifted(under.x, under.y, turned((drawer.open, 0.0), yaw_of(unit)))
+    return (under.x, under.y)
+
+
+def drawer_of(unit: ObjectBase, address: str | None) -> Drawer | None:
+    """The drawer that ``inside: unit`` or ``inside: unit.drawer`` means, if it means one."""
+    if not isinstance(unit, DrawerUnit) or address is None:
+        return None
+    part = address.partition(".")[2] or next(iter(movable_parts(unit)), "")
+    return next((drawer for drawer in unit.drawers if drawer.name == part), None)
+
+
+def compartment(unit: DrawerUnit, drawer: Drawer) -> tuple[float, float]:
+    """Heights of a drawer's compartment above the unit's base: its bottom and its roof [m]."""
+    roof = unit.size[2] - unit.wall
+    for item, height in zip(unit.drawers, unit.compartment_heights(), strict=True):
+        if item.name == drawer.name:
+            return (roof - height, roof)
+        roof -= height + unit.wall
+    raise ValueError(f"no drawer {drawer.name!r}")
+
+
+def _floor(scene: Scene, item: ObjectBase, under: Placed | None) -> float:
+    """Height of what an object rests on [m]."""
+    if under is None:
+        return scene.desk.top
+    support = scene.objects[support_of(item)]
+    if item.inside is not None:
+        drawer = drawer_of(support, item.inside)
+        if isinstance(support, DrawerUnit) and drawer is not None:
+            return under.base + compartment(support, drawer)[0] + support.wall
+        if isinstance(support, Cup):
+            return under.base + support.floor
+        return under.base + (support.wall if isinstance(support, Cabinet) else 0.0)
+    if isinstance(support, Shelf):
+        board = (item.on or "").partition(".")[2] or support.boards[-1]
+        return under.base + support.board_heights()[support.boards.index(board)]
+    if isinstance(support, Cup) and isinstance(item, Sphere):
+        return under.top - _sinking(item, support)
+    return under.top
+
+
+def _sinking(ball: Sphere, cup: Cup) -> float:
+    """How far below the rim the lowest point of a ball in a vessel's mouth lies [m]."""
+    radius, opening = ball.diameter / 2, inner_diameter(cup) / 2
+    return radius - math.sqrt(max(radius * radius - opening * opening, 0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A part of an object that stands out of its body: outline and heights."""
+
+    footprint: Polygon
+    base: float
+    top: float
+
+
+def open_parts(item: ObjectBase, placed: Placed) -> list[Solid]:
+    """The drawers and doors of an object that are open at the start."""
+    yaw = yaw_of(item)
+    solids = []
+    if isinstance(item, DrawerUnit):
+        depth, width, _ = item.size
+        for drawer in item.drawers:
+            if drawer.open > 0.0:
+                low, high = compartment(item, drawer)
+                middle = shifted(placed.x, placed.y, turned((depth / 2 + drawer.open / 2, 0), yaw))
+                outline = rectangle(*middle, yaw, drawer.open, width)
+                solids.append(Solid(outline, placed.base + low, placed.base + high))
+    elif isinstance(item, Cabinet) and item.door.open_deg > 0.0:
+        depth, width, _ = item.size
+        # Seen from the front, left is the object's own −y.
+        side = -1.0 if item.door.hinge == "left" else 1.0
+        hinge = shifted(placed.x, placed.y, turned((depth / 2, side * width / 2), yaw))
+        heading = yaw - side * (90.0 - item.door.open_deg)
+        middle = shifted(*hinge, turned((width / 2, 0.0), heading))
+        outline = rectangle(*middle, heading, width, item.door.thickness)
+        solids.append(Solid(outline, placed.base, placed.top))
+    return solids

@@ -1,0 +1,215 @@
+"""Initial poses: where an object given as "on that" or "inside that" really rests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.errors import WorldError
+from etot_cli.world.model import World, resting_quaternion
+from etot_cli.world.state import DESK
+
+GAP = 0.0005
+"""Objects start this far above their support [m], and settle."""
+DROP_STEP = 0.002
+PENETRATION = 0.0002
+"""Overlap that still counts as touching [m]."""
+
+
+def place_objects(world: World, data: mujoco.MjData) -> None:
+    """Writes joint values of movable parts and poses of all free objects into ``data``.
+
+    Raises:
+        WorldError: an object does not fit where the scene puts it.
+    """
+    model = world.model
+    for name, entry in world.entries.items():
+        spec = world.scene.objects[name]
+        for part in entry.parts:
+            data.joint(part.joint).qpos[0] = _initial_joint(spec, part.info.name, part.lower)
+    # Out of each other's way until their turn comes.
+    free = [name for name, entry in world.entries.items() if entry.free]
+    for rank, name in enumerate(free):
+        data.joint(name).qpos[:3] = [3.0 + rank, 3.0, 1.0]
+    mujoco.mj_kinematics(model, data)
+    for name in _supports_first(world, free):
+        _place(world, data, name)
+    mujoco.mj_forward(model, data)
+
+
+def _initial_joint(spec: Any, part: str, default: float) -> float:
+    drawers = getattr(spec, "drawers", ())
+    for drawer in drawers:
+        if drawer.name == part:
+            return float(drawer.open)
+    door = getattr(spec, "door", None)
+    if door is not None and door.name == part:
+        return float(np.radians(door.open_deg))
+    state = getattr(spec, "open", None)
+    if isinstance(state, dict) and part in state:
+        return float(state[part])
+    return default
+
+
+def _supports_first(world: World, names: list[str]) -> list[str]:
+    ordered: list[str] = []
+
+    def visit(name: str, depth: int = 0) -> None:
+        if name in ordered or name not in names or depth > len(names):
+            return
+        spec = world.scene.objects[name]
+        support = spec.on or spec.inside
+        if support and support != DESK:
+            visit(support.split(".")[0], depth + 1)
+        ordered.append(name)
+
+    for name in names:
+        visit(name)
+    return ordered
+
+
+def _place(world: World, data: mujoco.MjData, name: str) -> None:
+    spec = world.scene.objects[name]
+    pose = data.joint(name).qpos
+    pose[3:] = resting_quaternion(spec)
+    if spec.at is not None and len(spec.at) == 3:
+        pose[:3] = spec.at
+        mujoco.mj_kinematics(world.model, data)
+        return
+    if spec.inside is not None:
+        _place_inside(world, data, name, spec.inside)
+        return
+    support = spec.on or DESK
+    if spec.at is not None:
+        xy = np.array(spec.at, dtype=np.float64)
+    else:
+        xy = _surface_center(world, data, support)[:2]
+    if support == DESK:
+        top = world.scene.desk.top
+        bottom = _set_and_measure_bottom(world, data, name, np.array([*xy, 1.0]))
+        pose[:3] = [xy[0], xy[1], top + GAP + (1.0 - bottom)]
+        mujoco.mj_kinematics(world.model, data)
+        return
+    _lower_onto(world, data, name, support.split(".")[0], xy)
+
+
+def _surface_center(world: World, data: mujoco.MjData, address: str) -> NDArray[np.float64]:
+    surface = world.surfaces.get(address)
+    body = data.body(surface.body if surface else address.split(".")[0])
+    center = np.array(surface.center if surface else (0.0, 0.0, 0.0))
+    return np.asarray(body.xpos + body.xmat.reshape(3, 3) @ center)
+
+
+def _set_and_measure_bottom(
+    world: World, data: mujoco.MjData, name: str, position: NDArray[np.float64]
+) -> float:
+    """Puts the object there and returns the height of its lowest point [m]."""
+    data.joint(name).qpos[:3] = position
+    mujoco.mj_kinematics(world.model, data)
+    return object_bounds(world, data, name)[0][2]
+
+
+def object_bounds(
+    world: World, data: mujoco.MjData, name: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lowest and highest corner (3,) of the world-aligned box around an object's geoms."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for geom in world.geoms_of(name):
+        geom_low, geom_high = geom_bounds(world.model, data, int(geom))
+        low, high = np.minimum(low, geom_low), np.maximum(high, geom_high)
+    return low, high
+
+
+def geom_bounds(
+    model: mujoco.MjModel, data: mujoco.MjData, geom: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """World-aligned bounds (3,), (3,) of one geom; exact for all primitive shapes and meshes."""
+    position, rotation = data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3)
+    size, kind = model.geom_size[geom], int(model.geom_type[geom])
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        extent = np.full(3, size[0])
+    elif kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        extent = np.abs(rotation[:, 2]) * size[1] + size[0]
+    elif kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
+        axis = rotation[:, 2]
+        extent = np.abs(axis) * size[1] + size[0] * np.sqrt(np.maximum(0.0, 1 - axis**2))
+    elif kind == mujoco.mjtGeom.mjGEOM_MESH:
+        mesh = int(model.geom_dataid[geom])
+        first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+        points = model.mesh_vert[first : first + count] @ rotation.T + position
+        return points.min(axis=0), points.max(axis=0)
+    else:
+        extent = np.abs(rotation) @ model.geom_aabb[geom][3:]
+        position = position + rotation @ model.geom_aabb[geom][:3]
+    return position - extent, position + extent
+
+
+def _place_inside(world: World, data: mujoco.MjData, name: str, address: str) -> None:
+    region = world.regions.get(address)
+    if region is None:
+        part = world.parts.get(address)
+        region = world.regions.get(part.info.address) if part else None
+    if region is None:
+        raise WorldError(
+            f"{name}: nothing can be inside {address!r}; containers are "
+            f"{', '.join(sorted(world.regions)) or 'none'}"
+        )
+    spec, entry = world.scene.objects[name], world.entries[name]
+    body = data.body(region.body)
+    rotation = body.xmat.reshape(3, 3)
+    floor = np.array(region.center) - np.array([0, 0, region.half[2]])
+    target = body.xpos + rotation @ floor
+    if spec.at is not None:
+        target[:2] = spec.at
+    pose = data.joint(name).qpos
+    too_long = entry.info.size[0] > 2 * min(region.half[:2])
+    if entry.axis is not None and too_long and spec.quaternion is None:
+        pose[3:] = _standing(entry.axis)
+    bottom = _set_and_measure_bottom(world, data, name, np.array([*target[:2], 1.0]))
+    pose[:3] = [target[0], target[1], target[2] + GAP + (1.0 - bottom)]
+    mujoco.mj_kinematics(world.model, data)
+
+
+def _standing(axis: tuple[float, float, float]) -> NDArray[np.float64]:
+    """Quaternion that points a body axis down."""
+    quaternion = np.zeros(4)
+    down = np.array([0.0, 0.0, -1.0])
+    cross = np.cross(axis, down)
+    quaternion[0] = 1.0 + float(np.dot(axis, down))
+    quaternion[1:] = cross
+    if np.linalg.norm(quaternion) < 1e-9:
+        quaternion[:] = [0.0, 1.0, 0.0, 0.0]
+    return np.asarray(quaternion / np.linalg.norm(quaternion))
+
+
+def _lower_onto(
+    world: World, data: mujoco.MjData, name: str, support: str, xy: NDArray[np.float64]
+) -> None:
+    """Lowers the object straight down until it touches the support."""
+    model = world.model
+    own = set(world.geoms_of(name).tolist())
+    top = object_bounds(world, data, support)[1][2]
+    bottom = _set_and_measure_bottom(world, data, name, np.array([*xy, 1.0]))
+    height = top + GAP + (1.0 - bottom)
+    limit = int((height - world.scene.desk.top) / DROP_STEP) + 1
+    pose = data.joint(name).qpos
+    for _ in range(max(limit, 1)):
+        pose[:3] = [xy[0], xy[1], height]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        if _penetrates(data, own):
+            break
+        height -= DROP_STEP
+    pose[2] = height + DROP_STEP
+    mujoco.mj_kinematics(model, data)
+
+
+def _penetrates(data: mujoco.MjData, own: set[int]) -> bool:
+    geoms, distances = data.contact.geom, data.contact.dist
+    return any(
+        distances[i] < -PENETRATION and ((geoms[i][0] in own) != (geoms[i][1] in own))
+        for i in range(data.ncon)
+    )

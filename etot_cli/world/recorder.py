@@ -1,0 +1,153 @@
+"""Watches a world while it is stepped: contacts, displacements, and a decimated trajectory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.world.model import World
+from etot_cli.world.state import ContactEvent, Swept
+
+FRAME_PERIOD = 0.04
+"""Time between stored configurations [s]."""
+MOVED = 0.01
+"""Objects displaced further than this count as having moved [m]."""
+FORCE_THRESHOLD = 0.05
+"""Normal forces below this do not matter [N]."""
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Configurations for later rendering: ``times`` (k,) [s] and ``qpos`` (k, nq), float32."""
+
+    times: NDArray[np.float32]
+    qpos: NDArray[np.float32]
+    key_times: tuple[float, ...] = ()
+    """Moments worth a picture, in seconds."""
+
+
+class Recorder:
+    """Collects what happens during one action. Call :meth:`observe` at a fixed period."""
+
+    def __init__(self, world: World, data: mujoco.MjData, *, keep_frames: bool = True) -> None:
+        self._world = world
+        self._names = list(world.entries)
+        self._free = np.array([world.entries[name].free for name in self._names])
+        self._bodies = np.array(
+            [world.model.body(world.entries[name].body).id for name in self._names], dtype=np.int64
+        )
+        owners = sorted(set(world.geom_address))
+        self._labels = owners
+        self._geom_label = np.array([owners.index(label) for label in world.geom_address])
+        object_of = {label: label.split(".")[0] for label in owners}
+        names = sorted(set(object_of.values()))
+        self._label_object = np.array([names.index(object_of[label]) for label in owners])
+        self.start_time = float(data.time)
+        self._last_time = self.start_time
+        self._origin = data.xpos[self._bodies].copy()
+        self._farthest = np.zeros(len(self._names))
+        self._path_low = self._origin.copy()
+        self._path_high = self._origin.copy()
+        self._events: dict[int, list[float]] = {}
+        self._keep_frames = keep_frames
+        self._times: list[float] = []
+        self._frames: list[NDArray[np.float32]] = []
+        self._key_times: list[float] = []
+        self._baseline = self._touching(data)
+        self._frame(data)
+
+    def _touching(self, data: mujoco.MjData) -> set[int]:
+        if data.ncon == 0:
+            return set()
+        pairs = self._pairs(data)
+        return {int(pair) for pair in pairs}
+
+    def _pairs(self, data: mujoco.MjData) -> NDArray[np.int64]:
+        labels = self._geom_label[data.contact.geom]
+        labels.sort(axis=1)
+        return np.asarray(labels[:, 0] * len(self._labels) + labels[:, 1])
+
+    def observe(self, data: mujoco.MjData) -> None:
+        """Takes note of the current contacts and positions."""
+        now = float(data.time)
+        elapsed, self._last_time = now - self._last_time, now
+        if data.ncon:
+            self._observe_contacts(data, now, elapsed)
+        positions = data.xpos[self._bodies]
+        distance = np.linalg.norm(positions - self._origin, axis=1)
+        np.maximum(self._farthest, distance, out=self._farthest)
+        np.minimum(self._path_low, positions, out=self._path_low)
+        np.maximum(self._path_high, positions, out=self._path_high)
+        if self._keep_frames and (not self._times or now - self._times[-1] >= FRAME_PERIOD - 1e-6):
+            self._frame(data)
+
+    def _observe_contacts(self, data: mujoco.MjData, now: float, elapsed: float) -> None:
+        pairs = self._pairs(data)
+        address = data.contact.efc_address
+        force = np.where(address >= 0, data.efc_force[np.maximum(address, 0)], 0.0)
+        for pair in np.unique(pairs):
+            total = float(force[pairs == pair].sum())
+            if total < FORCE_THRESHOLD:
+                continue
+            event = self._events.get(int(pair))
+            if event is None:
+                self._events[int(pair)] = [now - self.start_time, total, total * elapsed]
+            else:
+                event[1] = max(event[1], total)
+                event[2] += total * elapsed
+
+    def _frame(self, data: mujoco.MjData) -> None:
+        self._times.append(float(data.time))
+        self._frames.append(data.qpos.astype(np.float32))
+
+    def mark(self, data: mujoco.MjData) -> None:
+        """Remembers this moment as worth a picture."""
+        self._key_times.append(float(data.time) - self.start_time)
+
+    def contacts(self) -> tuple[ContactEvent, ...]:
+        """Contacts that began during the action or pressed notably, in order of time."""
+        events = []
+        for pair, (time, peak, impulse) in self._events.items():
+            first, second = divmod(pair, len(self._labels))
+            if self._label_object[first] == self._label_object[second]:
+                continue
+            if pair in self._baseline and peak < 2.0:
+                continue
+            one, two = self._labels[first], self._labels[second]
+            events.append(ContactEvent(round(time, 3), one, two, round(peak, 3), round(impulse, 4)))
+        return tuple(sorted(events, key=lambda event: (event.time_s, event.first, event.second)))
+
+    def displacement(self) -> dict[str, float]:
+        """Largest distance of each free object from where it was [m]."""
+        return {
+            name: round(float(self._farthest[i]), 5)
+            for i, name in enumerate(self._names)
+            if self._free[i]
+        }
+
+    def swept(self, held: str | None = None) -> tuple[Swept, ...]:
+        """Discs around the ways of displaced objects, ``held`` excepted."""
+        discs = []
+        for i, name in enumerate(self._names):
+            if not self._free[i] or name == held or self._farthest[i] < MOVED:
+                continue
+            low, high = self._path_low[i][:2], self._path_high[i][:2]
+            center = (low + high) / 2
+            own = max(self._world.entries[name].info.size[:2]) / 2
+            radius = float(np.linalg.norm(high - low)) / 2 + own
+            discs.append(Swept(name, round(float(center[0]), 4), round(float(center[1]), 4),
+                               round(radius, 4)))  # fmt: skip
+        return tuple(discs)
+
+    def trajectory(self) -> Trajectory | None:
+        """The stored configurations, or None when none were kept."""
+        if not self._keep_frames:
+            return None
+        return Trajectory(
+            np.array(self._times, dtype=np.float32),
+            np.array(self._frames, dtype=np.float32),
+            tuple(self._key_times),
+        )

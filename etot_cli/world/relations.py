@@ -1,0 +1,215 @@
+"""Relations between objects, read from contacts and geometry with hysteresis."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.world.index import ObjectEntry, Region
+from etot_cli.world.model import World
+from etot_cli.world.snapshot import Memory
+from etot_cli.world.state import CLOSED_AT, OPEN_AT, ObjectState, SceneState
+
+TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
+"""Tilt from which an object counts as toppled, and below which it no longer does."""
+OPEN_HYSTERESIS = 0.1
+INSIDE_MARGIN = 0.010
+"""How far an object that was inside may stick out and still be inside [m]."""
+END_DEPTH = 0.5
+"""A rod is inside when one end is deeper than this share of the container's depth."""
+CONTACT_DISTANCE = 0.001
+SUPPORT_SLOPE = 0.3
+"""A contact whose normal rises more than this (vertical component) supports."""
+LOST_BELOW = 0.02
+"""An object whose centre is this far below the desk top is lost [m]."""
+
+
+def initial_memory(world: World, data: mujoco.MjData) -> Memory:
+    """Memory at the start of an episode."""
+    up = {}
+    for name, entry in world.entries.items():
+        x, y, z = (float(value) for value in data.body(entry.body).xmat.reshape(3, 3)[:, 2])
+        up[name] = (x, y, z)
+    return Memory(up=up)
+
+
+def read_scene(
+    world: World, data: mujoco.MjData, memory: Memory
+) -> tuple[SceneState, Memory]:
+    """All objects' states now, and the memory for the next reading.
+
+    ``data`` must be current (``mj_forward`` or a step).
+    """
+    supports, held = _contacts(world, data)
+    states: dict[str, ObjectState] = {}
+    toppled: set[str] = set()
+    opened: set[str] = set()
+    inside: dict[str, str] = {}
+    for name, entry in world.entries.items():
+        body = data.body(entry.body)
+        rotation = body.xmat.reshape(3, 3)
+        tilt = _tilt_deg(rotation, memory.up.get(name, (0.0, 0.0, 1.0)))
+        has_toppled = entry.upright_matters and tilt > (
+            RIGHTED_DEG if name in memory.toppled else TOPPLED_DEG
+        )
+        if has_toppled:
+            toppled.add(name)
+        container = None
+        if entry.free:
+            container = _container(world, data, entry, memory.inside.get(name))
+        if container is not None:
+            inside[name] = container
+        openness, is_open = _openness(data, entry, memory)
+        opened.update(f"{name}.{part}" for part, value in is_open.items() if value)
+        position = body.xpos
+        states[name] = ObjectState(
+            position=_triple(position),
+            quaternion=_quadruple(body.xquat),
+            on=() if name in held else tuple(sorted(supports.get(name, set()))),
+            inside=container,
+            in_hand=name in held,
+            toppled=has_toppled,
+            tilt_deg=tilt,
+            lost=_is_lost(world, position),
+            reachable=math.hypot(position[0], position[1]) <= world.robot.spec.reach,
+            openness=openness,
+            opened=is_open,
+        )
+    desk = world.scene.desk
+    bounds = (
+        desk.center[0] - desk.size[0] / 2,
+        desk.center[0] + desk.size[0] / 2,
+        desk.center[1] - desk.size[1] / 2,
+        desk.center[1] + desk.size[1] / 2,
+    )
+    scene = SceneState(
+        infos={name: entry.info for name, entry in world.entries.items()},
+        states=states,
+        desk_top=desk.top,
+        desk_bounds=bounds,
+        holding=next(iter(held), None),
+    )
+    return scene, Memory(memory.up, frozenset(toppled), inside, frozenset(opened))
+
+
+def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], list[str]]:
+    """Who rests on what, and which objects both fingers touch."""
+    supports: dict[str, set[str]] = {}
+    touched: dict[str, set[int]] = {}
+    address, owner = world.geom_address, world.geom_object
+    fingers = world.robot.finger_bodies
+    geoms, distances, frames = data.contact.geom, data.contact.dist, data.contact.frame
+    for i in range(data.ncon):
+        if distances[i] > CONTACT_DISTANCE:
+            continue
+        first, second = int(geoms[i][0]), int(geoms[i][1])
+        if "gripper" in (owner[first], owner[second]):
+            hand, other = (first, second) if owner[first] == "gripper" else (second, first)
+            if owner[other] in world.entries:
+                body = int(world.model.geom_bodyid[hand])
+                if body in fingers:
+                    touched.setdefault(owner[other], set()).add(body)
+            continue
+        if owner[first] == owner[second]:
+            continue
+        rise = float(frames[i][2])  # the normal points from the first geom to the second
+        if rise > SUPPORT_SLOPE and owner[second] in world.entries:
+            supports.setdefault(owner[second], set()).add(address[first])
+        elif rise < -SUPPORT_SLOPE and owner[first] in world.entries:
+            supports.setdefault(owner[first], set()).add(address[second])
+    held = [
+        name
+        for name, bodies in touched.items()
+        if len(bodies) == 2 and world.entries[name].info.movable
+    ]
+    return supports, held
+
+
+def _tilt_deg(rotation: NDArray[np.float64], up: tuple[float, float, float]) -> float:
+    cosine = float(np.clip(np.dot(rotation[:, 2], up), -1.0, 1.0))
+    return math.degrees(math.acos(cosine))
+
+
+def _container(
+    world: World, data: mujoco.MjData, entry: ObjectEntry, last: str | None
+) -> str | None:
+    """The smallest container that the object lies in."""
+    found: list[tuple[float, str]] = []
+    for address, region in world.regions.items():
+        if region.body == entry.body or address.split(".")[0] == entry.info.name:
+            continue
+        margin = INSIDE_MARGIN if address == last else 0.0
+        if _within(world, data, entry, region, margin):
+            found.append((region.half[0] * region.half[1] * region.half[2], address))
+    return min(found)[1] if found else None
+
+
+def _within(
+    world: World, data: mujoco.MjData, entry: ObjectEntry, region: Region, margin: float
+) -> bool:
+    center = to_region(data, region, data.body(entry.body).xpos)
+    if _in_bounds(center, region, margin) and abs(center[2]) <= region.half[2] + margin:
+        return True
+    if entry.axis is None:
+        return False
+    axis = data.body(entry.body).xmat.reshape(3, 3) @ np.array(entry.axis)
+    for sign in (-1.0, 1.0):
+        end = data.body(entry.body).xpos + sign * axis * entry.info.size[0] / 2
+        local = to_region(data, region, end)
+        depth = (region.half[2] - local[2]) / (2 * region.half[2])
+        shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
+        if _in_bounds(local, region, 0.002 + margin) and shallow <= depth <= 1.1:
+            return True
+    return False
+
+
+def to_region(
+    data: mujoco.MjData, region: Region, point: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """A base-frame point (3,) in the region's frame, relative to its centre [m]."""
+    body = data.body(region.body)
+    local: NDArray[np.float64] = body.xmat.reshape(3, 3).T @ (point - body.xpos)
+    return local - np.array(region.center)
+
+
+def _in_bounds(local: NDArray[np.float64], region: Region, margin: float) -> bool:
+    if region.round:
+        return bool(np.hypot(local[0], local[1]) <= region.half[0] + margin)
+    return bool(
+        abs(local[0]) <= region.half[0] + margin and abs(local[1]) <= region.half[1] + margin
+    )
+
+
+def _openness(
+    data: mujoco.MjData, entry: ObjectEntry, memory: Memory
+) -> tuple[dict[str, float], dict[str, bool]]:
+    openness: dict[str, float] = {}
+    opened: dict[str, bool] = {}
+    for part in entry.parts:
+        value = float(data.joint(part.joint).qpos[0])
+        fraction = (value - part.lower) / (part.upper - part.lower)
+        openness[part.info.name] = round(min(max(fraction, 0.0), 1.0), 6)
+        was_open = f"{entry.info.name}.{part.info.name}" in memory.opened
+        threshold = OPEN_AT - OPEN_HYSTERESIS if was_open else OPEN_AT
+        opened[part.info.name] = fraction >= threshold
+    return openness, opened
+
+
+def _is_lost(world: World, position: NDArray[np.float64]) -> bool:
+    return bool(position[2] < world.scene.desk.top - LOST_BELOW)
+
+
+def _triple(values: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _quadruple(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    w, x, y, z = (float(value) for value in values)
+    return w, x, y, z
+
+
+__all__ = ["CLOSED_AT", "OPEN_AT", "initial_memory", "read_scene", "to_region"]

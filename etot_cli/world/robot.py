@@ -1,0 +1,102 @@
+"""The robot as data: an MJCF model and a YAML that says what its names mean.
+
+Nothing else in etot knows how many joints an arm has or what its gripper is called.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import yaml
+from pydantic import Field, ValidationError
+
+from etot_cli.errors import SpecError
+from etot_cli.specs.scene import Finite, Spec
+
+BUILTIN_ROBOTS = Path(__file__).parent / "robots"
+"""Folder of the robots that come with etot; each has a ``robot.yaml``."""
+
+
+class GripperSpec(Spec):
+    """A parallel gripper. Lengths in metres, forces in newtons."""
+
+    actuator: str
+    fingers: tuple[str, str]
+    """Bodies that close on an object."""
+    pads: tuple[str, str]
+    """Geoms that touch it."""
+    opening: Annotated[float, Field(gt=0.005, le=0.5)]
+    """Largest free distance between the pads."""
+    command_open: Finite
+    """Actuator command at that opening; commands in between are linear."""
+    command_closed: Finite = 0.0
+    force: Annotated[float, Field(gt=0.1, le=1000.0)] = 30.0
+
+
+class RobotSpec(Spec):
+    """Which joints, actuators and sites of an MJCF model make up the arm.
+
+    ``tool_site``: z axis is the approach direction, the fingers close along its y axis.
+    ``speed``: joint speed of transits [rad/s]; ``reach``: how far from the base axis the hand can
+    still pick something off the desk [m].
+    """
+
+    name: str
+    model: str
+    joints: Annotated[tuple[str, ...], Field(min_length=3, max_length=12)]
+    actuators: tuple[str, ...]
+    tool_site: str
+    home: tuple[Finite, ...]
+    speed: Annotated[float, Field(gt=0.05, le=10.0)] = 1.2
+    reach: Annotated[float, Field(gt=0.1, le=5.0)] = 0.7
+    gripper: GripperSpec
+    directory: str = ""
+    """Folder of the YAML; set by the loader."""
+
+    @property
+    def model_path(self) -> Path:
+        """The MJCF file."""
+        return Path(self.directory) / self.model
+
+
+def load_robot(robot: str, directory: str | Path = ".") -> RobotSpec:
+    """Reads a robot description.
+
+    Args:
+        robot: a built-in robot's name, or a YAML file relative to ``directory``.
+        directory: folder of the scene that names the robot.
+
+    Raises:
+        SpecError: the name is unknown or the file is unusable.
+    """
+    if robot.endswith((".yaml", ".yml")):
+        path = Path(directory) / robot
+    else:
+        path = BUILTIN_ROBOTS / robot / "robot.yaml"
+    if not path.is_file():
+        known = ", ".join(sorted(item.parent.name for item in BUILTIN_ROBOTS.glob("*/robot.yaml")))
+        raise SpecError(
+            f"no robot {robot!r}; expected one of {known}, or a robot YAML file", path="robot"
+        )
+    try:
+        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise SpecError(f"not readable as YAML: {error}", file=str(path)) from error
+    if not isinstance(data, dict):
+        raise SpecError("expected a mapping with name, model, joints, …", file=str(path))
+    try:
+        spec = RobotSpec.model_validate({**data, "directory": str(path.parent)})
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(item) for item in first["loc"])
+        raise SpecError(first["msg"], file=str(path), path=where) from error
+    if not len(spec.joints) == len(spec.actuators) == len(spec.home):
+        raise SpecError(
+            f"joints ({len(spec.joints)}), actuators ({len(spec.actuators)}) and home "
+            f"({len(spec.home)}) must have the same length",
+            file=str(path),
+        )
+    if not spec.model_path.is_file():
+        raise SpecError(f"missing file {spec.model!r}", file=str(path), path="model")
+    return spec

@@ -1,0 +1,60 @@
+"""Stored states of a world: bit-exact, small, picklable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+from etot_cli.errors import WorldError
+from etot_cli.world.model import World
+
+STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+"""The components from which MuJoCo continues bit-identically (manual: "Simulation", State)."""
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What relations remember between moments (hysteresis) and from the episode's start.
+
+    ``up``: each object's own z axis in the base frame at the start, (3,) tuples; ``toppled``,
+    ``inside``, ``opened``: last decided values, by object, object and ``object.part``.
+    """
+
+    up: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    toppled: frozenset[str] = frozenset()
+    inside: dict[str, str] = field(default_factory=dict)
+    opened: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """One stored moment: physics state and the relations' memory."""
+
+    physics: bytes
+    memory: Memory
+
+
+def save(world: World, data: mujoco.MjData, memory: Memory) -> Snapshot:
+    """Stores the state of ``data``."""
+    state = np.empty(mujoco.mj_stateSize(world.model, STATE))
+    mujoco.mj_getState(world.model, data, state, STATE)
+    return Snapshot(state.tobytes(), memory)
+
+
+def restore(world: World, data: mujoco.MjData, snapshot: Snapshot) -> None:
+    """Writes a stored state into ``data`` and brings all derived quantities up to date.
+
+    The warm start is part of the state, and ``mj_forward`` overwrites it; it is put back so that
+    stepping continues bit-identically.
+
+    Raises:
+        WorldError: the snapshot belongs to another model.
+    """
+    state = np.frombuffer(snapshot.physics)
+    if state.size != mujoco.mj_stateSize(world.model, STATE):
+        raise WorldError("a stored state does not belong to this world")
+    mujoco.mj_setState(world.model, data, state, STATE)
+    mujoco.mj_forward(world.model, data)
+    mujoco.mj_setState(world.model, data, state, STATE)

@@ -1,0 +1,203 @@
+"""The command line: flags, exit codes, what goes where."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from etot_cli.cli.app import run
+from etot_cli.commands import rooms
+from etot_cli.errors import ServiceError, SpecError
+from etot_cli.planning.options import Ablation
+from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, fails
+from tests.reporting.toy_rooms import ToyRooms
+
+SIMULATE = ["simulate", "toy.yaml", "--plan", "[PICK UP, cup] [PUT ON, desk]"]
+
+
+@dataclass
+class Answer:
+    """What a run of the program left behind."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def report(self) -> dict[str, object]:
+        document: dict[str, object] = json.loads(self.out)
+        return document
+
+
+Etot = Callable[..., Answer]
+
+
+@pytest.fixture
+def etot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Etot:
+    """Runs the program in an empty folder, with toy rooms."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+
+    def call(
+        *arguments: str, rule: Rule | None = None, branches: Sequence[str] = ("a b",)
+    ) -> Answer:
+        toys = ToyRooms(ToySimulator(rule or fails()), ToyReasoner(branches))
+        monkeypatch.setattr(rooms, "default_rooms", toys.rooms)
+        code = run(arguments)
+        captured = capsys.readouterr()
+        return Answer(code, captured.out, captured.err)
+
+    return call
+
+
+def test_feasible_plan(etot: Etot, tmp_path: Path) -> None:
+    answer = etot("plan", "toy.yaml", "--out", "here")
+    assert answer.code == 0
+    assert "feasible plan" in answer.out and "[PICK UP, b]" in answer.out
+    report = json.loads((tmp_path / "here" / "report.json").read_text())
+    assert report["status"] == "feasible"
+
+
+def test_default_folder(etot: Etot, tmp_path: Path) -> None:
+    etot("plan", "some/toy.yaml")
+    (folder,) = (tmp_path / "results" / "plan").iterdir()
+    assert folder.name.startswith("toy-") and (folder / "report.json").exists()
+
+
+def test_no_plan_is_the_answer_no(etot: Etot) -> None:
+    answer = etot("plan", "toy.yaml", rule=fails("a"))
+    assert answer.code == 1
+    assert "no feasible plan" in answer.out and "it was blocked" in answer.out
+
+
+def test_limit_is_the_answer_no(etot: Etot) -> None:
+    answer = etot("plan", "toy.yaml", "--max-nodes", "1")
+    assert answer.code == 1 and "--max-nodes" in answer.out
+
+
+def test_json_is_the_report_and_nothing_else(etot: Etot, tmp_path: Path) -> None:
+    answer = etot("plan", "toy.yaml", "--json", "--out", "x", "--seed", "3")
+    assert answer.report["seed"] == 3
+    assert answer.out == (tmp_path / "x" / "report.json").read_text(encoding="utf-8")
+    assert "[PICK UP, a]" in answer.err
+
+
+def test_quiet_and_verbose(etot: Etot) -> None:
+    quiet = etot("plan", "toy.yaml", "-q")
+    assert (quiet.out, quiet.err) == ("feasible: [PICK UP, a] [PICK UP, b]\n", "")
+    verbose = etot("plan", "toy.yaml", "-v")
+    normal = etot("plan", "toy.yaml")
+    assert len(verbose.err) > len(normal.err) > 0
+    assert etot("plan", "toy.yaml", "-q", "-v").code == 2
+
+
+def test_same_seed_same_report(etot: Etot) -> None:
+    def settled(report: dict[str, object]) -> object:
+        for key in ("timing", "statistics", "tree"):
+            report.pop(key)
+        return report
+
+    first, second = (etot("plan", "toy.yaml", "--json").report for _ in range(2))
+    assert settled(first) == settled(second)
+
+
+def test_options_reach_the_search(etot: Etot) -> None:
+    flags = "--without priori --without reflective --worlds 3 --jobs 1 --time-limit 60 --vary"
+    options = etot("plan", "toy.yaml", "--json", *flags.split()).report["options"]
+    assert options == {
+        "reasoner": "builtin",
+        "vary": True,
+        "jobs": 1,
+        "worlds": 3,
+        "without": [ablation.value for ablation in Ablation],
+        "max_nodes": 200,
+        "time_limit_s": 60.0,
+    }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["plan"], "TASK.yaml"),
+        (["plan", "toy.yaml", "--jobs", "0"], "--jobs"),
+        (["plan", "toy.yaml", "--jobs", "many"], "--jobs"),
+        (["plan", "toy.yaml", "--worlds", "0"], "--worlds"),
+        (["plan", "toy.yaml", "--seed", "-1"], "--seed"),
+        (["plan", "toy.yaml", "--max-nodes", "0"], "--max-nodes"),
+        (["plan", "toy.yaml", "--time-limit", "nan"], "--time-limit"),
+        (["plan", "toy.yaml", "--time-limit", "inf"], "--time-limit"),
+        (["plan", "toy.yaml", "--without", "luck"], "--without"),
+        (["plan", "toy.yaml", "--reasoner", "oracle"], "--reasoner"),
+        (["plan", "toy.yaml", "--nonsense"], "--nonsense"),
+        (["plan", "missing.yaml"], "missing.yaml: no such file"),
+        (["plan", "toy.yaml", "--out", "/dev/null/x"], "cannot write"),
+        (["simulate", "toy.yaml"], "--plan"),
+        (["simulate", "toy.yaml", "--plan", "[JUMP, cup]"], "unknown action 'JUMP'"),
+        (["simulate", "toy.yaml", "--plan", "none.json"], "none.json: cannot be read"),
+        (["levitate"], "levitate"),
+    ],
+)
+def test_unusable_input_is_one_clear_message(
+    etot: Etot, arguments: list[str], message: str
+) -> None:
+    answer = etot(*arguments)
+    assert answer.code == 2
+    assert answer.out == ""
+    assert answer.err.startswith("error: ") and answer.err.count("\n") == 1
+    assert message in answer.err
+
+
+def test_no_command_shows_the_help(etot: Etot) -> None:
+    answer = etot()
+    assert answer.code == 2 and "Commands:" in answer.err
+
+
+def test_simulate(etot: Etot) -> None:
+    answer = etot(*SIMULATE, "--json")
+    assert answer.code == 0
+    assert answer.report["schema"] == "etot.simulate/1"
+    assert etot(*SIMULATE, rule=fails("[PICK UP, cup]")).code == 1
+
+
+def test_plan_and_simulate_go_together(etot: Etot) -> None:
+    etot("plan", "toy.yaml", "--out", "first", branches=["cup box"])
+    for given in ("first/report.json", "first"):
+        answer = etot("simulate", "toy.yaml", "--plan", given, "--json")
+        assert answer.code == 0
+        assert answer.report["plan"] == ["[PICK UP, cup]", "[PICK UP, box]"]
+
+
+def test_errors_below_keep_their_exit_code(etot: Etot, monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing() -> rooms.Rooms:
+        raise ServiceError("no OpenGL here")
+
+    etot("plan", "toy.yaml")
+    monkeypatch.setattr(rooms, "default_rooms", missing)
+    assert run(["plan", "toy.yaml"]) == ServiceError.exit_code == 3
+    assert SpecError.exit_code == 2
+
+
+def test_defects_are_confessed_in_a_sentence(etot: Etot) -> None:
+    def defect(*_: object) -> None:
+        raise ZeroDivisionError("oh")
+
+    answer = etot("plan", "toy.yaml", "-q", rule=defect)
+    assert answer.code == 70
+    assert answer.err.count("\n") == 1 and "ZeroDivisionError: oh" in answer.err
+    detailed = etot("plan", "toy.yaml", "-v", rule=defect)
+    assert "Traceback" in detailed.err
+
+
+def test_missing_opengl_is_told_after_the_report_is_saved(
+    etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "etot_cli.world.render", None)
+    answer = etot(*SIMULATE, "--video", "--out", "x")
+    assert answer.code == 3 and "OpenGL" in answer.err
+    assert json.loads((tmp_path / "x" / "report.json").read_text())["status"] == "success"

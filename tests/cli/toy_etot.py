@@ -1,0 +1,32 @@
+"""The program ``etot`` with toy rooms: ``python toy_etot.py ARGUMENTS…``.
+
+The toy world needs a second for an action on ``slow``; actions on ``bad`` fail.
+"""
+
+from __future__ import annotations
+
+import time
+
+from etot_cli.cli.app import main
+from etot_cli.commands import rooms
+from etot_cli.skills.action import Action
+from etot_cli.world.state import Cause
+from tests.planning.fakes import ToyReasoner, ToySimulator, cause
+from tests.reporting.toy_rooms import ToyRooms
+
+
+def rule(history: str, action: Action, world: int) -> Cause | None:
+    if action.target == "slow":
+        print("sleeping", flush=True)
+        time.sleep(30.0)
+    return cause() if action.target == "bad" else None
+
+
+def toy_rooms() -> rooms.Rooms:
+    reasoner = ToyReasoner(["bad", "good slow"], {"bad @ 0": "good bad"})
+    return ToyRooms(ToySimulator(rule), reasoner).rooms()
+
+
+if __name__ == "__main__":
+    rooms.default_rooms = toy_rooms
+    main()

@@ -1,0 +1,199 @@
+"""A toy world with rules in place of physics, and a reasoner with a script in place of a mind.
+
+The world's state is its history, so every outcome is a pure function of where an action starts.
+"""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from etot_cli.planning.simulator import Simulated, StateToken, WorldOutcome
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
+from etot_cli.skills.action import Action, format_plan, parse_plan
+from etot_cli.world.state import (
+    Cause,
+    CauseKind,
+    ObjectInfo,
+    ObjectState,
+    PartInfo,
+    RolloutRecord,
+    SceneState,
+)
+
+STEP_S = 1.5
+"""Simulated time of every toy action [s]."""
+STEPS = 750
+
+Rule = Callable[[str, Action, int], Cause | None]
+"""(history as a plan, action, world) → why the action fails, or None."""
+UNSAFE_KINDS = frozenset({CauseKind.LOST, CauseKind.STRANDED})
+
+
+def plan(text: str) -> tuple[Action, ...]:
+    """``"a b"`` → [PICK UP, a] [PICK UP, b]; bracketed text is read as a plan."""
+    if "[" in text:
+        return parse_plan(text)
+    return parse_plan(" ".join(f"[PICK UP, {name}]" for name in text.split()))
+
+
+def branch(text: str, reason: str = "") -> Branch:
+    return Branch(plan(text), reason)
+
+
+def names(actions: Sequence[Action]) -> str:
+    """The inverse of :func:`plan` for the short form."""
+    return " ".join(action.target for action in actions)
+
+
+def cause(kind: CauseKind = CauseKind.BLOCKED, *objects: str) -> Cause:
+    return Cause(kind, objects, f"it was {kind.value}", 0.5)
+
+
+def scene() -> SceneState:
+    """One cup, one box with a lid; enough for conditions and targets."""
+    lid = PartInfo("box", "lid", "box", "hinge", 1.5, True)
+    infos = {
+        "cup": ObjectInfo(
+            "cup", "cup", "cup", "red", (0.08, 0.08, 0.1), 0.1, True, True, False, False
+        ),
+        "box": ObjectInfo(
+            "box", "cabinet", "box", None, (0.3, 0.3, 0.3), 2.0, False, False, True, False, (lid,)
+        ),
+    }
+    states = {
+        "cup": ObjectState((0.3, 0.1, 0.2), (1.0, 0.0, 0.0, 0.0), on=("desk",)),
+        "box": ObjectState(
+            (0.5, 0.0, 0.3), (1.0, 0.0, 0.0, 0.0), on=("desk",),
+            openness={"lid": 0.0}, opened={"lid": False},
+        ),
+    }  # fmt: skip
+    return SceneState(infos, states, 0.13, (0.0, 0.8, -0.6, 0.6))
+
+
+class ToySimulator:
+    """Implements the simulator protocol; remembers what was asked of it.
+
+    Args:
+        rule: decides what fails.
+        jobs: more than one runs submissions on threads, with random delays.
+        worlds: varied worlds per state.
+        delay_s: longest random delay of a submission.
+    """
+
+    def __init__(self, rule: Rule, *, jobs: int = 1, worlds: int = 1, delay_s: float = 0.0) -> None:
+        self._rule = rule
+        self._jobs = jobs
+        self._worlds = worlds
+        self._delay_s = delay_s
+        self._random = random.Random(0)
+        self._pool = ThreadPoolExecutor(jobs) if jobs > 1 else None
+        self._lock = threading.Lock()
+        self.submitted: list[tuple[str, str]] = []
+        self.running = 0
+        self.most_running = 0
+        self.closed = False
+
+    @property
+    def jobs(self) -> int:
+        return self._jobs
+
+    @property
+    def world_count(self) -> int:
+        return self._worlds
+
+    def start(self) -> tuple[StateToken, SceneState]:
+        return b"", scene()
+
+    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+        key = (state.decode(), str(action))
+        assert key not in self.submitted, f"simulated twice: {key}"
+        self.submitted.append(key)
+        delay = self._random.uniform(0, self._delay_s)
+        if self._pool is not None:
+            return self._pool.submit(self._simulate, state, action, delay)
+        future: Future[Simulated] = Future()
+        try:
+            future.set_result(self._simulate(state, action, delay))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def close(self) -> None:
+        self.closed = True
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+    def _simulate(self, state: StateToken, action: Action, delay: float) -> Simulated:
+        with self._lock:
+            self.running += 1
+            self.most_running = max(self.most_running, self.running)
+        time.sleep(delay)
+        history = state.decode()
+        outcomes = []
+        for world in range(self._worlds):
+            why = self._rule(history, action, world)
+            view = scene()
+            record = RolloutRecord(
+                view, view, effect=why is None, cause=why, simulated_s=STEP_S, steps=STEPS
+            )
+            outcomes.append(WorldOutcome(record, trajectory=(history, str(action))))
+        with self._lock:
+            self.running -= 1
+        end = f"{history} {action}".strip().encode()
+        return Simulated(outcomes, end, wall_s=delay)
+
+
+class ToyReasoner:
+    """Proposes a list, judges by the recorded cause, reflects by a script.
+
+    Args:
+        branches: what it proposes.
+        revisions: ``"branch @ index"`` → revised branch, or None; both in the short form. A
+            missing entry means that it knows no revision.
+    """
+
+    def __init__(
+        self,
+        branches: Sequence[str],
+        revisions: Mapping[str, str | None] | Callable[[FailedStep], Branch | None] | None = None,
+    ) -> None:
+        self._branches = [branch(text, f"idea {number}") for number, text in enumerate(branches)]
+        self._revisions = revisions or {}
+        self.judged: list[str] = []
+        self.reflected: list[str] = []
+        self.failed_steps: list[FailedStep] = []
+        self.assignment: Assignment | None = None
+
+    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
+        self.assignment = assignment
+        return self._branches
+
+    def judge(self, action: Action, record: RolloutRecord) -> Verdict:
+        self.judged.append(action.target)
+        if record.cause is None:
+            return Verdict(Outcome.SUCCESS, None, (action.target,))
+        unsafe = record.cause.kind in UNSAFE_KINDS
+        return Verdict(Outcome.UNSAFE if unsafe else Outcome.FAILURE, record.cause)
+
+    def reflect(self, failed: FailedStep) -> Branch | None:
+        key = f"{names(failed.branch.actions)} @ {failed.index}"
+        self.reflected.append(key)
+        self.failed_steps.append(failed)
+        if callable(self._revisions):
+            return self._revisions(failed)
+        revised = self._revisions.get(key)
+        return None if revised is None else branch(revised, "revised")
+
+
+def fails(*histories: str, kind: CauseKind = CauseKind.BLOCKED) -> Rule:
+    """A rule under which exactly the given histories (short form) fail at their last action."""
+    bad = {format_plan(plan(text)) for text in histories}
+
+    def rule(history: str, action: Action, world: int) -> Cause | None:
+        return cause(kind, action.target) if f"{history} {action}".strip() in bad else None
+
+    return rule

@@ -1,0 +1,177 @@
+"""Reports: valid against their schemas, honest, written whole."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.simulate import SimulateOptions, run_simulate
+from etot_cli.errors import EtotError
+from etot_cli.planning.options import Ablation, Limits
+from etot_cli.reporting.files import output_folder, report_text, write_atomically, write_report
+from etot_cli.reporting.models import Report
+from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.schemas import REPORTS, schema_text
+from etot_cli.world.state import CauseKind
+from tests.planning.fakes import ToyReasoner, ToySimulator, fails, plan
+from tests.reporting.toy_rooms import ToyRooms
+
+SCHEMAS = Path(__file__).parents[2] / "docs" / "schemas"
+
+
+def validate(report: Report) -> dict[str, object]:
+    """The report's JSON form, checked against the schema file of its kind."""
+    document: dict[str, object] = json.loads(report_text(report))
+    name = str(document["schema"]).replace("/", "-") + ".json"
+    schema = json.loads((SCHEMAS / name).read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(document)
+    return document
+
+
+def planned(
+    simulator: ToySimulator, reasoner: ToyReasoner, options: PlanOptions | None = None
+) -> PlanReport:
+    rooms = ToyRooms(simulator, reasoner)
+    return run_plan(options or PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_schema_files_are_up_to_date(name: str) -> None:
+    """If this fails: python -m etot_cli.reporting.schemas docs/schemas."""
+    assert (SCHEMAS / name).read_text(encoding="utf-8") == schema_text(REPORTS[name])
+
+
+def test_schemas_are_schemas() -> None:
+    for path in SCHEMAS.glob("*.json"):
+        jsonschema.Draft202012Validator.check_schema(json.loads(path.read_text(encoding="utf-8")))
+
+
+def test_plan_report_of_a_search_with_everything_in_it() -> None:
+    simulator = ToySimulator(fails("a", "c", kind=CauseKind.LOST), worlds=3)
+    reasoner = ToyReasoner(["a b", "c"], {"a b @ 0": "x a b"})
+    options = PlanOptions(
+        task=Path("toy.yaml"), seed=7, worlds=3, limits=Limits(max_nodes=50, time_limit_s=9.0)
+    )
+    document = validate(planned(simulator, reasoner, options))
+    assert document["schema"] == "etot.plan/1"
+    assert next(iter(document)) == "schema"
+    assert document["status"] == "feasible"
+    assert document["plan"] == [str(action) for action in plan("x a b")]
+    assert document["seed"] == 7
+    assert document["interrupted"] is False
+    nodes = document["tree"]["nodes"]  # type: ignore[index]
+    by_id = {node["id"]: node for node in nodes}
+    assert [by_id[n]["action"] for n in document["plan_nodes"]] == document["plan"]  # type: ignore[attr-defined]
+    assert {node["status"] for node in nodes} == {"unsafe", "success", "removed"}
+    failed = by_id[1]
+    assert failed["parent"] is None and failed["origin"] == "priori"
+    assert failed["cause"]["kind"] == "lost" and failed["cause"]["objects"] == ["a"]
+    assert len(failed["losses"]) == 3
+    assert document["survival"] == {
+        "worlds": 3, "alive": 3, "probability": 1.0, "ci95": [pytest.approx(0.4385, abs=1e-4), 1.0],
+    }  # fmt: skip
+    statistics = document["statistics"]
+    assert statistics["simulated_s"] == sum(node["simulated_s"] for node in nodes)  # type: ignore[index]
+    assert set(document["versions"]) == {"etot", "python", "mujoco", "numpy"}  # type: ignore[call-overload]
+    assert set(document["timing"]["phases"]) == {"load", "world", "search"}  # type: ignore[index]
+
+
+def test_infeasible_and_limit_reports() -> None:
+    infeasible = validate(planned(ToySimulator(fails("a")), ToyReasoner(["a"])))
+    assert (infeasible["status"], infeasible["plan"]) == ("infeasible", [])
+    assert infeasible["survival"] is None
+    options = PlanOptions(
+        task=Path("toy.yaml"),
+        limits=Limits(max_nodes=1),
+        without=frozenset({Ablation.REFLECTIVE, Ablation.PRIORI}),
+    )
+    limit = validate(planned(ToySimulator(fails()), ToyReasoner(["a b"]), options))
+    assert limit["status"] == "limit"
+    assert limit["statistics"]["limit"] == "max_nodes"  # type: ignore[index]
+    assert limit["options"]["without"] == ["priori", "reflective"]  # type: ignore[index]
+
+
+def test_goal_that_already_holds() -> None:
+    document = validate(planned(ToySimulator(fails()), ToyReasoner([])))
+    assert (document["status"], document["plan"]) == ("feasible", [])
+    assert document["understood"]["goal_holds"] is True  # type: ignore[index]
+
+
+@pytest.mark.parametrize("where", ["load", "open", "search"])
+def test_interrupted_plan_report(where: str) -> None:
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), interrupt_in=where)
+    report = run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+    document = validate(report)
+    assert document["status"] == "interrupted" and document["interrupted"] is True
+
+
+@pytest.mark.parametrize("where", ["load", "open", "search"])
+def test_interrupted_simulate_report(where: str) -> None:
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner([]), interrupt_in=where)
+    options = SimulateOptions(task=Path("toy.yaml"), plan="[PICK UP, cup]")
+    document = validate(run_simulate(options, rooms=rooms.rooms()).report)
+    assert document["status"] == "interrupted" and document["interrupted"] is True
+    assert document["success_conditions"] is None
+
+
+def test_simulator_is_closed_whatever_happens() -> None:
+    for where in ("search", ""):
+        rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), interrupt_in=where)
+        run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+        assert rooms.simulator.closed
+
+
+def test_planner_sees_the_instruction_and_not_the_success_conditions() -> None:
+    reasoner = ToyReasoner(["a"])
+    planned(ToySimulator(fails()), reasoner)
+    assert reasoner.assignment is not None
+    assert reasoner.assignment.instruction == "Leave the cup alone."
+    assert reasoner.assignment.goal is None
+
+
+def test_numbers_that_are_none_never_reach_json() -> None:
+    report = planned(ToySimulator(fails()), ToyReasoner(["a"]))
+    document = json.loads(report_text(report))
+    document["timing"]["wall_s"] = float("nan")
+    with pytest.raises(ValueError, match="finite"):
+        PlanReport.model_validate(document)
+    assert "NaN" not in report_text(report) and "Infinity" not in report_text(report)
+
+
+def test_report_file_is_the_text_and_nothing_else_is_left(tmp_path: Path) -> None:
+    report = planned(ToySimulator(fails()), ToyReasoner(["a"]))
+    folder = tmp_path / "new" / "folder"
+    path = write_report(report, folder)
+    assert path.read_text(encoding="utf-8") == report_text(report)
+    assert [file.name for file in folder.iterdir()] == ["report.json"]
+
+
+def test_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "report.json"
+    write_atomically(path, "old")
+
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(EtotError, match="No space left"):
+        write_atomically(path, "new")
+    assert path.read_text() == "old"
+    assert [file.name for file in tmp_path.iterdir()] == ["report.json"]
+
+
+def test_output_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert output_folder("plan", "toy", Path("x/y")) == Path("x/y")
+    first = output_folder("plan", "toy", None)
+    assert first.parts[:2] == ("results", "plan") and first.name.startswith("toy-")
+    first.mkdir(parents=True)
+    assert output_folder("plan", "toy", None) != first
+    (tmp_path / "file").write_text("")
+    with pytest.raises(EtotError, match="is not a folder"):
+        output_folder("plan", "toy", Path("file/below"))

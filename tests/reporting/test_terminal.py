@@ -1,0 +1,137 @@
+"""What people see: live tree, log lines, summaries."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+from rich.text import Text
+
+from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.simulate import SimulateOptions, run_simulate
+from etot_cli.planning.result import SearchObserver
+from etot_cli.planning.search import search
+from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reporting.live import LiveView, window
+from etot_cli.reporting.log import PlainLog
+from etot_cli.reporting.style import Verbosity, make_console
+from etot_cli.reporting.summary import Summary
+from etot_cli.world.state import CauseKind
+from tests.planning.fakes import ToyReasoner, ToySimulator, fails
+from tests.reporting.toy_rooms import ToyRooms
+
+
+def toy_search(observer: SearchObserver) -> None:
+    simulator = ToySimulator(fails("a", "c", kind=CauseKind.LOST))
+    search(
+        Assignment("do it"), simulator, ToyReasoner(["a b", "c"], {"a b @ 0": "x a b"}),
+        observer=observer,
+    )  # fmt: skip
+
+
+class Stream(io.StringIO):
+    """A text stream of a given encoding."""
+
+    def __init__(self, encoding: str) -> None:
+        super().__init__()
+        self._name = encoding
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        return self._name
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
+def test_live_view_ends_with_the_whole_tree(encoding: str) -> None:
+    stream = Stream(encoding)
+    console = Console(file=stream, force_terminal=True, width=100, height=30, color_system=None)
+    with LiveView(console, "toy") as view:
+        toy_search(view)
+    last = stream.getvalue()[stream.getvalue().rindex("toy") :]
+    if encoding == "ascii":
+        last.encode("ascii")
+    assert "[PICK UP, a]  unsafe lost: it was lost" in last
+    assert ("✓" if encoding == "utf-8" else "+") + " [PICK UP, x]" in last
+    assert "5 evaluated" in last and "2 reflections" in last
+
+
+def test_live_view_in_detail_shows_removed_nodes() -> None:
+    stream = Stream("utf-8")
+    console = Console(file=stream, force_terminal=True, width=120, height=40, color_system=None)
+    with LiveView(console, "toy", detailed=True) as view:
+        toy_search(view)
+    assert "- [PICK UP, b]" in stream.getvalue()
+    assert "changed: x" in stream.getvalue()
+
+
+def test_live_view_survives_an_exception() -> None:
+    console = Console(file=io.StringIO(), force_terminal=True)
+    with pytest.raises(RuntimeError), LiveView(console, "toy"):
+        raise RuntimeError
+
+
+def test_window_keeps_the_focus_in_sight() -> None:
+    lines = [Text(str(number)) for number in range(100)]
+    for focus in (0, 50, 99):
+        shown = [line.plain for line in window(lines, focus, 10)]
+        assert str(focus) in shown and len(shown) == 10
+    assert "(46 more above)" in window(lines, 50, 10)[0].plain
+    assert window(lines[:5], 0, 10) == lines[:5]
+
+
+def test_log_lines() -> None:
+    stream = io.StringIO()
+    toy_search(PlainLog(stream))
+    assert "x [PICK UP, a]  unsafe: it was lost" in stream.getvalue().replace("!", "x")
+    assert "revised" not in stream.getvalue()
+    stream = io.StringIO()
+    toy_search(PlainLog(stream, detailed=True))
+    assert "revised: [PICK UP, x] [PICK UP, a] [PICK UP, b]" in stream.getvalue()
+    assert "no revision" in stream.getvalue()
+
+
+def plan_summary(verbosity: Verbosity, *, worlds: int = 1, feasible: bool = True) -> str:
+    simulator = ToySimulator(fails("a", "c"), worlds=worlds)
+    revisions = {"a b @ 0": "x a b"} if feasible else {}
+    rooms = ToyRooms(simulator, ToyReasoner(["a b", "c"], revisions)).rooms()
+    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=worlds), rooms=rooms)
+    stream = Stream("utf-8")
+    Summary(make_console(stream), verbosity).plan(report, Path("out/report.json"))
+    return stream.getvalue()
+
+
+def test_plan_summary() -> None:
+    text = plan_summary(Verbosity.NORMAL)
+    assert "✓ feasible plan  Leave the cup alone." in text
+    assert "1  ✓  [PICK UP, x]" in text and "3  ✓  [PICK UP, b]" in text
+    assert "failure, blocked: it was blocked" in text
+    assert "5 nodes evaluated, 2 reflections" in text
+    assert "report: out/report.json" in text
+    assert "\x1b" not in text
+
+
+def test_plan_summary_with_worlds() -> None:
+    assert "holds in 3 of 3 varied worlds: 100%" in plan_summary(Verbosity.NORMAL, worlds=3)
+
+
+def test_plan_summary_without_a_plan() -> None:
+    assert "✗ no feasible plan" in plan_summary(Verbosity.NORMAL, feasible=False)
+
+
+def test_quiet_is_one_line() -> None:
+    text = plan_summary(Verbosity.QUIET)
+    assert text == "feasible: [PICK UP, x] [PICK UP, a] [PICK UP, b]\n"
+
+
+def test_simulate_summary() -> None:
+    rooms = ToyRooms(ToySimulator(fails("[PICK UP, cup]")), ToyReasoner([])).rooms()
+    options = SimulateOptions(task=Path("toy.yaml"), plan="[PICK UP, cup] [PUT ON, desk]")
+    report = run_simulate(options, rooms=rooms).report
+    stream = Stream("utf-8")
+    Summary(make_console(stream), Verbosity.NORMAL).simulate(report, Path("out/report.json"))
+    text = stream.getvalue()
+    assert "✗ the plan fails" in text
+    assert "not tried" in text
+    assert "✓ cup on desk: holds" in text
