@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from itertools import chain, islice
 
-from etot_cli.planning.simulator import Simulated, Simulator, StateToken
+from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 from etot_cli.planning.tree import PlanNode
 
 SUBMISSIONS_PER_JOB = 2

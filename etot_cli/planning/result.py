@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol
 
-from etot_cli.planning.simulator import WorldOutcome
+from etot_cli.skills.simulated import WorldOutcome
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from math import sqrt
 from typing import NamedTuple
 
-from etot_cli.planning.simulator import Simulated
+from etot_cli.skills.simulated import Simulated
 from etot_cli.planning.tree import WorldLoss
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.skills.action import Action

@@ -245,18 +245,13 @@ def _follow_part(
     """A tool pose fixed to the part, followed along the part's path."""
     arm = pilot.arm
     tool = now @ in_part
-    start = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    before = arm.reach(start, pilot.commanded)
-    if not before.reached:
-        return None
-    approach, count = arm.line(straight(start, tool, 0.012), before.joints)
-    if count == 0 or np.linalg.norm(arm.forward(approach[-1]).position - tool.position) > 2e-3:
-        return None
     pilot.checker.set_joint(part.joint, value)
     pilot.checker.set_fingers(opening)
-    for joints in (before.joints, approach[-1], approach[count // 2]):
-        if not _free(pilot, joints, blockers, lenient, 0.0005):
-            return None
+    start = tool.moved(-STANDOFF * tool.rotation[:, 2])
+    reachable = _approach(pilot, start, tool, False, blockers, lenient)
+    if reachable is None:
+        return None
+    before, approach = reachable
     radius = float(np.linalg.norm(in_part.position[:2]))
     values = _values(part, value, target, radius)
     along: list[Vector] = []
@@ -280,8 +275,37 @@ def _follow_part(
     if retreat is None:
         return None
     return PreparedMove(
-        before.joints, approach, np.array(along), length, grip, opening, reached, retreat
+        before, approach, np.array(along), length, grip, opening, reached, retreat
     )
+
+
+def _approach(
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+) -> tuple[Vector, Vector] | None:
+    """Joint values at the standoff and along the straight approach, for the first arm branch
+    that is free."""
+    for before, approach in _approaches(pilot, start, tool, free_spin, blockers, lenient):
+        return before, approach
+    return None
+
+
+def _approaches(
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+) -> Iterator[tuple[Vector, Vector]]:
+    arm = pilot.arm
+    for before in arm.solutions(start, pilot.commanded, free_spin=free_spin):
+        # With a free spin the first solution fixes it for the rest of the way.
+        rotation = arm.forward(before).rotation if free_spin else tool.rotation
+        goal = Pose(tool.position, rotation)
+        path = straight(Pose(start.position, rotation), goal, 0.012)
+        approach, count = arm.line(path, before, free_spin=free_spin)
+        if count < len(path):
+            continue
+        if all(
+            _free(pilot, joints, blockers, lenient, 0.0005)
+            for joints in (before, approach[-1], approach[count // 2])
+        ):
+            yield before, approach
 
 
 def _travel(part: Part, value: float, reached: float, radius: float) -> float:
@@ -328,25 +352,42 @@ def _push_move(
 ) -> PreparedMove | None:
     """Closed fingers against a face; the hand keeps pointing down, tilted more where the arm
     would otherwise not reach."""
-    arm, checker = pilot.arm, pilot.checker
+    checker = pilot.checker
     frame = _PartFrame(pilot, part)
     checker.set_fingers(0.0)
     checker.set_joint(part.joint, value)
-    start_tool = _push_pose(frame.at(value), face, contact, tilt, -FACE_GAP)
-    start = start_tool.moved(-STANDOFF * start_tool.rotation[:, 2])
-    before = arm.reach(start, pilot.commanded, free_spin=True)
-    if not before.reached:
-        return None
-    rotation = arm.forward(before.joints).rotation
-    tool = Pose(start_tool.position, rotation)
-    approach, count = arm.line(
-        straight(Pose(start.position, rotation), tool, 0.012), before.joints, free_spin=True
-    )
-    if count == 0 or np.linalg.norm(arm.forward(approach[-1]).position - tool.position) > 2e-3:
-        return None
-    for joints in (before.joints, approach[-1], approach[count // 2]):
-        if not _free(pilot, joints, blockers, lenient, 0.0005):
-            return None
+    tool = _push_pose(frame.at(value), face, contact, tilt, -FACE_GAP)
+    start = tool.moved(-STANDOFF * tool.rotation[:, 2])
+    best: PreparedMove | None = None
+    for before, approach in _approaches(pilot, start, tool, True, blockers, lenient):
+        move = _push_along(
+            pilot, part, frame, face, contact, value, target, tilt, before, approach, blockers,
+            lenient,
+        )  # fmt: skip
+        if move is not None and (
+            best is None or abs(move.reached - target) < abs(best.reached - target) - 1e-6
+        ):
+            best = move
+        if best is not None and abs(best.reached - target) < 0.05 * abs(part.upper - part.lower):
+            break
+    return best
+
+
+def _push_along(
+    pilot: Pilot,
+    part: Part,
+    frame: _PartFrame,
+    face: Face,
+    contact: Vector,
+    value: float,
+    target: float,
+    tilt: float,
+    before: Vector,
+    approach: Vector,
+    blockers: Blockers,
+    lenient: bool,
+) -> PreparedMove | None:
+    checker = pilot.checker
     radius = float(np.linalg.norm(contact[:2]))
     beyond = target
     if abs(target - part.lower) < 1e-9:
@@ -371,7 +412,7 @@ def _push_move(
         return None
     length = _travel(part, value, reached, radius) + FACE_GAP
     return PreparedMove(
-        before.joints, approach, np.array(along), length, False, 0.0, reached, retreat
+        before, approach, np.array(along), length, False, 0.0, reached, retreat
     )
 
 

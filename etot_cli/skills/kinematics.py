@@ -5,7 +5,7 @@ Frames: base frame; tool frame as the robot's ``tool_site`` (z approach, y closi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import mink
@@ -25,6 +25,8 @@ MAX_ITERATIONS = 40
 JUMP = 0.35
 """Largest joint change between neighbouring points of a straight line [rad]; more is a change of
 the arm's branch in the middle of a path."""
+DISTINCT = 0.3
+"""Joint difference from which two solutions count as different [rad]."""
 _LIMIT_MARGIN = 0.01
 
 
@@ -164,6 +166,19 @@ class Arm:
             if other.position_error < result.position_error:
                 result = other
         return result
+
+    def solutions(
+        self, target: Pose, near: Vector, *, free_spin: bool = False
+    ) -> Iterator[Vector]:
+        """Distinct joint solutions (n,) of a tool pose, the one on the present branch first."""
+        found: list[Vector] = []
+        for seed in (near, *self._seeds(target)):
+            result = self.solve(target, seed, free_spin=free_spin)
+            if result.reached and all(
+                float(np.abs(result.joints - other).max()) > DISTINCT for other in found
+            ):
+                found.append(result.joints)
+                yield result.joints
 
     def _seeds(self, target: Pose) -> list[Vector]:
         azimuth = float(np.arctan2(target.position[1], target.position[0]))

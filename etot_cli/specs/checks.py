@@ -12,10 +12,19 @@ from collections.abc import Iterator
 from etot_cli.specs.dimensions import dimension_problems
 from etot_cli.specs.document import Node
 from etot_cli.specs.files import is_robot_file
-from etot_cli.specs.footprint import contains, overlap, rectangle, shifted, turned
+from etot_cli.specs.footprint import (
+    Disc,
+    Footprint,
+    contains,
+    overlap,
+    rectangle,
+    shifted,
+    turned,
+)
 from etot_cli.specs.objects import FURNITURE, Cup, DrawerUnit, ObjectBase, Sphere
 from etot_cli.specs.placement import (
     Placed,
+    Solid,
     compartment,
     drawer_of,
     inner_diameter,
@@ -155,17 +164,19 @@ def _inside(
     vessel, under = scene.objects[support], placed[support]
     size, drawer = size_of(item), drawer_of(vessel, item.inside)
     shown = item.inside
+    free: Footprint
     if isinstance(vessel, Cup):
         opening = (inner_diameter(vessel), inner_diameter(vessel))
         middle = (under.x, under.y)
+        free = Disc(*middle, opening[0] / 2)
     elif vessel_size := size_of(vessel):
         wall = getattr(vessel, "wall", 0.0) * (4 if isinstance(vessel, DrawerUnit) else 2)
         opening = (vessel_size[0] - wall, vessel_size[1] - wall)
         offset = drawer.open if drawer is not None else 0.0
         middle = shifted(under.x, under.y, turned((offset, 0.0), yaw_of(vessel)))
+        free = rectangle(*middle, yaw_of(vessel), *opening)
     else:
         return  # a mesh or MJCF object: its hollow is known to the physics world only
-    free = rectangle(*middle, yaw_of(vessel), *opening)
     if size is not None:
         narrow, wide = sorted((size[1], size[1]) if stands_in(item, vessel) else size[:2])
         if narrow > min(opening) and wide > max(opening):
@@ -257,11 +268,9 @@ def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> 
     return depth
 
 
-def _meet(first: object, second: object) -> bool:
+def _meet(first: Placed | Solid, second: Placed) -> bool:
     """Whether two height ranges overlap by more than touching."""
-    low = max(first.base, second.base)  # type: ignore[attr-defined]
-    high = min(first.top, second.top)  # type: ignore[attr-defined]
-    return bool(high - low > TOUCHING)
+    return min(first.top, second.top) - max(first.base, second.base) > TOUCHING
 
 
 def _xy(place: Placed) -> str:

@@ -122,6 +122,7 @@ def build_world(scene: specs.Scene) -> World:
 
 
 def _set_options(mj: mujoco.MjSpec) -> None:
+    mj.compiler.degree = False
     mj.option.timestep = TIMESTEP
     mj.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     mj.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC

@@ -20,6 +20,8 @@ INSIDE_MARGIN = 0.010
 """How far an object that was inside may stick out and still be inside [m]."""
 END_DEPTH = 0.5
 """A rod is inside when one end is deeper than this share of the container's depth."""
+UPRIGHT_COSINE = 0.5
+"""A container tilted beyond this (cosine to the vertical) holds nothing."""
 CONTACT_DISTANCE = 0.001
 SUPPORT_SLOPE = 0.3
 """A contact whose normal rises more than this (vertical component) supports."""
@@ -150,6 +152,8 @@ def _container(
 def _within(
     world: World, data: mujoco.MjData, entry: ObjectEntry, region: Region, margin: float
 ) -> bool:
+    if data.body(region.body).xmat[8] < UPRIGHT_COSINE:
+        return False
     center = to_region(data, region, data.body(entry.body).xpos)
     if _in_bounds(center, region, margin) and abs(center[2]) <= region.half[2] + margin:
         return True

@@ -1,6 +1,6 @@
 """What the search needs of a physics world: start states, and actions tried from stored states.
 
-Planning knows nothing of MuJoCo; the skills room implements this protocol.
+Plain data and one protocol, free of MuJoCo: planning sees the world only through it.
 """
 
 from __future__ import annotations
