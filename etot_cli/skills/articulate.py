@@ -44,7 +44,8 @@ SIDE_SHARES = (0.0, 0.45, -0.45)
 TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
 OVERTRAVEL = 0.004
 """How far beyond the closed position the target lies, so that it really closes [m]."""
-MAX_ATTEMPTS = 3
+COMPLETE = 0.03
+"""A move that gets the part this close to its end (share of its travel) is tried at once."""
 SETTLE_TIME = 1.2
 PENETRATION = -0.004
 """Planned overlap of fingers and furniture that is a push, not a collision [m]."""
@@ -68,66 +69,80 @@ class PreparedMove:
     retreat: Vector
 
 
-def prepare_articulation(
-    pilot: Pilot, action: Action
-) -> tuple[list[Attempt], SkillOutcome | None]:
-    """Ways to carry out OPEN or CLOSE, best first, or the reason why there is none."""
+def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillOutcome]:
+    """Ways to carry out OPEN or CLOSE, prepared as they are asked for; a reason when there is none.
+
+    The pilot's world must stand as it did at the first call whenever the next item is asked for.
+    """
     part = pilot.world.parts.get(action.target)
     if part is None:
-        parts = pilot.world.entries.get(action.target)
-        several = [item.info.address for item in parts.parts] if parts else []
-        text = f"{action.target} has no movable part" if not several else (
+        entry = pilot.world.entries.get(action.target)
+        several = [item.info.address for item in entry.parts] if entry else []
+        text = (
             f"{action.target} has several movable parts: {', '.join(several)}"
-        )  # fmt: skip
-        return [], failed(CauseKind.PRECONDITION, [action.target], text)
+            if several
+            else f"{action.target} has no movable part"
+        )
+        yield failed(CauseKind.PRECONDITION, [action.target], text)
+        return
     opening = action.verb is Verb.OPEN
     value = float(pilot.data.joint(part.joint).qpos[0])
     fraction = _fraction(part, value)
     if (opening and fraction >= 0.98) or (not opening and fraction <= 0.01):
-        return [lambda _: DONE], None
+        yield lambda _: DONE
+        return
     blockers = Blockers(pilot.world)
+    found = False
     for lenient in (False, True):
-        moves = _prepare_moves(pilot, part, value, opening, blockers, lenient)
-        if moves:
-            return [_attempt(part, move, opening) for move in moves[:MAX_ATTEMPTS]], None
+        for move in _moves(pilot, part, value, opening, blockers, lenient):
+            found = True
+            yield _attempt(part, move, opening)
+        if found:
+            return
     owner = part.info.owner
     blocking = blockers.most(excluding=[owner])
     verb = "open" if opening else "close"
     if blocking:
-        return [], failed(
+        yield failed(
             CauseKind.BLOCKED,
             [*blocking, owner],
             f"the hand cannot get to {part.info.address} to {verb} it: "
             f"{', '.join(blocking)} in the way",
         )
-    return [], failed(
-        CauseKind.UNREACHABLE,
-        [owner],
-        f"the hand finds no hold within reach to {verb} {part.info.address}",
-    )
+    else:
+        yield failed(
+            CauseKind.UNREACHABLE,
+            [owner],
+            f"the hand finds no hold within reach to {verb} {part.info.address}",
+        )
 
 
 def _fraction(part: Part, value: float) -> float:
     return (value - part.lower) / (part.upper - part.lower)
 
 
-def _prepare_moves(
+def _moves(
     pilot: Pilot, part: Part, value: float, opening: bool, blockers: Blockers, lenient: bool
-) -> list[PreparedMove]:
-    pilot.checker.freeze(pilot.data)
+) -> Iterator[PreparedMove]:
+    """Moves that follow the part to its end at once; then those that at least get far enough,
+    the farthest first.
+    """
     target = part.upper if opening else part.lower
-    wanted = OPEN_AT if opening else CLOSED_AT
-    moves: list[tuple[float, int, PreparedMove]] = []
-    for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, lenient)):
-        fraction = _fraction(part, move.reached)
-        enough = fraction >= wanted + 0.04 if opening else fraction <= wanted
-        missing = abs(move.reached - target) / abs(part.upper - part.lower)
-        if enough:
-            moves.append((round(missing, 2), rank, move))
-        if len(moves) >= 2 * MAX_ATTEMPTS or (moves and rank > 40):
-            break
+    wanted = OPEN_AT + 0.04 if opening else CLOSED_AT
+    partial: list[tuple[float, int, PreparedMove]] = []
     pilot.checker.freeze(pilot.data)
-    return [move for *_, move in sorted(moves, key=lambda item: item[:2])]
+    for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, lenient)):
+        missing = abs(move.reached - target) / abs(part.upper - part.lower)
+        fraction = _fraction(part, move.reached)
+        if missing < COMPLETE:
+            pilot.checker.freeze(pilot.data)
+            yield move
+            pilot.checker.freeze(pilot.data)
+        elif fraction >= wanted if opening else fraction <= wanted:
+            partial.append((round(missing, 2), rank, move))
+    pilot.checker.freeze(pilot.data)
+    for *_, move in sorted(partial, key=lambda item: item[:2]):
+        yield move
 
 
 def _candidates(
@@ -160,7 +175,9 @@ def _contacts(part: Part, face: Face) -> Iterator[Vector]:
     height = float(np.linalg.norm(v))
     top = v * max(1.0 - EDGE_DEPTH / height, 0.0) if height > 0 else v
     if part.info.joint_type == "hinge":
-        hinge = center - u if np.linalg.norm(center - u) < np.linalg.norm(center + u) else center + u
+        hinge = (
+            center - u if np.linalg.norm(center - u) < np.linalg.norm(center + u) else center + u
+        )
         for share in SHARES:
             for level in (top, np.zeros(3)):
                 yield hinge + (center - hinge) * 2 * share + level
@@ -175,7 +192,7 @@ class _PartFrame:
 
     def __init__(self, pilot: Pilot, part: Part) -> None:
         self._world, self._part = pilot.world, part
-        self._data = mujoco.MjData(pilot.world.model)
+        self._data = pilot.scratch
         self._data.qpos[:] = pilot.data.qpos
 
     def at(self, value: float) -> Pose:
@@ -274,16 +291,15 @@ def _follow_part(
     retreat = _back(pilot, joints)
     if retreat is None:
         return None
-    return PreparedMove(
-        before, approach, np.array(along), length, grip, opening, reached, retreat
-    )
+    return PreparedMove(before, approach, np.array(along), length, grip, opening, reached, retreat)
 
 
 def _approach(
     pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
 ) -> tuple[Vector, Vector] | None:
     """Joint values at the standoff and along the straight approach, for the first arm branch
-    that is free."""
+    that is free.
+    """
     for before, approach in _approaches(pilot, start, tool, free_spin, blockers, lenient):
         return before, approach
     return None
@@ -297,7 +313,7 @@ def _approaches(
         # With a free spin the first solution fixes it for the rest of the way.
         rotation = arm.forward(before).rotation if free_spin else tool.rotation
         goal = Pose(tool.position, rotation)
-        path = straight(Pose(start.position, rotation), goal, 0.012)
+        path = straight(Pose(start.position, rotation), goal)
         approach, count = arm.line(path, before, free_spin=free_spin)
         if count < len(path):
             continue
@@ -315,7 +331,7 @@ def _travel(part: Part, value: float, reached: float, radius: float) -> float:
 def _back(pilot: Pilot, joints: Vector) -> Vector | None:
     tool = pilot.arm.forward(joints)
     away = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    path, count = pilot.arm.line(straight(tool, away, 0.015), joints)
+    path, count = pilot.arm.line(straight(tool, away), joints)
     return path if count >= 2 else None
 
 
@@ -351,7 +367,8 @@ def _push_move(
     lenient: bool,
 ) -> PreparedMove | None:
     """Closed fingers against a face; the hand keeps pointing down, tilted more where the arm
-    would otherwise not reach."""
+    would otherwise not reach.
+    """
     checker = pilot.checker
     frame = _PartFrame(pilot, part)
     checker.set_fingers(0.0)
@@ -411,9 +428,7 @@ def _push_along(
     if retreat is None:
         return None
     length = _travel(part, value, reached, radius) + FACE_GAP
-    return PreparedMove(
-        before, approach, np.array(along), length, False, 0.0, reached, retreat
-    )
+    return PreparedMove(before, approach, np.array(along), length, False, 0.0, reached, retreat)
 
 
 def _next_push(

@@ -93,9 +93,7 @@ class CollisionChecker:
         data.qpos[world.robot.qpos] = joints
         if attached is not None:
             mujoco.mj_kinematics(model, data)
-            tool = Pose(
-                data.site_xpos[self._tool], data.site_xmat[self._tool].reshape(3, 3)
-            )
+            tool = Pose(data.site_xpos[self._tool], data.site_xmat[self._tool].reshape(3, 3))
             pose = tool @ attached.in_tool
             address = data.joint(attached.name).qpos
             address[:3] = pose.position

@@ -32,6 +32,8 @@ SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
 FINGER_DEPTH = 0.05
 """Depth of the space between the fingers, from the tool point backwards [m]."""
+LEAN_COST = 0.25
+"""Added to the score per radian of lean."""
 TOO_WIDE_TRIES = 1.35
 """Objects up to so many times the opening are still tried, off their widest line."""
 
@@ -54,7 +56,8 @@ class Grasp:
 @dataclass(frozen=True)
 class GraspSet:
     """All candidates, best first. ``too_wide``: grasps that were left out for width alone,
-    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen."""
+    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen.
+    """
 
     grasps: tuple[Grasp, ...]
     too_wide: tuple[Grasp, ...]
@@ -269,4 +272,4 @@ def tilted(grasp: Grasp, angle: float) -> Grasp:
     """The same contact with the hand tilted about the closing direction by ``angle`` [rad]."""
     rotation = turn_about(grasp.tool.rotation[:, 1], angle) @ grasp.tool.rotation
     tool = Pose(grasp.tool.position, rotation)
-    return Grasp(tool, grasp.width, grasp.opening, grasp.pose, grasp.score + abs(angle))
+    return Grasp(tool, grasp.width, grasp.opening, grasp.pose, grasp.score + LEAN_COST * abs(angle))

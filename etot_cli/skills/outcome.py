@@ -29,7 +29,9 @@ def failed(
 ) -> SkillOutcome:
     """A failure with its physical cause; duplicate and foreign names are dropped."""
     names = tuple(dict.fromkeys(name.split(".")[0] for name in objects))
-    return SkillOutcome(False, Cause(kind, names, text, None if time_s is None else round(time_s, 3)))
+    return SkillOutcome(
+        False, Cause(kind, names, text, None if time_s is None else round(time_s, 3))
+    )
 
 
 class Blockers:

@@ -7,6 +7,7 @@ inputs must give the same plan whatever runs beside it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,7 +98,7 @@ def _over(arm: Arm, start: Vector, goal: Vector, lift: float, free: Free) -> Vec
             return None
         ends.append(raised.joints)
     path = [start, ends[0], ends[1], goal]
-    for a, b in zip(path, path[1:], strict=False):
+    for a, b in pairwise(path):
         if not edge_free(a, b, free):
             return None
     return np.stack(path)
@@ -125,14 +126,11 @@ def _rrt_connect(
                 break
             if np.abs(far[0][linked] - target).max() < 1e-9:
                 one, two = _trace(near, reached), _trace(far, linked)
-                path = one[::-1] + two[1:] if iteration % 2 == 0 else two[::-1] + one[1:]
-                return path
+                return one[::-1] + two[1:] if iteration % 2 == 0 else two[::-1] + one[1:]
     return None
 
 
-def _extend(
-    tree: tuple[list[Vector], list[int]], target: Vector, free: Free
-) -> int | None:
+def _extend(tree: tuple[list[Vector], list[int]], target: Vector, free: Free) -> int | None:
     nodes, parents = tree
     distances = np.abs(np.array(nodes) - target).max(axis=1)
     nearest = int(distances.argmin())

@@ -4,32 +4,33 @@ from __future__ import annotations
 
 import hashlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 
 import mujoco
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.articulate import prepare_articulation
+from etot_cli.skills.articulate import articulation_attempts
 from etot_cli.skills.collision import CollisionChecker
 from etot_cli.skills.kinematics import Arm
 from etot_cli.skills.outcome import SkillOutcome, failed
-from etot_cli.skills.pick import execute_grasp, prepare_grasps
+from etot_cli.skills.pick import execute_grasp, prepared_grasps
 from etot_cli.skills.pilot import Pilot
 from etot_cli.skills.put import put_into, put_on
 from etot_cli.skills.solids import Solids
+from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import place_objects
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Snapshot, restore, save
 from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
-from etot_cli.specs.scene import Scene
 
-GRASP_ATTEMPTS = 3
-"""Grasps tried one after the other, each from the action's own start state."""
+ATTEMPTS = 3
+"""Ways of an action tried one after the other, each from the action's own start state."""
 SETTLE_AT_START = 1.0
 """Time for a new scene to come to rest [s]."""
 
@@ -52,6 +53,7 @@ class Workshop:
     def __init__(self, scene: Scene, seed: int = 0, *, keep_frames: bool = True) -> None:
         self.world: World = build_world(scene)
         self.data = mujoco.MjData(self.world.model)
+        self.scratch = mujoco.MjData(self.world.model)
         self.arm = Arm(self.world.robot.spec)
         self.checker = CollisionChecker(self.world)
         self.solids = Solids(self.world)
@@ -81,7 +83,7 @@ class Workshop:
     def _pilot(self, recorder: Recorder, salt: str) -> Pilot:
         digest = hashlib.sha256(f"{self.seed}/{salt}".encode()).digest()
         rng = np.random.default_rng(int.from_bytes(digest[:8], "little"))
-        return Pilot(self.world, self.data, self.arm, self.checker, recorder, rng)
+        return Pilot(self.world, self.data, self.arm, self.checker, recorder, rng, self.scratch)
 
     def perform(self, start: Snapshot, action: Action) -> Performed:
         """Tries an action from a stored state; a function of its arguments and the seed alone."""
@@ -109,51 +111,53 @@ class Workshop:
         self, start: Snapshot, action: Action, before: SceneState
     ) -> tuple[SkillOutcome, Recorder]:
         """Runs the prepared attempts one after the other, each from the start state, until one
-        has its effect without shoving other objects about; else the first attempt counts."""
+        has its effect without shoving other objects about; else the first attempt counts.
+        """
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
-        pilot = self._pilot(recorder, str(action))
-        attempts, reason = self._prepare(pilot, action, before)
-        if reason is not None:
-            return reason, recorder
+        planner = self._pilot(recorder, str(action))
         first: tuple[SkillOutcome, Recorder, Snapshot] | None = None
-        for index, attempt in enumerate(attempts):
+        for index, attempt in enumerate(islice(self._attempts(planner, action, before), ATTEMPTS)):
+            if isinstance(attempt, SkillOutcome):
+                return attempt, recorder
             if index > 0:
-                restore(world, data, start)
                 recorder = Recorder(world, data, keep_frames=self.keep_frames)
-                pilot = self._pilot(recorder, f"{action}/{index}")
+            pilot = self._pilot(recorder, f"{action}/{index}")
             outcome = attempt(pilot)
             self.total_steps += pilot.steps
             if outcome.effect and _others_kept(before, recorder, action):
                 return outcome, recorder
             if first is None:
                 first = (outcome, recorder, save(world, data, start.memory))
-        assert first is not None  # there is at least one attempt when there is no reason
+            restore(world, data, start)
+        assert first is not None  # an action has at least one attempt or a reason
         restore(world, data, first[2])
         return first[0], first[1]
 
-    def _prepare(
+    def _attempts(
         self, pilot: Pilot, action: Action, before: SceneState
-    ) -> tuple[list[Attempt], SkillOutcome | None]:
+    ) -> Iterator[Attempt | SkillOutcome]:
+        """Ways to carry out the action, best first; a reason instead where there is none."""
         if action.verb is Verb.PUT_ON:
-            return [partial(put_on, action=action)], None
-        if action.verb is Verb.PUT_INTO:
-            return [partial(put_into, action=action)], None
-        if action.verb is Verb.PICK_UP:
+            yield partial(put_on, action=action)
+        elif action.verb is Verb.PUT_INTO:
+            yield partial(put_into, action=action)
+        elif action.verb is Verb.PICK_UP:
             problem = _pick_precondition(self.world, action, before)
             if problem is not None:
-                return [], problem
-            grasps, reason = prepare_grasps(
-                pilot, self.solids, action.target, action.pose, GRASP_ATTEMPTS
-            )
-            return [
-                partial(execute_grasp, name=action.target, prepared=grasp) for grasp in grasps
-            ], reason
-        if before.holding is not None:
-            return [], failed(
+                yield problem
+                return
+            for grasp in prepared_grasps(pilot, self.solids, action.target, action.pose):
+                if isinstance(grasp, SkillOutcome):
+                    yield grasp
+                else:
+                    yield partial(execute_grasp, name=action.target, prepared=grasp)
+        elif before.holding is not None:
+            yield failed(
                 CauseKind.PRECONDITION, [before.holding], f"the hand still holds {before.holding}"
             )
-        return prepare_articulation(pilot, action)
+        else:
+            yield from articulation_attempts(pilot, action)
 
 
 def _pick_precondition(world: World, action: Action, before: SceneState) -> SkillOutcome | None:
@@ -178,9 +182,7 @@ _BYSTANDER_LIMIT = 0.03
 def _others_kept(before: SceneState, recorder: Recorder, action: Action) -> bool:
     name = action.target
     carried = {
-        other
-        for other, state in before.states.items()
-        if state.inside == name or name in state.on
+        other for other, state in before.states.items() if state.inside == name or name in state.on
     }
     return all(
         other == name or other in carried or moved < _BYSTANDER_LIMIT

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.skills.action import GraspPose
 from etot_cli.skills.collision import Attached
 from etot_cli.skills.grasps import Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.kinematics import straight
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
 from etot_cli.skills.pilot import PhaseEnd, Pilot
 from etot_cli.skills.solids import Solids
@@ -29,9 +29,11 @@ HOLD_TIME = 0.4
 """Time the object must stay in the hand after the lift [s]."""
 SLIP_LIMIT = 0.025
 """Displacement in the hand that counts as slipping [m]."""
-MAX_PREPARED = 160
+MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
-TILTS = (0.0, -0.4, 0.4)
+MAX_RANKED = 48
+TILTS = (-0.3, 0.3, -0.6, 0.6)
+"""Leans of the hand about the closing direction [rad]."""
 CONTACT_CLEARANCE = 0.0008
 """Clearance of the hand at the grasp itself [m]."""
 
@@ -46,43 +48,42 @@ class PreparedGrasp:
     lift: Vector
 
 
-def prepare_grasps(
-    pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None, count: int
-) -> tuple[list[PreparedGrasp], SkillOutcome | None]:
-    """The best few grasps that can be reached, or the reason why there is none."""
+def prepared_grasps(
+    pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None
+) -> Iterator[PreparedGrasp | SkillOutcome]:
+    """Grasps that can be reached, best first, prepared one at a time as they are asked for.
+
+    When there is none, the only item is the reason. The pilot's world must stand as it did at the
+    first call whenever the next item is asked for.
+    """
     found = sample_grasps(pilot.world, solids, pilot.data, name, pose)
     blockers = Blockers(pilot.world)
     prepared: list[PreparedGrasp] = []
-    pilot.checker.freeze(pilot.data)
     unreachable = 0
     for candidate in _variants(found):
+        pilot.checker.freeze(pilot.data)
         result = _prepare(pilot, name, candidate, blockers)
         if result is None:
+            # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
+            result = _prepare(pilot, name, _spun(candidate), blockers)
+        if result is None:
             unreachable += 1
-        elif isinstance(result, PreparedGrasp):
-            if _is_new(result, prepared):
-                prepared.append(result)
-            if len(prepared) >= count:
-                break
-    if prepared:
-        return prepared, None
-    return [], _explain(pilot, name, found, blockers, unreachable)
+        elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
+            prepared.append(result)
+            yield result
+    if not prepared:
+        yield _explain(pilot, name, found, blockers, unreachable)
 
 
-def _variants(found: GraspSet) -> Iterator[Grasp]:
-    """Candidates best first, level ones before tilted ones; objects too wide for the gripper are
-    tried all the same when nothing else is left: physics decides."""
-    ranked = found.grasps or found.too_wide[:12]
-    seen = 0
+def _variants(found: GraspSet) -> list[Grasp]:
+    """Candidates best first, leaning ones behind upright ones of the same quality. Objects too wide
+    for the gripper are tried all the same when nothing else is left: physics decides.
+    """
+    ranked = found.grasps[:MAX_RANKED] or found.too_wide[:12]
+    variants = list(ranked)
     for tilt in TILTS:
-        for grasp in ranked:
-            if tilt and grasp.pose is GraspPose.HORIZONTAL:
-                continue
-            for spun in (grasp, _spun(grasp)):
-                seen += 1
-                if seen > MAX_PREPARED:
-                    return
-                yield tilted(spun, tilt) if tilt else spun
+        variants += [tilted(grasp, tilt) for grasp in ranked if grasp.pose is GraspPose.VERTICAL]
+    return sorted(variants, key=lambda grasp: grasp.score)[:MAX_PREPARED]
 
 
 def _spun(grasp: Grasp) -> Grasp:
@@ -110,7 +111,7 @@ def _prepare(
     at_start = arm.reach(start, pilot.commanded)
     if not at_start.reached:
         return None
-    line, count = arm.line(straight(start, grasp.tool, 0.012), at_start.joints)
+    line, count = arm.line(straight(start, grasp.tool), at_start.joints)
     if count == 0 or np.linalg.norm(arm.forward(line[-1]).position - grasp.tool.position) > 2e-3:
         return None
     allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
@@ -133,7 +134,7 @@ def _lift(
     attached = Attached(name, grasp.tool.inverse() @ pilot.object_pose(name))
     checker.set_fingers(min(grasp.width, grasp.opening))
     up = np.array([0.0, 0.0, LIFT])
-    path, count = arm.line(straight(grasp.tool, grasp.tool.moved(up), 0.02), joints)
+    path, count = arm.line(straight(grasp.tool, grasp.tool.moved(up)), joints)
     if count < 2:
         return None
     resting = {*_supports(pilot, name)}
@@ -199,9 +200,7 @@ def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutc
     pilot.command_opening(grasp.opening)
     end = pilot.transit(prepared.before)
     if end is None:
-        return failed(
-            CauseKind.UNREACHABLE, [name], f"no collision-free way of the arm to {name}"
-        )
+        return failed(CauseKind.UNREACHABLE, [name], f"no collision-free way of the arm to {name}")
     if end is PhaseEnd.BLOCKED:
         return _blocked(pilot, name, "on the way to it")
     if pilot.follow_line(prepared.approach, STANDOFF, APPROACH_SPEED) is PhaseEnd.BLOCKED:
@@ -259,4 +258,4 @@ def struck_objects(pilot: Pilot) -> list[str]:
     return list(found)
 
 
-__all__ = ["DONE", "LIFT", "PreparedGrasp", "execute_grasp", "prepare_grasps", "struck_objects"]
+__all__ = ["DONE", "LIFT", "PreparedGrasp", "execute_grasp", "prepared_grasps", "struck_objects"]

@@ -57,7 +57,7 @@ class Pilot:
     """The robot in one world during one action.
 
     Holds the live ``data``, the arm's kinematics, a collision checker of the frozen scene, the
-    recorder and the random generator of this action.
+    recorder, the random generator of this action, and ``scratch`` data for kinematics.
     """
 
     def __init__(
@@ -68,8 +68,9 @@ class Pilot:
         checker: CollisionChecker,
         recorder: Recorder,
         rng: np.random.Generator,
+        scratch: mujoco.MjData,
     ) -> None:
-        self.world, self.data, self.arm = world, data, arm
+        self.world, self.data, self.arm, self.scratch = world, data, arm, scratch
         self.checker, self.recorder, self.rng = checker, recorder, rng
         self.steps = 0
         self._periods = 0
@@ -233,9 +234,7 @@ class Pilot:
     def plan_transit(self, goal: Vector, attached: Attached | None = None) -> Vector | None:
         """A collision-free joint path (k, n) from the present targets to ``goal``."""
         self.checker.freeze(self.data)
-        return plan_transit(
-            self.arm, self.checker, self.commanded, goal, attached, self.rng
-        )
+        return plan_transit(self.arm, self.checker, self.commanded, goal, attached, self.rng)
 
     def drop_guard(self, attached: Attached, tolerance: float = 0.05) -> Guard:
         """True once the object has moved in the hand by more than ``tolerance`` [m]."""
@@ -256,8 +255,8 @@ class Pilot:
         """Sets the gripper's target distance between the pads [m]; takes effect as time passes."""
         gripper = self.world.robot.spec.gripper
         share = min(max(opening / gripper.opening, 0.0), 1.0)
-        self.data.ctrl[self.world.robot.gripper_ctrl] = (
-            gripper.command_closed + share * (gripper.command_open - gripper.command_closed)
+        self.data.ctrl[self.world.robot.gripper_ctrl] = gripper.command_closed + share * (
+            gripper.command_open - gripper.command_closed
         )
 
     def grip(self) -> None:

@@ -34,6 +34,9 @@ LOWER_STEP = 0.012
 OPEN_WIDER = 0.024
 """The fingers open by this much to let go [m]."""
 SETTLE_TIME = 1.6
+CLEARING_STEP = 0.05
+MAX_CLEARING = 6
+CLEARING_PAUSE = 0.15
 MAX_SPOTS = 24
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
 MOUTH_CLEARANCE = 0.02
@@ -91,9 +94,7 @@ def put_into(pilot: Pilot, action: Action) -> SkillOutcome:
     part = pilot.world.parts.get(action.target)
     region = pilot.world.regions.get(part.info.address if part else action.target)
     if region is None:
-        return failed(
-            CauseKind.PRECONDITION, [action.target], f"{action.target} is no container"
-        )
+        return failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
     attached = pilot.attach(name)
     pilot.checker.freeze(pilot.data)
     blockers = Blockers(pilot.world)
@@ -150,7 +151,7 @@ def _container_targets(
         return
     stands = entry.axis is not None and entry.info.size[0] > 2 * min(region.half[:2])
     base = _standing_rotation(pilot, attached) if stands else _resting_rotation(pilot, attached)
-    low, high = pilot.checker.extent(name, base)
+    low, _ = pilot.checker.extent(name, base)
     room = np.array(region.half[:2]) - (0.0 if stands else float(np.abs(low[:2]).max()))
     depth = 2 * region.half[2]
     for offset in _inside_offsets(region, room):
@@ -165,12 +166,11 @@ def _inside_offsets(region: Region, room: Vector) -> list[Vector]:
     if region.round or room.max() < 0.02:
         return [np.zeros(2)]
     shares = (0.0, 0.45, -0.45, 0.9, -0.9, 0.7, -0.7)
-    offsets = [
+    return [
         np.array([a * max(room[0], 0.0), b * max(room[1], 0.0)])
         for a in sorted(shares, reverse=True)
         for b in (0.0, 0.5, -0.5)
     ]
-    return offsets
 
 
 def _resting_rotation(pilot: Pilot, attached: Attached) -> Vector:
@@ -262,7 +262,7 @@ def _prepare(
     above = arm.reach(tool.moved(UP * HOVER), pilot.commanded)
     if not above.reached:
         return None
-    down, count = arm.line(straight(tool.moved(UP * HOVER), tool, 0.012), above.joints)
+    down, count = arm.line(straight(tool.moved(UP * HOVER), tool), above.joints)
     if count == 0 or np.linalg.norm(arm.forward(down[-1]).position - tool.position) > 2e-3:
         return None
     for joints, allow in ((down[-1], touching), (above.joints, set())):
@@ -323,17 +323,15 @@ def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> Vector | No
     """Back out along the approach direction with opened fingers."""
     checker, arm = pilot.checker, pilot.arm
     away = tool.moved(-RETREAT * tool.rotation[:, 2])
-    path, count = arm.line(straight(tool, away, 0.015), joints)
+    path, count = arm.line(straight(tool, away), joints)
     if count < 2:
         return None
     checker.set_fingers(pilot.opening + OPEN_WIDER)
-    for row in (path[-1], path[count // 2]):
-        hits = checker.hits(row, clearance=0.0, allow={name})
-        if hits:
-            path = None
-            break
+    obstructed = any(
+        checker.hits(row, clearance=0.0, allow={name}) for row in (path[-1], path[count // 2])
+    )
     checker.set_fingers(pilot.opening)
-    return path
+    return None if obstructed else path
 
 
 def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOutcome:
@@ -341,9 +339,7 @@ def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOut
     name, recorder = attached.name, pilot.recorder
     end = pilot.transit(placement.before, attached)
     if end is None:
-        return failed(
-            CauseKind.UNREACHABLE, [name], f"no collision-free way to carry {name} there"
-        )
+        return failed(CauseKind.UNREACHABLE, [name], f"no collision-free way to carry {name} there")
     if end is PhaseEnd.GUARD:
         return _lost_grip(pilot, name, "on the way")
     if end is PhaseEnd.BLOCKED:
@@ -356,11 +352,29 @@ def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOut
     recorder.mark(pilot.data)
     pilot.release(pilot.opening + OPEN_WIDER)
     pilot.follow_line(placement.back, RETREAT, LOWER_SPEED * 1.5)
+    _clear_hand(pilot)
     pilot.settle(SETTLE_TIME)
     recorder.mark(pilot.data)
     if pilot.held() == name:
         return failed(CauseKind.NO_EFFECT, [name], f"{name} stayed in the fingers")
     return DONE
+
+
+def _clear_hand(pilot: Pilot) -> None:
+    """Backs out further while something leans on the hand: what the hand props up does not stand.
+
+    The paper's own world model failed on exactly this (section "Failure case analysis").
+    """
+    for _ in range(MAX_CLEARING):
+        pilot.wait(CLEARING_PAUSE)
+        if not struck_objects(pilot):
+            return
+        tool = pilot.arm.forward(pilot.commanded)
+        for offset in (-CLEARING_STEP * tool.rotation[:, 2], UP * CLEARING_STEP):
+            path, count = pilot.arm.line(straight(tool, tool.moved(offset)), pilot.commanded)
+            if count and not pilot.checker.hits(path[-1], clearance=0.0, allow=pilot.world.entries):
+                pilot.follow_line(path, CLEARING_STEP, LOWER_SPEED * 1.5)
+                break
 
 
 def _lost_grip(pilot: Pilot, name: str, when: str) -> SkillOutcome:

@@ -61,8 +61,7 @@ class Solids:
             For every line its disjoint intervals in order, touching pieces merged.
         """
         spans = [
-            self._span(data, int(geom), origins, directions)
-            for geom in self._world.geoms_of(name)
+            self._span(data, int(geom), origins, directions) for geom in self._world.geoms_of(name)
         ]
         lines: list[list[Interval]] = []
         for i in range(len(origins)):

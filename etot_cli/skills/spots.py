@@ -97,7 +97,10 @@ def surface_spots(
     """Spots on a surface for an object of footprint ``radius`` [m], best first.
 
     Args:
+        world: the world.
+        data: current poses.
         target: ``desk`` or a surface's address.
+        radius: of the object's footprint [m].
         keepout: discs to stay clear of.
         ignore: objects that are no obstacles (the one in the hand).
         prefer: x, y (2,) near which spots are better, other things being equal.
@@ -128,9 +131,7 @@ def surface_spots(
     return [(points[i], height) for i in order if allowed[i]]
 
 
-def _grid(
-    world: World, data: mujoco.MjData, target: str, radius: float
-) -> tuple[Vector, float]:
+def _grid(world: World, data: mujoco.MjData, target: str, radius: float) -> tuple[Vector, float]:
     if target == DESK:
         desk = world.scene.desk
         center = np.array([*desk.center, desk.top])

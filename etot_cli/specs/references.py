@@ -131,9 +131,20 @@ def task_problems(task: Task) -> list[Problem]:
         if given.inside is not None:
             valid = containers(scene)
             problems.extend(_check((*path, "inside"), given.inside, valid, "container", scene))
+        if given.at is not None and not _above_desk(given.at, scene):
+            message = f"found {list(given.at)}, expected x y on the desk"
+            problems.append(Problem((*path, "at"), message))
         if given.move in (given.on, given.inside):
             problems.append(Problem(path, f"{given.move!r} cannot be put on or into itself"))
     return problems
+
+
+def _above_desk(point: tuple[float, float], scene: Scene) -> bool:
+    desk = scene.desk
+    return all(
+        abs(value - centre) <= size / 2
+        for value, centre, size in zip(point, desk.center, desk.size, strict=True)
+    )
 
 
 _SINGLE: Mapping[str, tuple[str, Callable[[Scene], list[str]]]] = {

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from etot_cli.specs.checks import placement_problems
 from etot_cli.specs.footprint import turned
-from etot_cli.specs.objects import Cup, ObjectBase
+from etot_cli.specs.objects import FURNITURE, Cup, ObjectBase
 from etot_cli.specs.placement import Placed, place_all
 from etot_cli.specs.references import DESK, support_of
 from etot_cli.specs.scene import Scene
@@ -147,7 +147,11 @@ def _own_share(scene: Scene, name: str, item: ObjectBase) -> float:
     below = support_of(item)
     if below == DESK:
         return 1.0
-    return 0.0 if isinstance(scene.objects[below], Cup) else OWN_SHARE
+    # Of these the size of the hollow is not known here, or too small to move in.
+    tight = isinstance(scene.objects[below], Cup) or (
+        item.inside is not None and not isinstance(scene.objects[below], FURNITURE)
+    )
+    return 0.0 if tight else OWN_SHARE
 
 
 def _pose(

@@ -290,7 +290,11 @@ def _add_object(
 def _look(spec: Any) -> Look:
     rolling = ROLLING_DEFAULT if spec.rolling_friction is None else spec.rolling_friction
     color = rgb(spec.color) if spec.color is not None else DEFAULT_COLOR
-    mass = spec.mass if isinstance(spec, specs.Sphere | specs.Box | specs.Cylinder | specs.Capsule) else None
+    mass = (
+        spec.mass
+        if isinstance(spec, specs.Sphere | specs.Box | specs.Cylinder | specs.Capsule)
+        else None
+    )
     return Look((*color, 1.0), spec.friction, rolling, spec.slippery, mass, shapes.DENSITY)
 
 
@@ -309,7 +313,9 @@ def resting_quaternion(spec: Any) -> tuple[float, float, float, float]:
     return math.cos(half), 0.0, 0.0, math.sin(half)
 
 
-def _fixed_position(scene: specs.Scene, name: str, spec: Any, size: tuple[float, ...]) -> list[float]:
+def _fixed_position(
+    scene: specs.Scene, name: str, spec: Any, size: tuple[float, ...]
+) -> list[float]:
     if spec.at is not None and len(spec.at) == 3:
         return list(spec.at)
     if spec.inside is not None or (spec.on is not None and spec.on != DESK):

@@ -15,6 +15,8 @@ FRAME_PERIOD = 0.04
 """Time between stored configurations [s]."""
 MOVED = 0.01
 """Objects displaced further than this count as having moved [m]."""
+PRESSED = 2.0
+"""A contact that existed before the action matters only when it is pressed harder than this [N]."""
 FORCE_THRESHOLD = 0.05
 """Normal forces below this do not matter [N]."""
 
@@ -51,7 +53,9 @@ class Recorder:
         self._farthest = np.zeros(len(self._names))
         self._path_low = self._origin.copy()
         self._path_high = self._origin.copy()
-        self._events: dict[int, list[float]] = {}
+        self._peak = np.zeros(len(owners) ** 2)
+        self._impulse = np.zeros(len(owners) ** 2)
+        self._first_time = np.zeros(len(owners) ** 2)
         self._keep_frames = keep_frames
         self._times: list[float] = []
         self._frames: list[NDArray[np.float32]] = []
@@ -85,19 +89,18 @@ class Recorder:
             self._frame(data)
 
     def _observe_contacts(self, data: mujoco.MjData, now: float, elapsed: float) -> None:
-        pairs = self._pairs(data)
-        address = data.contact.efc_address
+        contact = data.contact
+        address = contact.efc_address
         force = np.where(address >= 0, data.efc_force[np.maximum(address, 0)], 0.0)
-        for pair in np.unique(pairs):
-            total = float(force[pairs == pair].sum())
-            if total < FORCE_THRESHOLD:
-                continue
-            event = self._events.get(int(pair))
-            if event is None:
-                self._events[int(pair)] = [now - self.start_time, total, total * elapsed]
-            else:
-                event[1] = max(event[1], total)
-                event[2] += total * elapsed
+        labels = self._geom_label[contact.geom]
+        pairs = labels.min(axis=1) * len(self._labels) + labels.max(axis=1)
+        total = np.bincount(pairs, weights=force, minlength=self._peak.size)
+        total[total < FORCE_THRESHOLD] = 0.0
+        fresh = (total > 0.0) & (self._peak == 0.0)
+        if fresh.any():
+            self._first_time[fresh] = now - self.start_time
+        np.maximum(self._peak, total, out=self._peak)
+        self._impulse += total * elapsed
 
     def _frame(self, data: mujoco.MjData) -> None:
         self._times.append(float(data.time))
@@ -110,14 +113,22 @@ class Recorder:
     def contacts(self) -> tuple[ContactEvent, ...]:
         """Contacts that began during the action or pressed notably, in order of time."""
         events = []
-        for pair, (time, peak, impulse) in self._events.items():
-            first, second = divmod(pair, len(self._labels))
+        for pair in np.nonzero(self._peak)[0]:
+            first, second = divmod(int(pair), len(self._labels))
             if self._label_object[first] == self._label_object[second]:
                 continue
-            if pair in self._baseline and peak < 2.0:
+            peak = float(self._peak[pair])
+            if int(pair) in self._baseline and peak < PRESSED:
                 continue
-            one, two = self._labels[first], self._labels[second]
-            events.append(ContactEvent(round(time, 3), one, two, round(peak, 3), round(impulse, 4)))
+            events.append(
+                ContactEvent(
+                    round(float(self._first_time[pair]), 3),
+                    self._labels[first],
+                    self._labels[second],
+                    round(peak, 3),
+                    round(float(self._impulse[pair]), 4),
+                )
+            )
         return tuple(sorted(events, key=lambda event: (event.time_s, event.first, event.second)))
 
     def displacement(self) -> dict[str, float]:

@@ -38,9 +38,7 @@ def initial_memory(world: World, data: mujoco.MjData) -> Memory:
     return Memory(up=up)
 
 
-def read_scene(
-    world: World, data: mujoco.MjData, memory: Memory
-) -> tuple[SceneState, Memory]:
+def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[SceneState, Memory]:
     """All objects' states now, and the memory for the next reading.
 
     ``data`` must be current (``mj_forward`` or a step).

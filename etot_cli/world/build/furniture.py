@@ -43,9 +43,9 @@ def add_drawer_unit(
 ) -> tuple[tuple[Part, ...], tuple[Region, ...], tuple[Surface, ...]]:
     """Carcass and sliding drawers; returns parts, compartments and the top surface."""
     depth, width, height = (side / 2 for side in spec.size)
-    t, count = spec.wall, len(spec.drawers)
+    t = spec.wall
     front = depth - t
-    level = (spec.size[2] - (count + 1) * t) / count
+    levels = spec.compartment_heights()
     _panel(body, look, (-depth, -width, height - t), (front, width, height))
     _panel(body, look, (-depth, -width, -height), (front, width, -height + t))
     _panel(body, look, (-depth, -width, -height + t), (-depth + t, width, height - t))
@@ -56,7 +56,8 @@ def add_drawer_unit(
     regions: list[Region] = []
     movable = [drawer for drawer in spec.drawers if drawer.travel > 0]
     for index, drawer in enumerate(spec.drawers):
-        top = height - t - index * (level + t)
+        level = levels[index]
+        top = height - t - sum(levels[:index]) - index * t
         if index > 0:
             _panel(body, look, (-depth + t, -width + t, top), (front, width - t, top + t))
         low = top - level
@@ -113,7 +114,10 @@ def _drawer(
     front_low, front_top = low - t / 2 + 0.001, top + t / 2 - 0.001
     middle = (front_low + front_top) / 2
     _panel(
-        moving, look.darker(0.85).with_mass(0.2), (front, -width, front_low), (depth, width, front_top)
+        moving,
+        look.darker(0.85).with_mass(0.2),
+        (front, -width, front_low),
+        (depth, width, front_top),
     )
     half_height = (front_top - front_low) / 2
     outer = Face((depth, 0, middle), (1, 0, 0), (0, width, 0), (0, 0, half_height))
@@ -227,9 +231,7 @@ def add_cabinet(
         ((front + depth - t) / 2, width - t, height - t),
         opening=(1.0, 0.0, 0.0),
     )
-    surface = Surface(
-        name, name, ((front - depth) / 2, 0.0, height), ((front + depth) / 2, width)
-    )
+    surface = Surface(name, name, ((front - depth) / 2, 0.0, height), ((front + depth) / 2, width))
     part = Part(info, part_name, part_name, 0.0, travel, outer, inner, tuple(grasps))
     return (part,), (region,), (surface,)
 

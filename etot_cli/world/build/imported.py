@@ -149,9 +149,7 @@ def attach_mjcf(
         child = mujoco.MjSpec.from_file(str(path))
     except ValueError as error:
         raise WorldError(f"{path.name}: not a valid MJCF model ({error})") from error
-    free = [
-        joint for joint in child.joints if joint.type == mujoco.mjtJoint.mjJNT_FREE
-    ]
+    free = [joint for joint in child.joints if joint.type == mujoco.mjtJoint.mjJNT_FREE]
     for joint in free:
         child.delete(joint)
     joints = {joint.name for joint in child.joints}
@@ -194,9 +192,7 @@ def mjcf_parts(
             name, part_name, address, kind, abs(opened - closed), part.container_site is not None
         )
         outer, inner = _faces(model, name, part, joint, body)
-        parts.append(
-            Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, ())
-        )
+        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, ()))
         if part.container_site:
             regions.append(_region(model, f"{name}/{part.container_site}", address))
     if spec.container_site:

@@ -1,0 +1,228 @@
+"""Furniture with one open part: drawer units and cabinets with a hinged door.
+
+Both are hollow, made of panels, in the frame that the scene's kinds use: own +x out of the front.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+
+from etot_cli.reconstruction.shapes.base import (
+    Evidence,
+    Family,
+    box_corners,
+    box_distance,
+    ground_rectangle,
+    own_frame,
+    rotate,
+)
+from etot_cli.reconstruction.view import Array, View
+
+UNIT_WALL = 0.006
+"""Panels of a drawer unit [m]; the default of the scene's kind."""
+CABINET_WALL = 0.012
+DOOR_THICKNESS = 0.02
+DRAWER_SIDES = 0.6
+"""Height of a drawer's sides as a share of its compartment."""
+Panel = tuple[list[float], list[float]]
+
+
+class OpenUnit(Family):
+    """A unit of two equal drawers, the upper one out by ``open``."""
+
+    kind: ClassVar[str] = "drawer_unit"
+    names: ClassVar[tuple[str, ...]] = (
+        "x", "y", "z", "yaw", "length", "width", "height", "open",
+    )  # fmt: skip
+    complexity: ClassVar[float] = 9.0
+
+    def __init__(self, drawers: int = 2) -> None:
+        self.drawers = drawers
+
+    def guesses(self, evidence: Evidence) -> list[Array]:
+        points, base = evidence.points, evidence.base
+        center, sides, yaw, height = ground_rectangle(evidence)
+        if min(*sides, height) < 0.05:
+            return []
+        found = []
+        # Whatever is seen beyond the roof's outline on one side is the drawer.
+        local = rotate(points[:, :2] - center, -yaw)
+        below = local[points[:, 2] < base + 0.95 * height]
+        for quarter in range(4):
+            turned = rotate(below, -quarter * np.pi / 2)
+            length, width = sides if quarter % 2 == 0 else sides[::-1]
+            sticks = turned[np.abs(turned[:, 1]) < width / 2]
+            out = np.percentile(sticks[:, 0], 99) - length / 2 if len(sticks) > 20 else 0.0
+            if out > 0.008:
+                angle = yaw + quarter * np.pi / 2
+                found.append((out, np.array([*center, base, angle, length, width, height, out])))
+        found.sort(key=lambda item: -item[0])
+        return [guess for _, guess in found[:2]]
+
+    def bounds(self, start: Array) -> tuple[Array, Array]:
+        low, high = super().bounds(start)
+        low[7], high[7] = 0.0, max(0.3, start[7] * 1.2)
+        return low, high
+
+    def panels(self, params: Array) -> tuple[list[Panel], list[Panel]]:
+        """Fixed and moving panels as (low, high) corners, own frame, z from the base."""
+        depth, width, height = params[4] / 2, params[5] / 2, params[6]
+        t, out, front = UNIT_WALL, params[7], params[4] / 2 - UNIT_WALL
+        level = (height - (self.drawers + 1) * t) / self.drawers
+        low = height - t - level
+        fixed: list[Panel] = [
+            ([-depth, -width, height - t], [front, width, height]),
+            ([-depth, -width, 0.0], [front, width, t]),
+            ([-depth, -width, 0.0], [-depth + t, width, height]),
+            ([-depth, -width, 0.0], [front, -width + t, height]),
+            ([-depth, width - t, 0.0], [front, width, height]),
+        ]
+        if self.drawers > 1:
+            fixed.append(([front, -width, 0.0], [depth, width, low - t / 2]))
+            fixed.append(([-depth, -width, low - t], [front, width, low]))
+        inner, back = width - t, -depth + t
+        side_top = low + DRAWER_SIDES * level
+        moving: list[Panel] = [
+            ([front + out, -width, low - t / 2], [depth + out, width, height - t / 2]),
+            ([back + out, -inner, low], [front + out, inner, low + 0.005]),
+            ([back + out, -inner, low], [back + out + 0.004, inner, side_top]),
+            ([back + out, -inner, low], [front + out, -inner + 0.004, side_top]),
+            ([back + out, inner - 0.004, low], [front + out, inner, side_top]),
+        ]
+        return fixed, moving
+
+    def hulls(self, params: Array, view: View) -> list[Array]:
+        length, width, height = params[4:7]
+        fixed, moving = self.panels(params)
+        body = box_corners([-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height])
+        sets = [body, box_corners(*moving[0])]
+        if self.drawers > 1:
+            sets.append(box_corners(*fixed[5]))
+        # The drawer's body is open at the top: its hull is that of its panels, front apart.
+        tray = [box_corners(*panel) for panel in moving[1:]]
+        sets.append(np.vstack(tray))
+        return [rotate(points, params[3]) + params[:3] for points in sets]
+
+    def distance(self, params: Array, points: Array) -> Array:
+        local = own_frame(points, params, params[3])
+        fixed, moving = self.panels(params)
+        return np.min(
+            [box_distance(local, np.array(low), np.array(high)) for low, high in fixed + moving],
+            axis=0,
+        )
+
+    def size(self, params: Array) -> tuple[float, float, float]:
+        return float(params[4]), float(params[5]), float(params[6])
+
+    def spec(self, params: Array) -> dict[str, Any]:
+        return unit_spec(self.size(params), self.drawers, float(params[7]))
+
+    def volume(self, params: Array) -> float:
+        length, width, height = params[4:7]
+        faces = 2 * (length * width + length * height + width * height)
+        return float(1.6 * UNIT_WALL * faces)
+
+
+class OpenCabinet(Family):
+    """A cabinet whose door, hinged at one side of its front, stands open by ``angle`` [rad]."""
+
+    kind: ClassVar[str] = "cabinet"
+    names: ClassVar[tuple[str, ...]] = (
+        "x", "y", "z", "yaw", "length", "width", "height", "angle",
+    )  # fmt: skip
+    complexity: ClassVar[float] = 9.0
+
+    def __init__(self, hinge: str) -> None:
+        self.hinge = hinge
+        self.side = -1.0 if hinge == "left" else 1.0
+
+    def guesses(self, evidence: Evidence) -> list[Array]:
+        center, sides, yaw, height = ground_rectangle(evidence)
+        if min(*sides, height) < 0.08:
+            return []
+        found = []
+        for quarter in range(4):
+            length, width = sides if quarter % 2 == 0 else sides[::-1]
+            for angle in (0.15, 0.6, 1.2):
+                found.append(
+                    np.array([*center, evidence.base, yaw + quarter * np.pi / 2, length, width,
+                              height, angle])
+                )  # fmt: skip
+        return found
+
+    def bounds(self, start: Array) -> tuple[Array, Array]:
+        low, high = super().bounds(start)
+        low[7], high[7] = 0.0, 2.6
+        return low, high
+
+    def _door(self, params: Array) -> tuple[Array, float]:
+        """Hinge (3,) in the own frame and the yaw that turns the closed door to where it is."""
+        length, width = params[4:6]
+        front = length / 2 - DOOR_THICKNESS
+        return np.array([front + 0.001, self.side * width / 2, 0.0]), self.side * params[7]
+
+    def _door_extent(self, params: Array) -> Panel:
+        reach = -self.side * params[5]
+        y0, y1 = min(0.0, reach), max(0.0, reach)
+        return [0.0, y0, 0.0], [DOOR_THICKNESS - 0.001, y1, params[6]]
+
+    def hulls(self, params: Array, view: View) -> list[Array]:
+        length, width, height = params[4:7]
+        body = box_corners(
+            [-length / 2, -width / 2, 0], [length / 2 - DOOR_THICKNESS, width / 2, height]
+        )
+        hinge, turn = self._door(params)
+        door = rotate(box_corners(*self._door_extent(params)), turn) + hinge
+        return [rotate(points, params[3]) + params[:3] for points in (body, door)]
+
+    def distance(self, params: Array, points: Array) -> Array:
+        local = own_frame(points, params, params[3])
+        depth, width, height = params[4] / 2, params[5] / 2, params[6]
+        t, front = CABINET_WALL, params[4] / 2 - DOOR_THICKNESS
+        panels: list[Panel] = [
+            ([-depth, -width, height - t], [front, width, height]),
+            ([-depth, -width, 0.0], [front, width, t]),
+            ([-depth, -width, 0.0], [-depth + t, width, height]),
+            ([-depth, -width, 0.0], [front, -width + t, height]),
+            ([-depth, width - t, 0.0], [front, width, height]),
+        ]
+        found = [box_distance(local, np.array(low), np.array(high)) for low, high in panels]
+        hinge, turn = self._door(params)
+        low, high = self._door_extent(params)
+        found.append(box_distance(rotate(local - hinge, -turn), np.array(low), np.array(high)))
+        return np.min(found, axis=0)
+
+    def size(self, params: Array) -> tuple[float, float, float]:
+        return float(params[4]), float(params[5]), float(params[6])
+
+    def spec(self, params: Array) -> dict[str, Any]:
+        return cabinet_spec(self.size(params), self.hinge, float(np.degrees(params[7])))
+
+    def volume(self, params: Array) -> float:
+        length, width, height = params[4:7]
+        faces = 2 * (length * width + length * height + width * height)
+        return float(CABINET_WALL * faces)
+
+
+def unit_spec(size: tuple[float, float, float], drawers: int, opened: float) -> dict[str, Any]:
+    """Scene keys of a drawer unit whose upper drawer moves."""
+    travel = max(round(0.6 * size[0], 3), round(opened + 0.001, 3))
+    names = ("top", "bottom") if drawers == 2 else tuple(f"drawer_{i + 1}" for i in range(drawers))
+    return {
+        "kind": "drawer_unit",
+        "size": list(size),
+        "drawers": [
+            {"name": name, "travel": travel if index == 0 else 0.0,
+             "open": max(opened, 0.0) if index == 0 else 0.0}
+            for index, name in enumerate(names)
+        ],
+    }  # fmt: skip
+
+
+def cabinet_spec(size: tuple[float, float, float], hinge: str, degrees: float) -> dict[str, Any]:
+    """Scene keys of a cabinet with a hinged door."""
+    opened = min(max(degrees, 0.0), 170.0)
+    door = {"hinge": hinge, "open_deg": opened, "range_deg": max(110.0, opened)}
+    return {"kind": "cabinet", "size": list(size), "door": door}

@@ -1,0 +1,117 @@
+"""Lying rods: pointed pens and blunt capsules."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+
+from etot_cli.reconstruction.shapes.base import (
+    CIRCLE,
+    Evidence,
+    Family,
+    convex_distance,
+    ground_rectangle,
+    own_frame,
+    rotate,
+)
+from etot_cli.reconstruction.view import Array, View
+
+SLENDER = 2.2
+"""Longer than this many times its diameter a thing may be a rod."""
+
+
+class Capsule(Family):
+    """A lying rod with round ends: ``x, y, z``, ``yaw`` of its axis, ``length``, ``diameter``."""
+
+    kind: ClassVar[str] = "capsule"
+    names: ClassVar[tuple[str, ...]] = ("x", "y", "z", "yaw", "length", "diameter")
+    complexity: ClassVar[float] = 6.0
+
+    def guesses(self, evidence: Evidence) -> list[Array]:
+        flat = evidence.points[:, :2]
+        center = np.median(flat, axis=0)
+        axis = np.linalg.svd(flat - center, full_matrices=False)[2][0]
+        along = (flat - center) @ axis
+        low, high = np.percentile(along, [0.5, 99.5])
+        middle = center + axis * (low + high) / 2
+        across = np.percentile(np.abs((flat - middle) @ [-axis[1], axis[0]]), 95) * 2
+        _, _, _, height = ground_rectangle(evidence)
+        thick = max(float(min(height, across * 1.3)), 0.006)
+        if high - low < 1.5 * thick:
+            return []
+        yaw = float(np.arctan2(axis[1], axis[0]))
+        return self._directed(np.array([*middle, evidence.base, yaw, high - low, thick]))
+
+    def _directed(self, guess: Array) -> list[Array]:
+        return [guess]
+
+    def hulls(self, params: Array, view: View) -> list[Array]:
+        length, diameter = params[4:6]
+        radius = diameter / 2
+        half = max(length / 2 - radius, 0.0)
+        rings = []
+        for latitude in np.linspace(-np.pi / 2, np.pi / 2, 13):
+            ring = radius * np.cos(latitude) * CIRCLE[::2]
+            x = np.sign(latitude) * half + radius * np.sin(latitude)
+            rings.append(np.column_stack([np.full(len(ring), x), ring + [0.0, radius]]))
+        return [rotate(np.vstack(rings), params[3]) + params[:3]]
+
+    def distance(self, params: Array, points: Array) -> Array:
+        length, diameter = params[4:6]
+        local = own_frame(points, params, params[3]) - [0.0, 0.0, diameter / 2]
+        half = max(length / 2 - diameter / 2, 0.0)
+        local[:, 0] -= np.clip(local[:, 0], -half, half)
+        return np.asarray(np.linalg.norm(local, axis=1) - diameter / 2)
+
+    def size(self, params: Array) -> tuple[float, float, float]:
+        return float(params[4]), float(params[5]), float(params[5])
+
+    def spec(self, params: Array) -> dict[str, Any]:
+        return {"kind": self.kind, "diameter": float(params[5]), "length": float(params[4])}
+
+    def volume(self, params: Array) -> float:
+        length, diameter = params[4:6]
+        return float(np.pi * diameter**2 / 4 * (length - diameter / 3))
+
+
+class Pen(Capsule):
+    """A pointed rod, its point towards its own +x; ``tip`` is the length of the cone."""
+
+    kind: ClassVar[str] = "pen"
+    names: ClassVar[tuple[str, ...]] = (*Capsule.names, "tip")
+    complexity: ClassVar[float] = 6.5
+
+    def _directed(self, guess: Array) -> list[Array]:
+        tip = min(1.2 * guess[5], 0.3 * guess[4])
+        turned = guess.copy()
+        turned[3] += np.pi
+        return [np.array([*guess, tip]), np.array([*turned, tip])]
+
+    def bounds(self, start: Array) -> tuple[Array, Array]:
+        low, high = super().bounds(start)
+        high[6] = 0.5 * start[4]
+        return low, high
+
+    def hulls(self, params: Array, view: View) -> list[Array]:
+        length, diameter, tip = params[4:7]
+        ring = CIRCLE * diameter / 2 + [0.0, diameter / 2]
+        rings = [np.column_stack([np.full(len(ring), x), ring])
+                 for x in (-length / 2, length / 2 - tip)]  # fmt: skip
+        rings.append(np.array([[length / 2, 0.0, diameter / 2]]))
+        return [rotate(np.vstack(rings), params[3]) + params[:3]]
+
+    def distance(self, params: Array, points: Array) -> Array:
+        length, diameter, tip = params[4:7]
+        local = own_frame(points, params, params[3])
+        radial = np.hypot(local[:, 1], local[:, 2] - diameter / 2)
+        r, half = diameter / 2, length / 2
+        shape = [[-half, -r], [-half, r], [half - tip, r], [half, 0.0], [half - tip, -r]]
+        return convex_distance(np.column_stack([local[:, 0], radial]), np.array(shape))
+
+    def spec(self, params: Array) -> dict[str, Any]:
+        return {**super().spec(params), "kind": self.kind, "tip_length": float(params[6])}
+
+    def volume(self, params: Array) -> float:
+        length, diameter, tip = params[4:7]
+        return float(np.pi * diameter**2 / 4 * (length - tip * 2 / 3))
