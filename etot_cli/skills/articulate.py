@@ -34,13 +34,15 @@ FACE_GAP = 0.004
 PRESS = 0.003
 """How far the targets lie inside the face while pushing [m]."""
 TOOL_SPEED = 0.16
-EDGE_DEPTH = 0.035
+EDGE_DEPTHS = (0.035, 0.012)
 """How far below a panel's upper edge the fingertip works [m]."""
 PATH_STEP = 0.012
 """Spacing of tool poses along the part's path [m]."""
 SHARES = (0.86, 0.72, 0.58, 0.45, 0.32)
 """Where along a door to push, as shares of its width from the hinge."""
-SIDE_SHARES = (0.0, 0.45, -0.45)
+SIDE_SHARES = (0.0, 0.45, -0.45, 0.85, -0.85)
+GRIP_TILTS = (0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0)
+"""Leans of the hand about the closing direction when it grips [rad]."""
 TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
 OVERTRAVEL = 0.004
 """How far beyond the closed position the target lies, so that it really closes [m]."""
@@ -150,20 +152,30 @@ def _candidates(
 ) -> Iterator[PreparedMove]:
     opening = abs(target - part.upper) < abs(target - part.lower)
     if opening:
-        for grasp in part.grasps:
-            for tilt in (0.0, 0.5, 1.0):
-                move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, lenient)
-                if move is not None:
-                    yield move
+        yield from _grip_moves(pilot, part, value, target, blockers, lenient)
     face = part.inner if opening else part.outer
     if face is None:
         return
     for contact in _contacts(part, face):
-        for tilt in TILTS:
-            move = _push_move(pilot, part, face, contact, value, target, tilt, blockers, lenient)
+        for outward in (False, True):
+            push = Push(face, contact, outward)
+            for tilt in TILTS[1:] if outward else TILTS:
+                move = _push_move(pilot, part, push, value, target, tilt, blockers, lenient)
+                if move is not None:
+                    yield move
+                    break
+    if not opening:
+        yield from _grip_moves(pilot, part, value, target, blockers, lenient)
+
+
+def _grip_moves(
+    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, lenient: bool
+) -> Iterator[PreparedMove]:
+    for grasp in part.grasps:
+        for tilt in GRIP_TILTS:
+            move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, lenient)
             if move is not None:
                 yield move
-                break
 
 
 def _contacts(part: Part, face: Face) -> Iterator[Vector]:
@@ -173,18 +185,29 @@ def _contacts(part: Part, face: Face) -> Iterator[Vector]:
         u, v = v, u
     v = v if v[2] >= 0 else -v
     height = float(np.linalg.norm(v))
-    top = v * max(1.0 - EDGE_DEPTH / height, 0.0) if height > 0 else v
+    levels = [v * max(1.0 - depth / height, 0.0) for depth in EDGE_DEPTHS] + [np.zeros(3)]
     if part.info.joint_type == "hinge":
         hinge = (
             center - u if np.linalg.norm(center - u) < np.linalg.norm(center + u) else center + u
         )
         for share in SHARES:
-            for level in (top, np.zeros(3)):
+            for level in levels:
                 yield hinge + (center - hinge) * 2 * share + level
     else:
         for share in SIDE_SHARES:
-            for level in (top, np.zeros(3)):
+            for level in levels:
                 yield center + u * share + level
+
+
+@dataclass(frozen=True)
+class Push:
+    """A face of a part, the contact point on it (part frame), and where the hand leans when it
+    tilts: with the push, or outward from the robot's base, which reaches farther.
+    """
+
+    face: Face
+    contact: Vector
+    outward: bool
 
 
 class _PartFrame:
@@ -358,8 +381,7 @@ def _is_movable(pilot: Pilot, address: str) -> bool:
 def _push_move(
     pilot: Pilot,
     part: Part,
-    face: Face,
-    contact: Vector,
+    push: Push,
     value: float,
     target: float,
     tilt: float,
@@ -373,12 +395,12 @@ def _push_move(
     frame = _PartFrame(pilot, part)
     checker.set_fingers(0.0)
     checker.set_joint(part.joint, value)
-    tool = _push_pose(frame.at(value), face, contact, tilt, -FACE_GAP)
+    tool = _push_pose(frame.at(value), push, tilt, -FACE_GAP)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
     best: PreparedMove | None = None
     for before, approach in _approaches(pilot, start, tool, True, blockers, lenient):
         move = _push_along(
-            pilot, part, frame, face, contact, value, target, tilt, before, approach, blockers,
+            pilot, part, frame, push, value, target, tilt, before, approach, blockers,
             lenient,
         )  # fmt: skip
         if move is not None and (
@@ -394,8 +416,7 @@ def _push_along(
     pilot: Pilot,
     part: Part,
     frame: _PartFrame,
-    face: Face,
-    contact: Vector,
+    push: Push,
     value: float,
     target: float,
     tilt: float,
@@ -405,7 +426,7 @@ def _push_along(
     lenient: bool,
 ) -> PreparedMove | None:
     checker = pilot.checker
-    radius = float(np.linalg.norm(contact[:2]))
+    radius = float(np.linalg.norm(push.contact[:2]))
     beyond = target
     if abs(target - part.lower) < 1e-9:
         sign = np.sign(part.lower - part.upper)
@@ -413,9 +434,7 @@ def _push_along(
     along: list[Vector] = []
     joints, reached, lean = approach[-1], value, tilt
     for step in _values(part, value, beyond, radius)[1:]:
-        found = _next_push(
-            pilot, part, frame, face, contact, float(step), lean, joints, blockers, lenient
-        )
+        found = _next_push(pilot, part, frame, push, float(step), lean, joints, blockers, lenient)
         if found is None:
             break
         joints, lean = found
@@ -435,8 +454,7 @@ def _next_push(
     pilot: Pilot,
     part: Part,
     frame: _PartFrame,
-    face: Face,
-    contact: Vector,
+    push: Push,
     value: float,
     lean: float,
     joints: Vector,
@@ -450,7 +468,7 @@ def _next_push(
         tilt = lean + change
         if not 0.0 <= tilt <= 1.6:
             continue
-        tool = _push_pose(pose, face, contact, tilt, PRESS)
+        tool = _push_pose(pose, push, tilt, PRESS)
         result = pilot.arm.solve(tool, joints, free_spin=True)
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             continue
@@ -459,16 +477,17 @@ def _next_push(
     return None
 
 
-def _push_pose(part: Pose, face: Face, contact: Vector, tilt: float, inside: float) -> Pose:
-    """Tool pose with the fingertip on the face: pointing down, tilted towards the push."""
-    push = -(part.rotation @ np.array(face.normal))
-    level = push * np.array([1.0, 1.0, 0.0])
+def _push_pose(part: Pose, push: Push, tilt: float, inside: float) -> Pose:
+    """Tool pose with the fingertip on the face: pointing down, tilted along the push or outward."""
+    direction = -(part.rotation @ np.array(push.face.normal))
+    point = part.position + part.rotation @ push.contact
+    level = (point if push.outward else direction) * np.array([1.0, 1.0, 0.0])
     level = level / max(float(np.linalg.norm(level)), 1e-9)
     approach = -UP * np.cos(tilt) + level * np.sin(tilt)
-    across = abs(float(approach @ push))
-    offset = TIP_BEYOND_TOOL * across + FINGER_HALF * float(np.sqrt(max(0.0, 1 - across**2)))
-    point = part.position + part.rotation @ contact
-    position = point - push * (offset - inside)
+    across = max(float(approach @ direction), 0.0)
+    side = float(np.sqrt(max(0.0, 1.0 - float(approach @ direction) ** 2)))
+    offset = TIP_BEYOND_TOOL * across + FINGER_HALF * side
+    position = point - direction * (offset - inside)
     return Pose(position, rotation_from_axes(approach, np.cross(UP, level)))
 
 

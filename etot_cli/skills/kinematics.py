@@ -186,7 +186,9 @@ class Arm:
         approach = target.rotation[:, 2]
         seeds = []
         heading = float(np.arctan2(approach[1], approach[0]))
-        for first, bend in ((azimuth, 0.0), (azimuth, -0.6), (heading, -1.0), (azimuth, 0.6)):
+        for first, bend in (
+            (azimuth, 0.0), (azimuth, -0.6), (heading, -1.0), (azimuth, 0.6), (heading, 0.3)
+        ):  # fmt: skip
             seed = self.home.copy()
             seed[0] = np.clip(first, self.lower[0], self.upper[0])
             seed[-2] += bend

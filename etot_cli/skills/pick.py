@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.skills.action import GraspPose
 from etot_cli.skills.collision import Attached
 from etot_cli.skills.grasps import Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.kinematics import straight
+from etot_cli.skills.kinematics import Pose, straight
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
 from etot_cli.skills.pilot import PhaseEnd, Pilot
 from etot_cli.skills.solids import Solids

@@ -74,6 +74,7 @@ class Pilot:
         self.checker, self.recorder, self.rng = checker, recorder, rng
         self.steps = 0
         self._periods = 0
+        self._wanted_opening: float | None = None
         self._limit = Budget().limit_s
         model = world.model
         gain = model.actuator_gainprm[world.robot.ctrl, 0]
@@ -234,6 +235,9 @@ class Pilot:
     def plan_transit(self, goal: Vector, attached: Attached | None = None) -> Vector | None:
         """A collision-free joint path (k, n) from the present targets to ``goal``."""
         self.checker.freeze(self.data)
+        if attached is None and self._wanted_opening is not None:
+            # The fingers get there long before the arm does.
+            self.checker.set_fingers(self._wanted_opening)
         return plan_transit(self.arm, self.checker, self.commanded, goal, attached, self.rng)
 
     def drop_guard(self, attached: Attached, tolerance: float = 0.05) -> Guard:
@@ -254,6 +258,7 @@ class Pilot:
     def command_opening(self, opening: float) -> None:
         """Sets the gripper's target distance between the pads [m]; takes effect as time passes."""
         gripper = self.world.robot.spec.gripper
+        self._wanted_opening = opening
         share = min(max(opening / gripper.opening, 0.0), 1.0)
         self.data.ctrl[self.world.robot.gripper_ctrl] = gripper.command_closed + share * (
             gripper.command_open - gripper.command_closed

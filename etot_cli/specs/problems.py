@@ -20,6 +20,7 @@ from etot_cli.specs.shape import (
     Shape,
     allowed_keys,
     describe,
+    has_fixed_length,
     locate,
     model_of,
     options,
@@ -143,11 +144,11 @@ def _problem(item: dict[str, Any], located: Located) -> Problem:
         expected = "another name" if located.shape is None else describe(located.shape)
         return Problem(path, f"found {show(found)}, expected {expected}")
     if kind in ("too_long", "string_too_long"):
-        limit, actual = context.get("max_length"), context.get("actual_length")
-        if located.shape is not None and kind == "too_long" and isinstance(found, list):
-            return Problem(path, _found_expected(found, located.shape, limit))
-        size = f"{actual} entries" if actual else f"{len(str(found))} characters"
-        return Problem(path, f"found {size}, expected at most {limit}")
+        if located.shape is not None and has_fixed_length(located.shape):
+            return Problem(path, _found_expected(found, located.shape))
+        unit = "entries" if kind == "too_long" else "characters"
+        size = len(found) if isinstance(found, str | list | dict) else "more"
+        return Problem(path, f"found {size} {unit}, expected at most {context['max_length']}")
     if kind in ("too_short", "string_too_short"):
         entry = "entry" if kind == "too_short" else "character"
         return Problem(path, f"is empty, expected at least {context.get('min_length')} {entry}")
@@ -178,10 +179,8 @@ def unknown(name: str, valid: Iterable[str]) -> str:
     return f"; expected one of {', '.join(names)}{_closest(name, names)}"
 
 
-def _found_expected(found: object, shape: Shape | None, limit: int | None = None) -> str:
+def _found_expected(found: object, shape: Shape | None) -> str:
     expected = "another value" if shape is None else describe(shape)
-    if limit is not None and not expected.startswith("a list of"):
-        return f"found {show(found)}, expected at most {limit} entries"
     if isinstance(found, list):
         return f"found a list of {len(found)}, expected {expected}"
     return f"found {show(found)}, expected {expected}"

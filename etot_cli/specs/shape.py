@@ -92,6 +92,11 @@ def model_of(shape: Shape | None) -> type[BaseModel] | None:
     return None
 
 
+def has_fixed_length(shape: Shape) -> bool:
+    """Whether a shape is a list with a given number of entries."""
+    return get_origin(shape.type) is tuple and Ellipsis not in get_args(shape.type)
+
+
 def describe(shape: Shape) -> str:
     """What is expected, as a noun phrase with units and bounds: "a length in metres of at most
     0.6".

@@ -132,9 +132,11 @@ def _set_options(mj: mujoco.MjSpec) -> None:
     mj.visual.global_.offwidth = 1920
     mj.visual.global_.offheight = 1440
     mj.visual.quality.shadowsize = 4096
-    mj.visual.headlight.ambient = [0.35, 0.35, 0.35]
-    mj.visual.headlight.diffuse = [0.3, 0.3, 0.3]
-    mj.visual.headlight.specular = [0.05, 0.05, 0.05]
+    # All lights together stay below white on a bright level surface, so that colours keep their hue.
+    mj.visual.headlight.ambient = [0.34, 0.34, 0.34]
+    mj.visual.headlight.diffuse = [0.20, 0.20, 0.20]
+    mj.visual.headlight.specular = [0.03, 0.03, 0.03]
+    mj.visual.map.shadowclip = 2.0
     mj.visual.map.znear = 0.01
     mj.visual.map.zfar = 20.0
 
@@ -177,12 +179,12 @@ def _add_surroundings(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
     stand.rgba = [0.35, 0.37, 0.4, 1.0]
     stand.contype = 0
     stand.conaffinity = 0
-    for position, strength in (((0.6, -1.2, 2.4), 0.55), ((0.8, 1.4, 2.2), 0.35)):
+    for position, strength in (((0.6, -1.2, 2.4), 0.42), ((0.8, 1.4, 2.2), 0.20)):
         light = world.add_light(pos=list(position), dir=[-v for v in position])
         light.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
         light.diffuse = [strength] * 3
-        light.specular = [0.15] * 3
-        light.castshadow = strength > 0.5
+        light.specular = [0.1] * 3
+        light.castshadow = strength > 0.3
     for name, camera in scene.cameras.items():
         _add_camera(world, name, camera)
 

@@ -54,6 +54,9 @@ class ObjectInfo:
     elongated: bool
     """A rod that must stand to fit into vessels."""
     parts: tuple[PartInfo, ...] = ()
+    boards: tuple[str, ...] = ()
+    """Names of further surfaces below its top (a shelf's boards), from bottom to top; an action
+    calls one ``object.board``."""
 
 
 @dataclass(frozen=True, slots=True)

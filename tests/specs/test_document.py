@@ -112,8 +112,8 @@ def test_refused_with_place(text: str, parts: list[str], tmp_path: Path) -> None
 
 
 def test_depth_is_bounded() -> None:
-    fits = "[" * (MAX_DEPTH - 1) + "]" * (MAX_DEPTH - 1)
-    parse_document(f"a: {fits}", "f")
+    fits = "[" * MAX_DEPTH + "]" * MAX_DEPTH
+    parse_document(f"a: {fits}", "f.yaml")
     assert "f.yaml:1: a: nested deeper than 32 levels" in refused(f"a: [{fits}]")
     assert "nested deeper" in refused("a: " + "[" * 100_000)
     assert "nested deeper" in refused("a: " + "{b: " * 100_000)
@@ -245,7 +245,7 @@ def test_yaml_like_text_gives_data_or_one_line(text: str) -> None:
 
 @given(st.dictionaries(KEYS, PLAIN, min_size=1, max_size=4).filter(lambda d: "<<" not in str(d)))
 def test_every_value_has_a_place(data: dict[str, object]) -> None:
-    lines = [f"{json.dumps(key)}: {json.dumps(item)}" for key, item in data.items()]
+    lines = [json.dumps({key: item}, ensure_ascii=False)[1:-1] for key, item in data.items()]
     node = parse_document("\n".join(lines), "f")
     for number, key in enumerate(data, start=1):
         assert node.locate((key,)).line == number

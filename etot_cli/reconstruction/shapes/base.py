@@ -140,6 +140,31 @@ def convex_distance(points: Array, polygon: Array) -> Array:
     return np.asarray((points @ equations[:, :2].T + equations[:, 2]).max(axis=1))
 
 
+def roof_rectangle(evidence: Evidence) -> tuple[Array, Array, float, float]:
+    """As :func:`ground_rectangle`, of the largest level area at the top: narrow strips that stand
+    apart from it, such as the front of an open drawer, do not count.
+    """
+    points = evidence.points
+    top = float(np.percentile(points[:, 2], 97))
+    band = points[np.abs(points[:, 2] - top) < max(0.006, 0.06 * (top - evidence.base))][:, :2]
+    if len(band) < 50:
+        return ground_rectangle(evidence)
+    cell = 0.005
+    index = ((band - band.min(axis=0)) / cell).astype(int) + 3
+    grid = np.zeros(index.max(axis=0) + 4, np.uint8)
+    grid[index[:, 0], index[:, 1]] = 1
+    grid = cv2.morphologyEx(grid, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    grid = cv2.morphologyEx(grid, cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(grid)
+    if len(stats) < 2:
+        return ground_rectangle(evidence)
+    largest = 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))
+    chosen = band[labels[index[:, 0], index[:, 1]] == largest]
+    (cx, cy), (a, b), angle = cv2.minAreaRect((chosen * 1000).astype(np.float32))
+    return (np.array([cx, cy]) / 1000, np.maximum(np.array([a, b]) / 1000, 0.006),
+            float(np.radians(angle)), max(top - evidence.base, 0.006))  # fmt: skip
+
+
 def ground_rectangle(evidence: Evidence) -> tuple[Array, Array, float, float]:
     """A rectangle around what is seen from above: centre (2,), sides (2,), yaw [rad], height."""
     points = evidence.points

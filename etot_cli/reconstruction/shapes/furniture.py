@@ -14,8 +14,8 @@ from etot_cli.reconstruction.shapes.base import (
     Family,
     box_corners,
     box_distance,
-    ground_rectangle,
     own_frame,
+    roof_rectangle,
     rotate,
 )
 from etot_cli.reconstruction.view import Array, View
@@ -30,7 +30,7 @@ Panel = tuple[list[float], list[float]]
 
 
 class OpenUnit(Family):
-    """A unit of two equal drawers, the upper one out by ``open``."""
+    """A unit of equal drawers, one of them out by ``open``; ``moving`` counts from the top."""
 
     kind: ClassVar[str] = "drawer_unit"
     names: ClassVar[tuple[str, ...]] = (
@@ -38,12 +38,13 @@ class OpenUnit(Family):
     )  # fmt: skip
     complexity: ClassVar[float] = 9.0
 
-    def __init__(self, drawers: int = 2) -> None:
+    def __init__(self, drawers: int = 2, moving: int = 0) -> None:
         self.drawers = drawers
+        self.moving = moving
 
     def guesses(self, evidence: Evidence) -> list[Array]:
         points, base = evidence.points, evidence.base
-        center, sides, yaw, height = ground_rectangle(evidence)
+        center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.05:
             return []
         found = []
@@ -71,7 +72,7 @@ class OpenUnit(Family):
         depth, width, height = params[4] / 2, params[5] / 2, params[6]
         t, out, front = UNIT_WALL, params[7], params[4] / 2 - UNIT_WALL
         level = (height - (self.drawers + 1) * t) / self.drawers
-        low = height - t - level
+        low = height - t - level - self.moving * (level + t)
         fixed: list[Panel] = [
             ([-depth, -width, height - t], [front, width, height]),
             ([-depth, -width, 0.0], [front, width, t]),
@@ -79,13 +80,16 @@ class OpenUnit(Family):
             ([-depth, -width, 0.0], [front, -width + t, height]),
             ([-depth, width - t, 0.0], [front, width, height]),
         ]
-        if self.drawers > 1:
-            fixed.append(([front, -width, 0.0], [depth, width, low - t / 2]))
-            fixed.append(([-depth, -width, low - t], [front, width, low]))
+        for index in range(self.drawers):
+            floor = height - (index + 1) * (t + level)
+            if index < self.drawers - 1:
+                fixed.append(([-depth, -width, floor - t], [front, width, floor]))
+            if index != self.moving:
+                fixed.append(([front, -width, floor - t / 2], [depth, width, floor + level + t / 2]))
         inner, back = width - t, -depth + t
         side_top = low + DRAWER_SIDES * level
         moving: list[Panel] = [
-            ([front + out, -width, low - t / 2], [depth + out, width, height - t / 2]),
+            ([front + out, -width, low - t / 2], [depth + out, width, low + level + t / 2]),
             ([back + out, -inner, low], [front + out, inner, low + 0.005]),
             ([back + out, -inner, low], [back + out + 0.004, inner, side_top]),
             ([back + out, -inner, low], [front + out, -inner + 0.004, side_top]),
@@ -98,8 +102,7 @@ class OpenUnit(Family):
         fixed, moving = self.panels(params)
         body = box_corners([-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height])
         sets = [body, box_corners(*moving[0])]
-        if self.drawers > 1:
-            sets.append(box_corners(*fixed[5]))
+        sets += [box_corners(*panel) for panel in fixed if panel[1][0] > length / 2 - 1e-9]
         # The drawer's body is open at the top: its hull is that of its panels, front apart.
         tray = [box_corners(*panel) for panel in moving[1:]]
         sets.append(np.vstack(tray))
@@ -117,7 +120,7 @@ class OpenUnit(Family):
         return float(params[4]), float(params[5]), float(params[6])
 
     def spec(self, params: Array) -> dict[str, Any]:
-        return unit_spec(self.size(params), self.drawers, float(params[7]))
+        return unit_spec(self.size(params), self.drawers, float(params[7]), self.moving)
 
     def volume(self, params: Array) -> float:
         length, width, height = params[4:7]
@@ -139,7 +142,7 @@ class OpenCabinet(Family):
         self.side = -1.0 if hinge == "left" else 1.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        center, sides, yaw, height = ground_rectangle(evidence)
+        center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.08:
             return []
         found = []
@@ -206,19 +209,21 @@ class OpenCabinet(Family):
         return float(CABINET_WALL * faces)
 
 
-def unit_spec(size: tuple[float, float, float], drawers: int, opened: float) -> dict[str, Any]:
-    """Scene keys of a drawer unit whose upper drawer moves."""
+def unit_spec(
+    size: tuple[float, float, float], drawers: int, opened: float, moving: int = 0
+) -> dict[str, Any]:
+    """Scene keys of a drawer unit of which one drawer moves."""
     travel = max(round(0.6 * size[0], 3), round(opened + 0.001, 3))
     names = ("top", "bottom") if drawers == 2 else tuple(f"drawer_{i + 1}" for i in range(drawers))
-    return {
-        "kind": "drawer_unit",
-        "size": list(size),
-        "drawers": [
-            {"name": name, "travel": travel if index == 0 else 0.0,
-             "open": max(opened, 0.0) if index == 0 else 0.0}
-            for index, name in enumerate(names)
-        ],
-    }  # fmt: skip
+    listed = [
+        {
+            "name": name,
+            "travel": travel if index == moving else 0.0,
+            "open": max(opened, 0.0) if index == moving else 0.0,
+        }
+        for index, name in enumerate(names)
+    ]
+    return {"kind": "drawer_unit", "size": list(size), "drawers": listed}
 
 
 def cabinet_spec(size: tuple[float, float, float], hinge: str, degrees: float) -> dict[str, Any]:

@@ -20,6 +20,9 @@ from etot_cli.reconstruction.view import Array, View
 SLENDER = 2.2
 """Longer than this many times its diameter a thing may be a rod."""
 
+BLUNT = 0.001
+"""No point is sharper than this radius [m]."""
+
 
 class Capsule(Family):
     """A lying rod with round ends: ``x, y, z``, ``yaw`` of its axis, ``length``, ``diameter``."""
@@ -98,7 +101,8 @@ class Pen(Capsule):
         ring = CIRCLE * diameter / 2 + [0.0, diameter / 2]
         rings = [np.column_stack([np.full(len(ring), x), ring])
                  for x in (-length / 2, length / 2 - tip)]  # fmt: skip
-        rings.append(np.array([[length / 2, 0.0, diameter / 2]]))
+        point = min(BLUNT, diameter / 4) * CIRCLE[::8] + [0.0, diameter / 2]
+        rings.append(np.column_stack([np.full(len(point), length / 2), point]))
         return [rotate(np.vstack(rings), params[3]) + params[:3]]
 
     def distance(self, params: Array, points: Array) -> Array:
@@ -106,7 +110,8 @@ class Pen(Capsule):
         local = own_frame(points, params, params[3])
         radial = np.hypot(local[:, 1], local[:, 2] - diameter / 2)
         r, half = diameter / 2, length / 2
-        shape = [[-half, -r], [-half, r], [half - tip, r], [half, 0.0], [half - tip, -r]]
+        b = min(BLUNT, r / 2)
+        shape = [[-half, -r], [-half, r], [half - tip, r], [half, b], [half, -b], [half - tip, -r]]
         return convex_distance(np.column_stack([local[:, 0], radial]), np.array(shape))
 
     def spec(self, params: Array) -> dict[str, Any]:

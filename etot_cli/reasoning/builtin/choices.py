@@ -1,0 +1,194 @@
+"""Ways of resolving a goal: which of its alternatives each referent and each object gets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import islice, permutations, product
+from typing import NamedTuple
+
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Grouping,
+    Open,
+    Put,
+    Referent,
+    Relation,
+    Thing,
+)
+from etot_cli.reasoning.builtin.relations import container_parts, is_closed, owner_of
+from etot_cli.world.state import DESK, PartInfo, SceneState
+
+MAX_WAYS = 1024
+"""Ways of distributing one step's objects over its places that are looked at."""
+
+
+class Placement(NamedTuple):
+    """An object and where it is to be."""
+
+    name: str
+    relation: Relation
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One way of resolving a goal.
+
+    Args:
+        things: the chosen option of each referent.
+        placements: of each Put, by its place among the steps, in the order of its objects.
+    """
+
+    things: tuple[tuple[Thing, ...], ...]
+    placements: dict[int, tuple[Placement, ...]]
+
+    def object(self, referent: int) -> str:
+        """The single object that a referent stands for."""
+        return self.things[referent][0].name
+
+    def parts(self, step: Open | Close, scene: SceneState) -> tuple[PartInfo, ...]:
+        """The parts that a step opens or closes.
+
+        A demand on the end ("ensure the drawer is closed") about an object with several parts that
+        names none of them is about all of them.
+        """
+        found: dict[str, PartInfo] = {}
+        for thing in self.things[step.what]:
+            for part in scene.infos[thing.name].parts:
+                every = thing.part is None or (thing.implied and step.final)
+                if every or part.name == thing.part:
+                    found[part.address] = part
+        return tuple(found.values())
+
+
+def choices(goal: Goal, scene: SceneState) -> Iterator[Choice]:
+    """All ways of resolving a goal; what comes first in the instruction varies slowest."""
+    referents = [_with_parts(goal, index, scene) for index in range(len(goal.referents))]
+    puts = {index: step for index, step in enumerate(goal.steps) if isinstance(step, Put)}
+    for things in product(*(referent.options for referent in referents)):
+        if not _distinct(referents, things):
+            continue
+        ways = (islice(_placements(step, things, scene), MAX_WAYS) for step in puts.values())
+        for placed in product(*ways):
+            if _consistent(placed):
+                yield Choice(things, dict(zip(puts, placed, strict=True)))
+
+
+def address_of(thing: Thing, relation: Relation, scene: SceneState) -> tuple[str, ...]:
+    """What a PUT calls a thing; several addresses where it has several compartments."""
+    if thing.name == DESK:
+        return (DESK,)
+    info = scene.infos[thing.name]
+    if relation is Relation.ON:
+        return (f"{thing.name}.{thing.board}" if thing.board else thing.name,)
+    if thing.part is None and info.container:
+        return (thing.name,)
+    return tuple(
+        part.address for part in container_parts(info) if thing.part in (None, part.name)
+    )
+
+
+def _with_parts(goal: Goal, index: int, scene: SceneState) -> Referent:
+    """A referent whose objects are replaced by their parts where a step is about a part."""
+    referent = goal.referents[index]
+    inserted = any(
+        place.relation is Relation.INSIDE and place.where == index
+        for step in goal.steps
+        if isinstance(step, Put)
+        for place in step.places
+    )
+    moved = [step for step in goal.steps if isinstance(step, Open | Close) and step.what == index]
+    if not inserted and all(step.final for step in moved):
+        return referent
+    options: list[tuple[Thing, ...]] = []
+    for option in referent.options:
+        parts = _implied_parts(option, inserted, scene)
+        options += [(part,) for part in parts] or [option]
+    if moved and not inserted and all(isinstance(step, Close) for step in moved):
+        # Whoever says "close the drawer" means one that is not closed.
+        ajar = [option for option in options if any(_is_ajar(thing, scene) for thing in option)]
+        options = ajar or options
+    return replace(referent, options=tuple(dict.fromkeys(options)))
+
+
+def _implied_parts(option: tuple[Thing, ...], inserted: bool, scene: SceneState) -> list[Thing]:
+    """The parts of a single object of which one is meant without being named."""
+    if len(option) != 1 or option[0].part is not None or option[0].name == DESK:
+        return []
+    info = scene.infos[option[0].name]
+    if inserted and info.container:
+        return []
+    parts = container_parts(info) if inserted else info.parts
+    if len(parts) < 2:
+        return []
+    return [Thing(info.name, part.name, implied=True) for part in parts]
+
+
+def _is_ajar(thing: Thing, scene: SceneState) -> bool:
+    if thing.name == DESK:
+        return False
+    return any(
+        not is_closed(scene, part)
+        for part in scene.infos[thing.name].parts
+        if thing.part in (None, part.name)
+    )
+
+
+def _distinct(referents: list[Referent], things: tuple[tuple[Thing, ...], ...]) -> bool:
+    return all(
+        not set(things[index]) & set(things[other])
+        for index, referent in enumerate(referents)
+        for other in referent.distinct_from
+    )
+
+
+def _placements(
+    step: Put, things: tuple[tuple[Thing, ...], ...], scene: SceneState
+) -> Iterator[tuple[Placement, ...]]:
+    """Ways of distributing a step's objects over its places."""
+    names = [thing.name for index in step.what for thing in things[index]]
+    if len(set(names)) < len(names):
+        return
+    places = [
+        (place.relation, address)
+        for place in step.places
+        for thing in things[place.where]
+        for address in address_of(thing, place.relation, scene)
+    ]
+    for selected in _distributions(list(dict.fromkeys(places)), len(names), step.grouping):
+        if all(name != owner_of(place[1]) for name, place in zip(names, selected, strict=True)):
+            yield tuple(
+                Placement(name, *place) for name, place in zip(names, selected, strict=True)
+            )
+
+
+_Place = tuple[Relation, str]
+
+
+def _distributions(
+    places: list[_Place], count: int, grouping: Grouping
+) -> Iterator[tuple[_Place, ...]]:
+    """A place for each of ``count`` objects."""
+    match grouping:
+        case Grouping.TOGETHER:
+            return ((place,) * count for place in places)
+        case Grouping.SEPARATELY:
+            return permutations(places, count)
+        case Grouping.ANY:
+            return product(places, repeat=count)
+
+
+def _consistent(placed: tuple[tuple[Placement, ...], ...]) -> bool:
+    """Whether nothing ends up inside or on itself by way of others."""
+    final = {item.name: owner_of(item.target) for step in placed for item in step}
+    for name in final:
+        seen = {name}
+        current = final.get(name)
+        while current is not None:
+            if current in seen:
+                return False
+            seen.add(current)
+            current = final.get(current)
+    return True

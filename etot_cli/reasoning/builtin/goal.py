@@ -1,0 +1,130 @@
+"""What an instruction or a formal goal comes down to: referents and ordered steps about them.
+
+A *referent* is what a phrase refers to: one or more alternative sets of things. Steps name
+referents by their place in :attr:`Goal.referents`, so that "a cup … it" is one choice and not two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from etot_cli.skills.action import GraspPose
+
+
+class Relation(StrEnum):
+    """How a thing is placed with respect to another."""
+
+    ON = "on"
+    INSIDE = "inside"
+
+
+class Grouping(StrEnum):
+    """Whether the things of one step share a container."""
+
+    ANY = "any"
+    TOGETHER = "together"
+    SEPARATELY = "separately"
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """An object, one of its movable parts, or the desk.
+
+    Args:
+        name: the object, or ``desk``.
+        part: name of the part, None for the object as a whole.
+        board: a named surface of the object.
+        implied: the part was not named but follows from what is done with the object ("close the
+            chest").
+    """
+
+    name: str
+    part: str | None = None
+    board: str | None = None
+    implied: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Referent:
+    """Alternative sets of things that a phrase may mean; exactly one of them is chosen.
+
+    ``distinct_from``: indices of referents with which it shares nothing ("another cup").
+    """
+
+    options: tuple[tuple[Thing, ...], ...]
+    text: str = ""
+    distinct_from: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """Have it in the hand at the end. ``poses``: alternative ways of grasping, None for any."""
+
+    what: int
+    poses: tuple[GraspPose | None, ...] = (None,)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A destination: a relation to a referent."""
+
+    relation: Relation
+    where: int
+
+
+@dataclass(frozen=True, slots=True)
+class Put:
+    """Bring all of ``what``, in this order, each to one of the alternative ``places``."""
+
+    what: tuple[int, ...]
+    places: tuple[Place, ...]
+    grouping: Grouping = Grouping.ANY
+    poses: tuple[GraspPose | None, ...] = (None,)
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """Open a part. ``final``: it must stand open when all else is done ("leave it open")."""
+
+    what: int
+    final: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Close:
+    """Close a part. ``final``: it must be closed when all else is done ("ensure it is closed")."""
+
+    what: int
+    final: bool = False
+
+
+Step = Pick | Put | Open | Close
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """Steps in the order in which they were asked for, about referents."""
+
+    referents: tuple[Referent, ...]
+    steps: tuple[Step, ...]
+
+
+def referents_of(step: Step) -> tuple[int, ...]:
+    """Indices of the referents that a step is about."""
+    if isinstance(step, Put):
+        return (*step.what, *(place.where for place in step.places))
+    return (step.what,)
+
+
+def in_final_order(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """Steps as they can be carried out: demands on the end after the rest, holding at the very end.
+
+    OPEN and CLOSE need an empty hand, so what is to stay in the hand is picked up last.
+    """
+    ordered = list(steps)
+    final = [step for step in ordered if isinstance(step, Open | Close) and step.final]
+    picks = [step for step in ordered if isinstance(step, Pick)]
+    others = [step for step in ordered if step not in final and step not in picks]
+    return (*others, *final, *picks)

@@ -1,0 +1,149 @@
+"""Questions about a scene's state that several of the reasoner's roles ask."""
+
+from __future__ import annotations
+
+import math
+
+from etot_cli.world.state import (
+    CLOSED_AT,
+    DESK,
+    OPEN_AT,
+    ObjectInfo,
+    ObjectState,
+    PartInfo,
+    SceneState,
+)
+
+OPEN_ENOUGH = 0.6
+"""Openness from which things can be put in; less ("ajar") needs an OPEN first."""
+NOT_OBJECTS = frozenset({"robot", "gripper", DESK})
+"""Names in contacts that no action can move."""
+ROLLING_KINDS = frozenset({"sphere", "capsule", "pen"})
+"""Kinds without an upright pose: their orientation says nothing about harm."""
+
+
+def owner_of(address: str) -> str:
+    """The object's name in ``object`` or ``object.part``."""
+    return address.partition(".")[0]
+
+
+def is_open(scene: SceneState, part: PartInfo) -> bool:
+    """Whether a part counts as open."""
+    return scene.openness(part) >= OPEN_AT
+
+
+def is_closed(scene: SceneState, part: PartInfo) -> bool:
+    """Whether a part counts as closed."""
+    return scene.openness(part) <= CLOSED_AT
+
+
+def container_parts(info: ObjectInfo) -> tuple[PartInfo, ...]:
+    """Movable parts that things can be put into."""
+    return tuple(part for part in info.parts if part.container)
+
+
+def container_address(scene: SceneState, address: str) -> str | None:
+    """The canonical address of a container, None when it is none."""
+    info = scene.infos.get(address)
+    part = scene.part(address)
+    if part is not None and part.container:
+        return part.address
+    return address if info is not None and info.container else None
+
+
+def enclosing(scene: SceneState, name: str) -> tuple[str, ...]:
+    """Containers around an object, from the nearest outwards, as addresses."""
+    found: list[str] = []
+    current = scene.states[name].inside
+    while current is not None and current not in found:
+        found.append(current)
+        part = scene.part(current)
+        around = part.owner if part is not None else current
+        current = scene.states[around].inside if around in scene.states else None
+    return tuple(found)
+
+
+def is_inside(scene: SceneState, name: str, container: str) -> bool:
+    """Whether an object lies in a container, also in a vessel that itself lies in it."""
+    wanted = {container, container_address(scene, container)}
+    return any(address in wanted for address in enclosing(scene, name))
+
+
+def is_on(scene: SceneState, name: str, surface: str) -> bool:
+    """Whether an object rests on a surface: directly, and not inside a part of it."""
+    state = scene.states[name]
+    if state.in_hand or state.lost:
+        return False
+    if state.inside is not None and owner_of(state.inside) == owner_of(surface):
+        return False
+    # A board's address is more exact than the object's name, which means any of its surfaces.
+    return any(support == surface or owner_of(support) == surface for support in state.on)
+
+
+def contents(scene: SceneState, address: str) -> tuple[str, ...]:
+    """Objects in a container, at any depth, in scene order."""
+    return tuple(name for name in scene.states if is_inside(scene, name, address))
+
+
+def carried_by(scene: SceneState, name: str) -> frozenset[str]:
+    """Objects that move along when an object does: what is in it, on it, or on those in turn."""
+    moving = {name}
+    grew = True
+    while grew:
+        grew = False
+        for other, state in scene.states.items():
+            if other in moving:
+                continue
+            supports = {owner_of(support) for support in state.on}
+            inside = owner_of(state.inside) if state.inside is not None else None
+            if inside in moving or (supports and supports <= moving):
+                moving.add(other)
+                grew = True
+    return frozenset(moving - {name})
+
+
+def rides_on_part(scene: SceneState, part: PartInfo) -> frozenset[str]:
+    """Objects that move along with a part: what lies in it, and what stands on or in those."""
+    riding: set[str] = set()
+    for name, state in scene.states.items():
+        supports_part = f"{part.owner}.{part.name}" in state.on or (
+            part.address != part.owner and part.address in state.on
+        )
+        if state.inside == part.address or supports_part:
+            riding |= {name, *carried_by(scene, name)}
+    return frozenset(riding)
+
+
+def bearers(scene: SceneState, name: str) -> frozenset[str]:
+    """Objects that hold an object up or around it: moving them would move it as well."""
+    found: set[str] = set()
+    queue = [name]
+    while queue:
+        state = scene.states[queue.pop()]
+        around = (*state.on, *((state.inside,) if state.inside is not None else ()))
+        for address in around:
+            owner = owner_of(address)
+            if owner in scene.states and owner not in found:
+                found.add(owner)
+                queue.append(owner)
+    return frozenset(found)
+
+
+def can_topple(info: ObjectInfo) -> bool:
+    """Whether falling over means anything for an object.
+
+    A round mesh has no upright pose either, and its kind does not tell; only hollow ones count.
+    """
+    if info.elongated or info.kind in ROLLING_KINDS:
+        return False
+    return info.kind != "mesh" or info.container
+
+
+def distance(first: ObjectState, second: ObjectState) -> float:
+    """Distance between two objects' positions in the plane [m]."""
+    return math.dist(first.position[:2], second.position[:2])
+
+
+def radius(info: ObjectInfo) -> float:
+    """Half the larger extent of an object's outline [m]."""
+    return max(info.size[:2]) / 2

@@ -1,0 +1,152 @@
+"""Writes the naive actions of a branch: what a goal asks for, by the rules, without physics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from etot_cli.reasoning.builtin.goal import Relation
+from etot_cli.reasoning.builtin.relations import (
+    OPEN_ENOUGH,
+    container_address,
+    is_closed,
+    is_on,
+    is_open,
+    owner_of,
+)
+from etot_cli.skills.action import Action, GraspPose, Verb
+from etot_cli.world.state import DESK, PartInfo, SceneState
+
+PUT_DOWN = Action(Verb.PUT_ON, DESK, safe=True)
+"""Frees the hand without any purpose of its own."""
+
+
+class Sketch:
+    """Actions so far, and where they leave hand, openings and objects if all goes well.
+
+    Args:
+        scene: the state in which the actions start.
+        actions: actions to begin with.
+    """
+
+    def __init__(self, scene: SceneState, actions: Iterable[Action] = ()) -> None:
+        self.actions: list[Action] = []
+        self._scene = scene
+        self._held = scene.holding
+        self._moved: dict[str, tuple[Relation, str]] = {}
+        parts = [part for info in scene.infos.values() for part in info.parts]
+        self._accessible = {part.address: scene.openness(part) >= OPEN_ENOUGH for part in parts}
+        self._open = {part.address: is_open(scene, part) for part in parts}
+        self._closed = {part.address: is_closed(scene, part) for part in parts}
+        for action in actions:
+            self._do(action)
+
+    def pick_up(self, name: str, pose: GraspPose | None = None) -> None:
+        """Takes an object, opening what it lies in; nothing when it is in the hand."""
+        if self._held == name:
+            return
+        self.put_down()
+        for part in self._parts_around(name):
+            if not self._accessible[part.address]:
+                self._do(Action(Verb.OPEN, part.address))
+        self._do(Action(Verb.PICK_UP, name, pose))
+
+    def put(
+        self, name: str, relation: Relation, target: str, pose: GraspPose | None = None
+    ) -> None:
+        """Brings an object to a place; nothing when it is there.
+
+        An insertion into an articulated container is a cycle of its own: open, pick, put, close.
+        """
+        if self.holds(name, relation, target):
+            return
+        part = self._scene.part(target) if relation is Relation.INSIDE else None
+        if part is None:
+            self.pick_up(name, pose)
+            verb = Verb.PUT_ON if relation is Relation.ON else Verb.PUT_INTO
+            self._do(Action(verb, target))
+            return
+        if not self._accessible[part.address]:
+            self.put_down()
+            self._do(Action(Verb.OPEN, part.address))
+        self.pick_up(name, pose)
+        self._do(Action(Verb.PUT_INTO, part.address))
+        self._do(Action(Verb.CLOSE, part.address))
+
+    def open(self, part: PartInfo) -> None:
+        """Opens a part; nothing when it is open."""
+        if not self._open[part.address]:
+            self.put_down()
+            self._do(Action(Verb.OPEN, part.address))
+
+    def close(self, part: PartInfo, wanted: Iterable[str] = ()) -> None:
+        """Closes a part; nothing when it is closed.
+
+        Args:
+            part: the part.
+            wanted: objects that the hand is to hold later; they are taken out first.
+        """
+        for name in wanted:
+            if part in self._parts_around(name):
+                self.pick_up(name)
+                self.put_down()
+        if not self._closed[part.address]:
+            self.put_down()
+            self._do(Action(Verb.CLOSE, part.address))
+
+    def put_down(self) -> None:
+        """Empties the hand."""
+        if self._held is not None:
+            self._do(PUT_DOWN)
+
+    def holds(self, name: str, relation: Relation, target: str) -> bool:
+        """Whether an object is at a place by now."""
+        if name == self._held:
+            return False
+        if relation is Relation.ON:
+            if name in self._moved:
+                return self._moved[name] == (relation, target)
+            return is_on(self._scene, name, target)
+        return target in self._containers_around(name)
+
+    def _containers_around(self, name: str) -> tuple[str, ...]:
+        """Addresses of the containers around an object, from the nearest outwards."""
+        found: list[str] = []
+        current = name
+        while current != self._held:
+            if current in self._moved:
+                relation, place = self._moved[current]
+                around = place if relation is Relation.INSIDE else None
+            else:
+                around = self._scene.states[current].inside
+            if around is None or around in found:
+                break
+            found.append(container_address(self._scene, around) or around)
+            current = owner_of(around)
+            if current not in self._scene.states:
+                break
+        return tuple(found)
+
+    def _parts_around(self, name: str) -> list[PartInfo]:
+        """Movable parts that an object lies in, the outermost first."""
+        parts = (self._scene.part(address) for address in self._containers_around(name))
+        return [part for part in parts if part is not None][::-1]
+
+    def _do(self, action: Action) -> None:
+        self.actions.append(action)
+        match action.verb:
+            case Verb.PICK_UP:
+                self._held = action.target
+            case Verb.PUT_ON | Verb.PUT_INTO:
+                if self._held is not None:
+                    on = action.verb is Verb.PUT_ON
+                    self._moved[self._held] = (
+                        Relation.ON if on else Relation.INSIDE,
+                        action.target,
+                    )
+                self._held = None
+            case Verb.OPEN | Verb.CLOSE:
+                part = self._scene.part(action.target)
+                if part is not None:
+                    opened = action.verb is Verb.OPEN
+                    self._accessible[part.address] = self._open[part.address] = opened
+                    self._closed[part.address] = not opened

@@ -1,0 +1,179 @@
+"""Settings of the endpoint and of what is sent to it: flags over environment over ``.env``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+from urllib.parse import urlsplit
+
+from pydantic import AliasChoices, Field, SecretStr, ValidationError, field_validator
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from etot_cli.errors import EtotError
+
+DEFAULT_URL = "https://api.openai.com/v1"
+DEFAULT_MODEL = "gpt-4o"
+ENV_FILE = ".env"
+
+Judge = Literal["state", "vlm", "both"]
+Positive = Annotated[float, Field(gt=0, le=86_400)]
+Price = Annotated[float, Field(ge=0, le=1e6)]
+
+
+class VlmSettings(BaseSettings):
+    """Everything about the endpoint. Times in seconds, prices in US dollars per million tokens.
+
+    Each field is read from ``ETOT_VLM_<FIELD>`` unless its description names other variables.
+    """
+
+    model_config = SettingsConfigDict(
+        env_prefix="ETOT_VLM_",
+        env_file=ENV_FILE,
+        env_file_encoding="utf-8",
+        env_ignore_empty=True,
+        extra="ignore",
+        frozen=True,
+        validate_by_name=True,
+        hide_input_in_errors=True,
+        protected_namespaces=(),
+    )
+
+    url: str = Field(
+        default=DEFAULT_URL,
+        validation_alias=AliasChoices("ETOT_VLM_URL", "OPENAI_BASE_URL"),
+    )
+    model: str = Field(
+        default=DEFAULT_MODEL,
+        max_length=200,
+        validation_alias=AliasChoices("ETOT_VLM_MODEL", "ETOT_MODEL"),
+    )
+    key: SecretStr | None = Field(
+        default=None, validation_alias=AliasChoices("ETOT_VLM_KEY", "OPENAI_API_KEY")
+    )
+    key_header: str = Field(default="Authorization", pattern=r"^[A-Za-z0-9-]{1,64}$")
+    """Header that carries the key: ``Authorization`` with ``Bearer``, any other with the bare key
+    (``api-key`` for Azure)."""
+    judge: Judge = "both"
+
+    connect_timeout_s: Positive = 10.0
+    read_timeout_s: Positive = 60.0
+    """Longest silence of the server."""
+    deadline_s: Positive = 120.0
+    """For one request as a whole, however the server drips."""
+    patience_s: Positive = 300.0
+    """For one question with all its retries and waits."""
+    retries: Annotated[int, Field(ge=0, le=20)] = 4
+    retry_after_cap_s: Positive = 60.0
+    backoff_s: Annotated[float, Field(ge=0, le=600)] = 1.0
+    """Wait before the first retry; doubles with each one."""
+    concurrency: Annotated[int, Field(ge=1, le=64)] = 4
+
+    max_tokens: Annotated[int, Field(ge=16, le=1_000_000)] = 2000
+    temperature: Annotated[float, Field(ge=0, le=2)] | None = 0.0
+    """None leaves it to the server."""
+    repairs: Annotated[int, Field(ge=0, le=20)] = 3
+    """How often a reply that breaks a rule goes back with the reason."""
+    images: Annotated[int, Field(ge=0, le=16)] = 4
+    """Frames per question at most; 0 sends none."""
+    image_width: Annotated[int, Field(ge=64, le=4096)] = 768
+    """Longest side of a frame [px]."""
+    image_format: Literal["jpeg", "png"] = "jpeg"
+    image_bytes: Annotated[int, Field(ge=2_000, le=50_000_000)] = 1_500_000
+    """Encoded size of one frame at most."""
+    marks: bool = False
+    """Draw numbered marks on the objects."""
+    probe: bool = True
+    """Before a run, ask once for the colours of a picture, to find out whether the model sees."""
+    prompts: Path | None = None
+    """Folder with prompt templates that replace the built-in ones of the same name."""
+    cache: Path | Literal["off"] | None = None
+    """Folder of the cache; None for the user's cache folder."""
+    price_input: Price | None = None
+    price_output: Price | None = None
+
+    record: Path | None = None
+    replay: Path | None = None
+    max_calls: Annotated[int, Field(ge=0, le=1_000_000)] | None = None
+    max_cost: Price | None = None
+    """US dollars."""
+
+    @field_validator("url")
+    @classmethod
+    def _is_http(cls, value: str) -> str:
+        try:
+            parts = urlsplit(value.strip())
+            usable = parts.scheme in ("http", "https") and bool(parts.hostname)
+            _ = parts.port
+        except ValueError:
+            usable = False
+        if not usable:
+            raise ValueError("is no http(s) URL, expected e.g. http://127.0.0.1:8000/v1")
+        return value.strip()
+
+    @field_validator("key")
+    @classmethod
+    def _fits_a_header(cls, value: SecretStr | None) -> SecretStr | None:
+        if value is None:
+            return None
+        text = value.get_secret_value().strip()
+        if not text:
+            return None
+        if not text.isascii() or not text.isprintable() or " " in text:
+            raise ValueError("holds spaces, control characters or non-ASCII characters")
+        return SecretStr(text)
+
+    @classmethod
+    def load(cls, **given: Any) -> Self:
+        """Settings from flags (those that are not None), the environment and ``.env``.
+
+        Raises:
+            EtotError: a value cannot be used; the message names it and what is expected, and never
+                shows what was given, which may be a secret.
+        """
+        try:
+            return cls(**{name: value for name, value in given.items() if value is not None})
+        except ValidationError as error:
+            first = error.errors(include_input=False, include_url=False)[0]
+            name = str(first["loc"][0]) if first["loc"] else "settings"
+            raise EtotError(f"{_source(name)}: {_sentence(first['msg'])}") from None
+        except (OSError, UnicodeDecodeError) as error:
+            raise EtotError(f"{ENV_FILE} cannot be read: {error}") from None
+
+    @property
+    def secrets(self) -> tuple[str, ...]:
+        """Texts that must never leave the process."""
+        found = [] if self.key is None else [self.key.get_secret_value()]
+        parts = urlsplit(self.url)
+        if parts.password:
+            found.append(parts.password)
+        return tuple(found)
+
+    def prices(self) -> tuple[float, float] | None:
+        """US dollars per million input and output tokens; None when unknown."""
+        if self.price_input is not None and self.price_output is not None:
+            return self.price_input, self.price_output
+        return KNOWN_PRICES.get(self.model)
+
+
+KNOWN_PRICES: dict[str, tuple[float, float]] = {
+    "gpt-4o": (2.50, 10.00),
+    "gpt-4o-mini": (0.15, 0.60),
+    "gpt-4.1": (2.00, 8.00),
+    "gpt-4.1-mini": (0.40, 1.60),
+}
+"""List prices; they change, ``ETOT_VLM_PRICE_INPUT`` and ``…_OUTPUT`` override them."""
+
+_FLAGS = {"url": "--vlm-url", "model": "--model", "judge": "--judge", "record": "--record",
+          "replay": "--replay", "max_calls": "--max-calls", "max_cost": "--max-cost"}  # fmt: skip
+
+
+def _source(name: str) -> str:
+    """Where a bad value may have come from, in the user's words."""
+    if name.isupper():
+        return name
+    variable = f"ETOT_VLM_{name.upper()}"
+    return f"{_FLAGS[name]} (or {variable})" if name in _FLAGS else variable
+
+
+def _sentence(message: str) -> str:
+    return message.removeprefix("Value error, ")

@@ -1,0 +1,221 @@
+"""First stage: is the calibration sane, where is the desk, and does depth lie on colour?
+
+A camera pose that shows a tilted desk is levelled about the desk's middle; a displacement of depth
+against colour is measured and taken back. Both are said in the warnings.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from etot_cli.errors import SpecError
+from etot_cli.reconstruction.capture import Capture
+from etot_cli.reconstruction.view import Array, Mask, View
+
+REACH = 1.1
+"""Only points this near to the robot's axis can be the desk it works on [m]."""
+LEVELS = (-0.4, 0.6)
+"""Heights at which a desk may lie, base frame [m]."""
+MAX_TILT = 25.0
+"""A desk that leans more means a wrong pose, not an inexact one [deg]."""
+TILT_NOTED = 0.3
+"""Smaller tilts are corrected silently [deg]."""
+LEAST_DESK = 0.02
+"""The desk covers at least this share of the picture."""
+MAX_SHIFT = 10
+"""Largest displacement of depth against colour that is looked for [px]."""
+SHIFT_NOTED = 1
+_TRIALS = 400
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """A capture in a levelled base frame.
+
+    ``depth`` (h, w) [m] lies on colour; ``cloud`` (h, w, 3) base frame, NaN = none; ``height``
+    (h, w) above the desk [m]; ``desk_top`` [m]; ``noise``: residual of the desk plane [m];
+    ``desk`` (h, w): pixels of the desk; ``outline`` (k, 2): x y of the hull of the desk's visible
+    part; ``tilt_deg`` corrected; ``shift`` (right, down) [px] taken back.
+    """
+
+    capture: Capture
+    view: View
+    depth: Array
+    cloud: Array
+    height: Array
+    desk: Mask
+    desk_top: float
+    noise: float
+    outline: Array
+    tilt_deg: float
+    shift: tuple[int, int]
+    warnings: tuple[str, ...]
+
+
+def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
+    """Levels the camera's pose to the desk and lays depth on colour.
+
+    Raises:
+        SpecError: no desk is seen, it leans impossibly, or the camera is below it.
+    """
+    warnings = list(capture.warnings)
+    rng = np.random.default_rng(seed)
+    view = capture.view
+    cloud = view.cloud(capture.depth)
+    normal, middle, noise = _desk_plane(cloud, view, capture.depth.size, rng)
+    tilt = float(np.degrees(np.arccos(np.clip(normal[2], -1.0, 1.0))))
+    if (view.position - middle) @ normal <= 0:
+        raise SpecError(
+            "camera_to_base puts the camera below the desk that it sees; expected p_base = "
+            "camera_to_base · p_camera (is it the inverse?)",
+            file=str(capture.folder / "camera.json"),
+        )
+    view = view.moved(_levelled(view.camera_to_base, normal, middle))
+    if tilt > TILT_NOTED:
+        warnings.append(
+            f"the desk came out tilted by {tilt:.1f}°: the camera's pose was levelled to it"
+        )
+    cloud = view.cloud(capture.depth)
+    top = float(middle[2])
+    height = cloud[..., 2] - top
+    tall = max(0.01, 6 * noise)
+    shift = _measure_shift(capture, height, tall)
+    depth = capture.depth
+    if shift != (0, 0):
+        depth = _displaced(capture.depth, (-shift[0], -shift[1]))
+        cloud = view.cloud(depth)
+        # Depth was measured along other rays than colour's by some pixels, so the plane is
+        # looked at once more.
+        normal, middle, noise = _desk_plane(cloud, view, depth.size, rng)
+        view = view.moved(_levelled(view.camera_to_base, normal, middle))
+        cloud = view.cloud(depth)
+        top = float(middle[2])
+        height = cloud[..., 2] - top
+        if max(abs(shift[0]), abs(shift[1])) > SHIFT_NOTED:
+            warnings.append(
+                f"depth lies {shift[0]} px right and {shift[1]} px down of colour and was moved back"
+            )
+    desk = np.abs(height) < max(0.004, 4 * noise)
+    desk &= np.hypot(cloud[..., 0], cloud[..., 1]) < 2 * REACH
+    desk = _largest(desk)
+    outline = _outline(cloud[desk][:, :2])
+    return Calibrated(capture, view, depth, cloud, height, desk, top, noise, outline, tilt, shift,
+                      tuple(warnings))  # fmt: skip
+
+
+def _desk_plane(
+    cloud: Array, view: View, pixels: int, rng: np.random.Generator
+) -> tuple[Array, Array, float]:
+    """Normal (3,) pointing up, a point (3,) in the middle of the desk, and the residual [m]."""
+    points = cloud[::3, ::3].reshape(-1, 3)
+    points = points[np.isfinite(points[:, 2])]
+    near = (np.hypot(points[:, 0], points[:, 1]) < REACH) & (points[:, 2] > LEVELS[0])
+    points = points[near & (points[:, 2] < LEVELS[1])]
+    failure = SpecError(
+        "no desk is seen within the robot's reach: expected a level plane at z "
+        f"{LEVELS[0]:g} … {LEVELS[1]:g} m of the base frame; are camera_to_base and depth_scale "
+        "right?"
+    )
+    if len(points) * 9 < LEAST_DESK * pixels:
+        raise failure
+    sample = points[rng.choice(len(points), min(4000, len(points)), replace=False)]
+    best, normal, offset = 0, np.array([0.0, 0.0, 1.0]), 0.0
+    for _ in range(_TRIALS):
+        a, b, c = sample[rng.choice(len(sample), 3, replace=False)]
+        candidate = np.cross(b - a, c - a)
+        length = float(np.linalg.norm(candidate))
+        if length < 1e-4:
+            continue
+        candidate *= np.sign(candidate[2] or 1.0) / length
+        if candidate[2] < np.cos(np.radians(MAX_TILT)):
+            continue
+        inliers = int((np.abs((sample - a) @ candidate) < 0.006).sum())
+        if inliers > best:
+            best, normal, offset = inliers, candidate, float(a @ candidate)
+    if best < 0.15 * len(sample):
+        raise failure
+    limit = 0.008
+    for _ in range(6):
+        distance = points @ normal - offset
+        chosen = points[np.abs(distance) < limit]
+        center = chosen.mean(axis=0)
+        normal = np.linalg.svd((chosen - center).T @ (chosen - center))[0][:, 2]
+        normal = normal * np.sign(normal[2])
+        offset = float(center @ normal)
+        residual = np.abs(chosen @ normal - offset)
+        limit = max(0.0005, min(limit, 3.5 * 1.48 * float(np.median(residual))))
+    return normal, center, float(np.sqrt(np.mean(residual**2)))
+
+
+def _levelled(pose: Array, normal: Array, pivot: Array) -> Array:
+    """The pose (4, 4) turned about ``pivot`` so that ``normal`` becomes +z."""
+    axis = np.cross(normal, [0.0, 0.0, 1.0])
+    sine, cosine = float(np.linalg.norm(axis)), float(normal[2])
+    if sine < 1e-12:
+        return pose
+    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    turn = np.eye(3) + cross + cross @ cross * (1 - cosine) / sine**2
+    levelled = pose.copy()
+    levelled[:3, :3] = turn @ pose[:3, :3]
+    levelled[:3, 3] = turn @ (pose[:3, 3] - pivot) + pivot
+    return levelled
+
+
+def _measure_shift(capture: Capture, height: Array, tall: float) -> tuple[int, int]:
+    """How far (right, down) depth lies from colour [px]."""
+    raised = ((height > tall) & (height < 0.6)).astype(np.uint8)
+    raised = cv2.morphologyEx(raised, cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
+    if raised.sum() < 200:
+        return 0, 0
+    if capture.masks:
+        union = np.any(list(capture.masks.values()), axis=0)
+        zone = cv2.dilate(union.astype(np.uint8), np.ones((41, 41), np.uint8))
+        raised &= zone
+        target = _edge_strength(union.astype(np.float32) * 255)
+    else:
+        lab = cv2.cvtColor(capture.color, cv2.COLOR_RGB2LAB).astype(np.float32)
+        target = np.max([_edge_strength(lab[..., i]) for i in range(3)], axis=0)
+        target = np.minimum(target, 60.0)
+    target = cv2.GaussianBlur(target, (0, 0), 2.0)
+    contour = cv2.morphologyEx(raised, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
+    v, u = np.nonzero(contour)
+    inner = (v > 15) & (u > 15) & (v < height.shape[0] - 16) & (u < height.shape[1] - 16)
+    v, u = v[inner], u[inner]
+    if len(v) < 100:
+        return 0, 0
+    scores = {}
+    for down in range(-MAX_SHIFT, MAX_SHIFT + 1):
+        for right in range(-MAX_SHIFT, MAX_SHIFT + 1):
+            # A little against large shifts, for scenes that cannot tell.
+            scores[right, down] = float(target[v - down, u - right].mean()) * (
+                1 - 0.001 * np.hypot(right, down)
+            )
+    best = max(scores, key=lambda key: scores[key])
+    return best if scores[best] > 1.04 * scores[0, 0] else (0, 0)
+
+
+def _edge_strength(channel: Array) -> Array:
+    gx = cv2.Sobel(channel, cv2.CV_32F, 1, 0) / 4
+    gy = cv2.Sobel(channel, cv2.CV_32F, 0, 1) / 4
+    return np.asarray(np.hypot(gx, gy))
+
+
+def _displaced(depth: Array, shift: tuple[int, int]) -> Array:
+    height, width = depth.shape
+    matrix = np.array([[1.0, 0.0, shift[0]], [0.0, 1.0, shift[1]]])
+    return np.asarray(cv2.warpAffine(depth, matrix, (width, height), flags=cv2.INTER_NEAREST))
+
+
+def _largest(mask: Mask) -> Mask:
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    if count < 2:
+        return mask
+    return np.asarray(labels == 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA])))
+
+
+def _outline(points: Array) -> Array:
+    hull = cv2.convexHull((points * 1000).astype(np.float32))
+    return np.asarray(hull[:, 0, :] / 1000, dtype=np.float64)

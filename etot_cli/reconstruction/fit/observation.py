@@ -1,0 +1,145 @@
+"""What one object shows of itself: edge of its mask, free space around it, points of its surface.
+
+Pixels are (u, v). An edge point lies half-way between a pixel of the mask and its neighbour
+outside, so that edges carry no half-pixel bias. Edges that belong to something in front of the
+object, or to the picture's border, are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+
+from etot_cli.reconstruction.view import Array, Mask, View
+
+NEIGHBOURS = ((1, 0), (-1, 0), (0, 1), (0, -1))
+MARGIN = 0.004
+"""One surface is in front of another when it is nearer by more than this [m]."""
+CONTAINED = 0.4
+"""An object with this share of its pixels in the hull of another's lies on or in it."""
+FREE_RING = 25
+"""How far around a mask free space is sampled [px]."""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """The measurements of one object.
+
+    ``edges`` (n, 2) and ``free`` (k, 2) and ``inside`` (m, 2) in pixels, ``points`` (p, 3) base
+    frame [m]; ``base``: height of what it stands on [m]; ``edge_sigma`` [px], ``depth_sigma`` [m].
+    """
+
+    view: View
+    edges: Array
+    free: Array
+    inside: Array
+    points: Array
+    base: float
+    edge_sigma: float = 0.5
+    depth_sigma: float = 0.001
+    complete: float = 1.0
+    """Share of the mask's edge that is the object's own."""
+
+    def thinned(self, edges: int, points: int, rng: np.random.Generator) -> Observation:
+        """With at most so many edge points and surface points."""
+        return replace(
+            self,
+            edges=_sample(self.edges, edges, rng),
+            free=_sample(self.free, edges // 2, rng),
+            inside=_sample(self.inside, edges // 2, rng),
+            points=_sample(self.points, points, rng),
+        )
+
+
+def _sample(rows: Array, count: int, rng: np.random.Generator) -> Array:
+    if len(rows) <= count:
+        return rows
+    return rows[np.sort(rng.choice(len(rows), count, replace=False))]
+
+
+def observe(
+    view: View,
+    mask: Mask,
+    others: list[Mask],
+    nearness: Array,
+    cloud: Array,
+    base: float,
+    *,
+    erosion: int = 1,
+) -> Observation:
+    """Measures one object.
+
+    Args:
+        view: the camera.
+        mask: its visible pixels (h, w).
+        others: pixels (h, w) of each other object.
+        nearness: (h, w) depth [m], inf where unknown, that decides who is in front.
+        cloud: points (h, w, 3), NaN where there is no reading.
+        base: height of what it stands on [m].
+        erosion: pixels at the mask's edge whose depth is not trusted.
+    """
+    height, width = mask.shape
+    ring = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
+    # Who is in front is asked a little inside each mask, where depth is sure.
+    own = _spread(nearness, mask, ring)
+    occluder = np.zeros_like(mask)
+    hull = convex_hull_mask(mask)
+    for other in others:
+        if (other & hull).sum() > CONTAINED * other.sum():
+            occluder |= other  # it lies on or in the object: its edge is not the object's
+        else:
+            occluder |= other & (_spread(nearness, other, ring) < own + MARGIN)
+    edges = []
+    total = 0
+    v, u = np.nonzero(mask)
+    for du, dv in NEIGHBOURS:
+        nu, nv = u + du, v + dv
+        within = (nu >= 0) & (nu < width) & (nv >= 0) & (nv < height)
+        pu, pv = u[within], v[within]
+        nu, nv = nu[within], nv[within]
+        outside = ~mask[nv, nu]
+        total += int(outside.sum())
+        keep = outside & ~occluder[nv, nu]
+        edges.append(np.column_stack([pu[keep] + du / 2, pv[keep] + dv / 2]))
+    found = np.vstack(edges).astype(np.float64)
+    near_border = (
+        (found[:, 0] < 2) | (found[:, 0] > width - 3)
+        | (found[:, 1] < 2) | (found[:, 1] > height - 3)
+    )  # fmt: skip
+    found = found[~near_border]
+    reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FREE_RING + 1,) * 2)
+    grown = cv2.dilate(mask.astype(np.uint8), reach) > 0
+    close = cv2.dilate(mask.astype(np.uint8), ring) > 0
+    # Pixels of something in front say nothing about what is behind them.
+    hiding = cv2.dilate(occluder.astype(np.uint8), ring) > 0
+    free = np.column_stack(np.nonzero(grown & ~close & ~hiding)[::-1]).astype(np.float64)
+    kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
+    sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
+    inside = np.column_stack([u, v]).astype(np.float64)
+    points = cloud[sure]
+    points = points[np.isfinite(points[:, 2])]
+    return Observation(view, found, free, inside, points, base,
+                       complete=len(found) / max(total, 1))  # fmt: skip
+
+
+def convex_hull_mask(mask: Mask) -> Mask:
+    """The convex hull of a mask (h, w), filled."""
+    filled = np.zeros(mask.shape, np.uint8)
+    points = np.column_stack(np.nonzero(mask)[::-1]).astype(np.int32)
+    if len(points):
+        cv2.fillConvexPoly(filled, cv2.convexHull(points), 1)
+    return np.asarray(filled > 0)
+
+
+def _spread(nearness: Array, mask: Mask, kernel: object) -> Array:
+    """Depth of a mask's pixels, carried a few pixels beyond its edge; inf elsewhere."""
+    masked = np.where(mask & np.isfinite(nearness), nearness, 0.0).astype(np.float32)
+    weight = (masked > 0).astype(np.float32)
+    total = cv2.filter2D(masked, -1, np.asarray(kernel, np.float32))
+    count = cv2.filter2D(weight, -1, np.asarray(kernel, np.float32))
+    spread = np.full(mask.shape, np.inf)
+    known = count > 0.5
+    spread[known] = total[known] / count[known]
+    return spread

@@ -1,0 +1,344 @@
+"""Pictures of a world: single frames, key moments of a run as PNG files, videos.
+
+Needs OpenGL, which nothing else in this package does; import it only where pictures are wanted.
+Pictures are made afterwards, from stored configurations; nothing here steps physics.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.errors import ServiceError, WorldError
+from etot_cli.specs.scene import Scene
+from etot_cli.world.model import World, build_world
+from etot_cli.world.recorder import Trajectory
+
+Image = NDArray[np.uint8]
+"""RGB, (height, width, 3)."""
+
+DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
+DEFAULT_FOV_DEG = 45.0
+DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG = 180.0, -38.0
+"""A scene without cameras is seen from the front, obliquely, towards the robot."""
+MAX_GEOMS = 5000
+MIN_SIDE = 16
+"""Smallest picture side [px]; video encoders want even numbers, and people want to see something."""
+NO_OPENGL = (
+    "no pictures can be rendered here, because OpenGL is missing ({reason}); on Debian and Ubuntu "
+    "install libegl1 libgl1 libgl1-mesa-dri and set MUJOCO_GL=egl, or install libosmesa6 and set "
+    "MUJOCO_GL=osmesa"
+)
+
+
+def open_context(width: int, height: int) -> Any:
+    """An OpenGL context without a window, current in this thread.
+
+    ``MUJOCO_GL`` decides the library; unset, it is EGL without a display and OSMesa where that
+    fails. MuJoCo's own choice cannot be used: it is made once, when MuJoCo is imported.
+
+    Raises:
+        ServiceError: there is none; the message says what to install.
+    """
+    wanted = os.environ.get("MUJOCO_GL", "").strip().lower()
+    if wanted in ("disable", "disabled", "off", "false", "0"):
+        raise ServiceError(NO_OPENGL.format(reason=f"MUJOCO_GL={wanted}"))
+    if wanted in ("egl", "osmesa", "glfw"):
+        kinds = [wanted]
+    elif sys.platform.startswith("linux"):
+        kinds = ["egl", "osmesa"]
+        if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+            kinds.append("glfw")
+    else:
+        kinds = ["cgl", "glfw"] if sys.platform == "darwin" else ["glfw"]
+    reasons = []
+    for kind in kinds:
+        try:
+            module = __import__(f"mujoco.{kind}", fromlist=["GLContext"])
+            context = module.GLContext(width, height)
+            context.make_current()
+        except Exception as error:  # whatever a driver or loader throws: it is not usable
+            reasons.append(f"{kind}: {type(error).__name__}: {error}".splitlines()[0][:160])
+            _forget_opengl()
+            continue
+        return context
+    raise ServiceError(NO_OPENGL.format(reason="; ".join(reasons)))
+
+
+def _forget_opengl() -> None:
+    """PyOpenGL binds itself to one platform when first imported; another can be tried after this."""
+    os.environ.pop("PYOPENGL_PLATFORM", None)
+    for name in [name for name in sys.modules if name.split(".")[0] == "OpenGL"]:
+        del sys.modules[name]
+    for kind in ("egl", "osmesa"):
+        for name in [name for name in sys.modules if name.startswith(f"mujoco.{kind}")]:
+            del sys.modules[name]
+
+
+def fit_size(scene: Scene, camera: str | None, width: int, height: int) -> tuple[int, int]:
+    """The largest even (width, height) with the camera's proportions within the given one."""
+    if camera is None:
+        ratio = width / height
+    else:
+        ratio = scene.cameras[camera].width / scene.cameras[camera].height
+    wide = min(float(width), height * ratio)
+    return max(MIN_SIDE, int(wide) // 2 * 2), max(MIN_SIDE, round(wide / ratio) // 2 * 2)
+
+
+def first_camera(scene: Scene) -> str | None:
+    """The camera used unless another is named; None for the default view."""
+    return next(iter(scene.cameras), None)
+
+
+class WorldRenderer:
+    """Renders configurations of one world from one camera. A context manager.
+
+    Args:
+        world: the compiled scene.
+        camera: a camera of the scene; None for a view of the whole desk.
+        width, height: bounds of the picture [px]; it keeps the camera's proportions within them.
+
+    Raises:
+        ServiceError: there is no OpenGL.
+        WorldError: the scene has no such camera.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        camera: str | None = None,
+        width: int = DEFAULT_WIDTH,
+        height: int = DEFAULT_HEIGHT,
+    ) -> None:
+        if camera is not None and camera not in world.scene.cameras:
+            known = ", ".join(world.scene.cameras) or "none"
+            raise WorldError(f"the scene has no camera {camera!r}; it has {known}")
+        self.world = world
+        self.width, self.height = fit_size(world.scene, camera, width, height)
+        self._model = world.model
+        limits = self._model.vis.global_
+        limits.offwidth = max(limits.offwidth, self.width)
+        limits.offheight = max(limits.offheight, self.height)
+        self._data = mujoco.MjData(self._model)
+        self._context = open_context(self.width, self.height)
+        self._scene = mujoco.MjvScene(self._model, MAX_GEOMS)
+        self._option = mujoco.MjvOption()
+        self._camera = self._view(camera)
+        self._rectangle = mujoco.MjrRect(0, 0, self.width, self.height)
+        self._renderer = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._renderer)
+
+    def __enter__(self) -> WorldRenderer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def frame(self, qpos: NDArray[Any]) -> Image:
+        """A picture (height, width, 3) of the configuration ``qpos`` (nq,)."""
+        self._place(qpos)
+        return self._draw()
+
+    def geoms(self, qpos: NDArray[Any]) -> NDArray[np.int32]:
+        """For every pixel (height, width) the id of the geom seen there; -1 where there is none."""
+        self._place(qpos)
+        flags = self._scene.flags
+        kept = flags.copy()
+        flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = True
+        flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = True
+        try:
+            coded = self._draw().astype(np.int32)
+        finally:
+            np.copyto(flags, kept)
+        segments = coded[..., 0] + (coded[..., 1] << 8) + (coded[..., 2] << 16)
+        # Segment numbers count the drawn things from 1; 0 is the background.
+        geoms = np.full(self._scene.ngeom + 1, -1, dtype=np.int32)
+        for item in self._scene.geoms[: self._scene.ngeom]:
+            if item.segid >= 0 and item.objtype == mujoco.mjtObj.mjOBJ_GEOM:
+                geoms[item.segid + 1] = item.objid
+        return geoms[np.clip(segments, 0, self._scene.ngeom)]
+
+    def visible_pixels(self, qpos: NDArray[Any]) -> dict[str, NDArray[np.bool_]]:
+        """For every object that is seen, the mask (height, width) of its pixels."""
+        geoms = self.geoms(qpos)
+        owners = self.world.geom_object
+        masks = {}
+        for name in self.world.entries:
+            ids = [index for index, owner in enumerate(owners) if owner == name]
+            mask = np.isin(geoms, ids)
+            if mask.any():
+                masks[name] = mask
+        return masks
+
+    def close(self) -> None:
+        """Frees what the graphics driver holds; idempotent."""
+        if self._context is not None:
+            self._context.make_current()
+            self._renderer.free()
+            self._context.free()
+            self._context = None
+
+    def _place(self, qpos: NDArray[Any]) -> None:
+        self._data.qpos[:] = qpos
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        mujoco.mj_camlight(self._model, self._data)
+        mujoco.mjv_updateScene(
+            self._model, self._data, self._option, None, self._camera,
+            mujoco.mjtCatBit.mjCAT_ALL.value, self._scene,
+        )  # fmt: skip
+
+    def _draw(self) -> Image:
+        if self._context is None:
+            raise WorldError("the renderer has been closed")
+        self._context.make_current()
+        image = np.empty((self.height, self.width, 3), dtype=np.uint8)
+        mujoco.mjr_render(self._rectangle, self._scene, self._renderer)
+        mujoco.mjr_readPixels(image, None, self._rectangle, self._renderer)
+        return np.ascontiguousarray(image[::-1])  # OpenGL counts rows from the bottom
+
+    def _view(self, camera: str | None) -> mujoco.MjvCamera:
+        view = mujoco.MjvCamera()
+        if camera is not None:
+            view.type = mujoco.mjtCamera.mjCAMERA_FIXED
+            view.fixedcamid = self._model.camera(camera).id
+            return view
+        desk = self.world.scene.desk
+        view.type = mujoco.mjtCamera.mjCAMERA_FREE
+        view.lookat[:] = [*desk.center, desk.top + 0.08]
+        view.azimuth, view.elevation = DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG
+        self._model.vis.global_.fovy = DEFAULT_FOV_DEG
+        # Far enough that the desk's far and near sides fit into the narrower angle.
+        vertical = math.tan(math.radians(DEFAULT_FOV_DEG / 2))
+        narrower = min(vertical, vertical * self.width / self.height)
+        view.distance = max(desk.size[1] / 2 / (vertical * self.width / self.height),
+                            desk.size[0] / 2 / narrower) + desk.size[0] / 2  # fmt: skip
+        return view
+
+
+def render_frames(
+    scene: Scene | World,
+    qpos: Iterable[NDArray[Any]],
+    camera: str | None = None,
+    width: int = DEFAULT_WIDTH,
+    height: int = DEFAULT_HEIGHT,
+) -> list[Image]:
+    """Pictures of configurations.
+
+    Args:
+        scene: what is seen; a scene is compiled first.
+        qpos: rows (nq,) such as those of a trajectory.
+        camera: a camera of the scene; None for its first, or for a view of the whole desk.
+        width, height: bounds of the pictures [px]; they keep the camera's proportions.
+
+    Raises:
+        ServiceError: there is no OpenGL.
+        WorldError: the scene cannot be built, or has no such camera.
+    """
+    world = build_world(scene) if isinstance(scene, Scene) else scene
+    camera = camera or first_camera(world.scene)
+    with WorldRenderer(world, camera, width, height) as renderer:
+        return [renderer.frame(row) for row in qpos]
+
+
+def key_moments(trajectory: Trajectory) -> list[tuple[str, float, int]]:
+    """The moments worth a picture: (word, time since the action's start [s], row in ``qpos``)."""
+    times = trajectory.times - trajectory.times[0]
+    moments = [("start", 0.0, 0)]
+    for time in trajectory.key_times:
+        row = int(np.argmin(np.abs(times - time)))
+        if moments[-1][2] < row < len(times) - 1:
+            moments.append(("key", float(times[row]), row))
+    if len(times) > 1:
+        moments.append(("end", float(times[-1]), len(times) - 1))
+    return moments
+
+
+def write_frames(scene: Scene, trajectories: Sequence[Any], folder: Path) -> list[Path]:
+    """Writes the key moments of every action as ``<step>-<n>-<moment>-<time>s.png``.
+
+    Args:
+        scene: the scene in which the trajectories were recorded.
+        trajectories: one :class:`~etot_cli.world.recorder.Trajectory` per action, in order.
+        folder: is created when missing.
+
+    Returns:
+        the files, in order.
+
+    Raises:
+        ServiceError: there is no OpenGL, or the file system refuses.
+    """
+    import cv2
+
+    files = []
+    with WorldRenderer(build_world(scene), first_camera(scene)) as renderer:
+        _make_folder(folder)
+        for step, trajectory in enumerate(trajectories, 1):
+            for number, (word, time, row) in enumerate(key_moments(trajectory)):
+                path = folder / f"{step:02d}-{number}-{word}-{time:05.2f}s.png"
+                image = renderer.frame(trajectory.qpos[row])
+                if not cv2.imwrite(str(path), cv2.cvtColor(image, cv2.COLOR_RGB2BGR)):
+                    raise ServiceError(f"cannot write {path}")
+                files.append(path)
+    return files
+
+
+def write_video(scene: Scene, trajectories: Sequence[Any], path: Path, fps: int = 25) -> None:
+    """Writes all actions, one after the other, as an H.264 video (yuv420p, which every player has).
+
+    Args:
+        scene: the scene in which the trajectories were recorded.
+        trajectories: one :class:`~etot_cli.world.recorder.Trajectory` per action, in order.
+        path: the mp4 file.
+        fps: frames per second; the video runs in real time.
+
+    Raises:
+        ServiceError: there is no OpenGL or no encoder, or the file system refuses.
+    """
+    import av
+    from av.error import FFmpegError
+
+    try:
+        with WorldRenderer(build_world(scene), first_camera(scene)) as renderer:
+            _make_folder(path.parent)
+            with av.open(str(path), "w") as container:
+                stream = container.add_stream("libx264", rate=fps)
+                stream.width, stream.height = renderer.width, renderer.height
+                stream.pix_fmt = "yuv420p"
+                stream.options = {"crf": "20", "preset": "veryfast"}
+                for trajectory in trajectories:
+                    for row in _even_rows(trajectory, fps):
+                        image = renderer.frame(trajectory.qpos[row])
+                        container.mux(stream.encode(av.VideoFrame.from_ndarray(image, "rgb24")))
+                container.mux(stream.encode())
+    except (FFmpegError, ValueError) as error:  # an unknown codec is a ValueError
+        raise ServiceError(f"cannot write {path}: {error}") from error
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ServiceError(f"cannot write to {folder}: {error.strerror or error}") from error
+
+
+def _even_rows(trajectory: Trajectory, fps: int) -> NDArray[np.int64]:
+    """Rows of a trajectory at even distances in time, the last one included."""
+    times = trajectory.times - trajectory.times[0]
+    wanted = np.arange(0.0, float(times[-1]) + 1e-6, 1.0 / fps)
+    rows = np.searchsorted(times, wanted + 1e-4, side="right") - 1
+    return np.append(np.clip(rows, 0, len(times) - 1), len(times) - 1)

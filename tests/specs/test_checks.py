@@ -1,0 +1,284 @@
+"""Geometric checks of scenes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from etot_cli.errors import SpecError
+from etot_cli.specs.checks import check_scene
+from etot_cli.specs.load import load_scene
+from etot_cli.specs.objects import DrawerUnit, Sphere
+from etot_cli.specs.placement import open_parts, place_all
+from etot_cli.specs.scene import Scene
+from tests.specs.helpers import objects, scene_error, write
+
+BALL = "{{kind: sphere, diameter: 0.07, {}}}"
+BOX = "{{kind: box, size: [0.2, 0.1, 0.1], {}}}"
+CUP = "{{kind: cup, diameter: 0.09, height: 0.08, wall: 0.005, {}}}"
+CHEST = (
+    "{{kind: drawer_unit, at: [0.45, 0.0], yaw_deg: -90, size: [0.24, 0.18, 0.16], "
+    "drawers: [{{name: top, open: {}}}, {{name: low, travel: 0}}]}}"
+)
+OVEN = (
+    "{{kind: cabinet, at: [0.4, 0.35], yaw_deg: -90, size: [0.3, 0.4, 0.3], "
+    "door: {{open_deg: {}, hinge: {}}}}}"
+)
+
+
+def ok(folder: Path, **items: str) -> Scene:
+    return load_scene(write(folder, "scene.yaml", objects(**items)))
+
+
+def test_two_boxes_overlap(tmp_path: Path) -> None:
+    one = BOX.format("at: [0.4, 0.0]")
+    error = scene_error(tmp_path, objects(one=one, two=BOX.format("at: [0.4, 0.09]")))
+    assert (
+        "scene.yaml:3: objects.two.at: overlaps 'one' by 10 mm; 'two' is centred at (0.4, 0.09), "
+        "'one' at (0.4, 0)" in error
+    )
+    ok(tmp_path, one=one, two=BOX.format("at: [0.4, 0.0995]"))  # touching
+    ok(tmp_path, one=one, two=BOX.format("at: [0.4, 0.16], yaw_deg: 0"))
+    assert "overlaps" in scene_error(
+        tmp_path, objects(one=one, two=BOX.format("at: [0.4, 0.14], yaw_deg: 90"))
+    )
+    # A corner that points into the gap: only the turned outlines tell that they are apart.
+    ok(tmp_path, one=one, two=BOX.format("at: [0.59, 0.105], yaw_deg: 45"))
+
+
+def test_round_things(tmp_path: Path) -> None:
+    one = BALL.format("at: [0.4, 0.0]")
+    ok(tmp_path, one=one, two=BALL.format("at: [0.45, 0.05]"))
+    error = scene_error(tmp_path, objects(one=one, two=BALL.format("at: [0.44, 0.05]")))
+    assert "overlaps 'one' by 6 mm" in error
+
+
+def test_heights_matter_for_given_heights(tmp_path: Path) -> None:
+    box = BOX.format("at: [0.4, 0.0]")
+    ok(tmp_path, box=box, ball=BALL.format("at: [0.4, 0.0, 0.30]"))
+    error = scene_error(tmp_path, objects(box=box, ball=BALL.format("at: [0.4, 0.0, 0.25]")))
+    assert "overlaps 'box'" in error
+
+
+def test_different_supports_are_compared_in_space(tmp_path: Path) -> None:
+    box = BOX.format("at: [0.4, 0.0]")
+    top = "{kind: box, size: [0.2, 0.1, 0.05], on: box, at: [0.4, 0.04]}"
+    ok(tmp_path, box=box, top=top, ball=BALL.format("at: [0.4, 0.1]"))
+    tall = "{kind: cylinder, diameter: 0.04, height: 0.2, at: [0.4, 0.08]}"
+    assert "overlaps 'top'" in scene_error(tmp_path, objects(box=box, top=top, tall=tall))
+
+
+def test_open_drawers_and_doors_take_room(tmp_path: Path) -> None:
+    ok(tmp_path, chest=CHEST.format(0.0), can=CUP.format("at: [0.45, -0.20]"))
+    ok(tmp_path, chest=CHEST.format(0.13), can=BALL.format("at: [0.45, -0.18]"))  # below it
+    tall = "{kind: cylinder, diameter: 0.05, height: 0.12, at: [0.45, -0.20]}"
+    ok(tmp_path, chest=CHEST.format(0.02), tall=tall)
+    error = scene_error(tmp_path, objects(chest=CHEST.format(0.13), tall=tall))
+    assert "objects.tall.at: overlaps 'chest'" in error
+    # Ajar, the door stands before the cabinet on the side away from its hinge.
+    near = BALL.format("at: [0.25, 0.09]")
+    far = BALL.format("at: [0.55, 0.09]")
+    ok(tmp_path, oven=OVEN.format(0, "left"), near=near, far=far)
+    assert "objects.far.at: overlaps 'oven'" in scene_error(
+        tmp_path, objects(oven=OVEN.format(20, "left"), near=near, far=far)
+    )
+    assert "objects.near.at: overlaps 'oven'" in scene_error(
+        tmp_path, objects(oven=OVEN.format(20, "right"), near=near, far=far)
+    )
+
+
+def test_the_door_is_where_its_hinge_says() -> None:
+    text = {
+        "kind": "cabinet",
+        "at": [0.4, 0.4],
+        "size": [0.3, 0.4, 0.3],
+        "door": {"open_deg": 90, "hinge": "left"},
+    }
+    scene = Scene.model_validate({"objects": {"oven": text}})
+    (door,) = open_parts(scene.objects["oven"], place_all(scene)["oven"])
+    # Facing +x from the front at x = 0.55, left is −y; fully open, the door points along +x.
+    assert min(corner[0] for corner in door.footprint.corners) == pytest.approx(0.55)
+    assert max(corner[0] for corner in door.footprint.corners) == pytest.approx(0.95)
+    assert max(corner[1] for corner in door.footprint.corners) == pytest.approx(0.21)
+
+
+def test_off_the_desk(tmp_path: Path) -> None:
+    error = scene_error(tmp_path, objects(it=BALL.format("at: [0.1, 0.61]")))
+    assert "scene.yaml:2: objects.it.at: its centre (0.1, 0.61) is off the desk, which" in error
+    assert "spans x 0.02 … 0.82 and y -0.6 … 0.6" in error
+    # A fixed object may hang on a wall behind the desk.
+    ok(tmp_path, it=BOX.format("at: [0.5, 0.65, 0.6], fixed: true"))
+
+
+def test_below_the_desk(tmp_path: Path) -> None:
+    error = scene_error(tmp_path, objects(it=BALL.format("at: [0.4, 0.0, 0.1]")))
+    assert "objects.it.at: its lowest point is at z 0.065, below the desk's top at 0.13" in error
+    ok(tmp_path, it=BALL.format("at: [0.4, 0.0, 0.165]"))
+
+
+@pytest.mark.parametrize(
+    ("item", "message"),
+    [
+        (BALL.format("at: [0.8, 0.5]"), "unreachable placement: 0.943 m from the robot's axis, "),
+        (BALL.format("at: [0.05, 0.0]"), "unreachable placement: 0.05 m from the robot's axis is"),
+        (BOX.format("at: [0.8, 0.5], fixed: true"), None),
+        ("{kind: shelf, size: [0.1, 0.1, 0.1], at: [0.8, 0.55]}", None),
+        ("{kind: shelf, size: [0.1, 0.1, 0.1], at: [0.8, 0.55], fixed: false}", "expected at most"),
+    ],
+)
+def test_reach(item: str, message: str | None, tmp_path: Path) -> None:
+    if message is None:
+        ok(tmp_path, it=item)
+    else:
+        error = scene_error(tmp_path, objects(it=item))
+        assert error.startswith("scene.yaml:2: objects.it.at: unreachable placement")
+        assert message in error
+
+
+def test_reach_of_other_robots(tmp_path: Path) -> None:
+    far = objects(it=BALL.format("at: [0.8, 0.5]"))
+    write(tmp_path, "arm.yaml", "x: 1")
+    load_scene(write(tmp_path, "a.yaml", f"{far}robot: arm.yaml"))
+    file = write(tmp_path, "b.yaml", far)
+    load_scene(file, reach=1.2)
+    with pytest.raises(SpecError, match=r"expected at most 0\.5 m"):
+        load_scene(file, reach=0.5)
+
+
+def test_standing_beyond_the_support(tmp_path: Path) -> None:
+    box = BOX.format("at: [0.4, 0.0]")
+    error = scene_error(tmp_path, objects(box=box, it=BALL.format("on: box, at: [0.4, 0.06]")))
+    assert "objects.it.at: its centre (0.4, 0.06) is beyond the top of 'box'" in error
+    ok(tmp_path, box=box, it=BALL.format("on: box, at: [0.4, 0.04]"))
+
+
+def test_the_mouth_of_a_cup(tmp_path: Path) -> None:
+    cup = CUP.format("at: [0.4, 0.0]")  # 80 mm open
+    error = scene_error(tmp_path, objects(cup=cup, it=BALL.format("on: cup")))
+    assert "objects.it.on: it is 0.07 wide and would fall through the mouth of 'cup'" in error
+    assert "expected 'inside: cup'" in error
+    scene = ok(tmp_path, cup=cup, it="{kind: sphere, diameter: 0.1, on: cup}")
+    # Rim at 0.21; the ball's centre is 3 cm above it (a 3-4-5 triangle), its lowest point below.
+    assert place_all(scene)["it"].base == pytest.approx(0.21 + 0.03 - 0.05)
+    ok(tmp_path, cup=cup, it="{kind: pen, diameter: 0.01, length: 0.2, on: cup}")
+
+
+def test_too_large_for_its_container(tmp_path: Path) -> None:
+    cup = CUP.format("at: [0.4, 0.2]")
+    error = scene_error(
+        tmp_path, objects(cup=cup, it="{kind: sphere, diameter: 0.085, inside: cup}")
+    )
+    assert "objects.it.inside: it is 0.085 × 0.085 and does not fit into 'cup', which is" in error
+    ok(tmp_path, cup=cup, it="{kind: sphere, diameter: 0.079, inside: cup}")
+    ok(tmp_path, cup=cup, it="{kind: pen, length: 0.2, diameter: 0.02, inside: cup}")
+    plank = "{kind: box, size: [0.24, 0.20, 0.02], inside: chest}"
+    error = scene_error(tmp_path, objects(chest=CHEST.format(0.1), it=plank))
+    assert "it is 0.2 × 0.24 and does not fit into 'chest'" in error
+
+
+def test_in_a_drawer(tmp_path: Path) -> None:
+    chest = CHEST.format(0.10)
+    scene = ok(tmp_path, chest=chest, it="{kind: sphere, diameter: 0.05, inside: chest.top}")
+    place = place_all(scene)["it"]
+    assert (place.x, place.y) == pytest.approx((0.45, -0.10))
+    unit = scene.objects["chest"]
+    assert isinstance(unit, DrawerUnit)
+    # Two compartments of 71 mm; the drawer's floor is 6 mm above the lower end of the upper one.
+    assert unit.compartment_heights() == pytest.approx((0.071, 0.071))
+    assert place.base == pytest.approx(0.13 + 0.16 - 0.006 - 0.071 + 0.006)
+    error = scene_error(
+        tmp_path,
+        objects(chest=chest, it="{kind: sphere, diameter: 0.05, inside: chest, at: [0.45, 0.1]}"),
+    )
+    assert "objects.it.at: its centre (0.45, 0.1) is not inside 'chest'" in error
+    tall = "{{kind: box, size: [0.04, 0.04, 0.09], inside: chest, at: [0.45, {}]}}"
+    ok(tmp_path, chest=chest, it=tall.format(-0.15))
+    error = scene_error(tmp_path, objects(chest=chest, it=tall.format(-0.13)))
+    assert "objects.it.inside: it is 0.09 high, but only 0.065 is clear where 'chest'" in error
+
+
+def test_contents_of_one_vessel(tmp_path: Path) -> None:
+    bowl = "{kind: bowl, at: [0.4, 0.0], diameter: 0.25, height: 0.06}"
+    one, two = BALL.format("inside: bowl"), BALL.format("inside: bowl, at: [0.4, 0.05]")
+    assert "overlaps 'one'" in scene_error(tmp_path, objects(bowl=bowl, one=one, two=two))
+    ok(tmp_path, bowl=bowl, one=one, two=BALL.format("inside: bowl, at: [0.4, 0.075]"))
+    # What is beside the bowl is behind its wall, however long its contents are.
+    pen = "{kind: pen, length: 0.25, diameter: 0.01, inside: bowl}"
+    ok(tmp_path, bowl=bowl, pen=pen, ball=BALL.format("at: [0.4, 0.17]"))
+
+
+@pytest.mark.parametrize(
+    ("item", "message"),
+    [
+        ("kind: cup, diameter: 0.04, height: 0.05, wall: 0.02", "wall: twice the wall is 0.04, "),
+        ("kind: cup, diameter: 0.04, height: 0.05, floor: 0.05", "floor: found 0.05, expected les"),
+        ("kind: cup, diameter: 0.04, height: 0.05, foot_diameter: 0.05", "foot_diameter: found 0"),
+        ("kind: cup, diameter: 0.04, height: 0.05, foot_diameter: 0.005", "wall: twice the wall "),
+        ("kind: pen, diameter: 0.01, length: 0.1, tip_length: 0.1", "tip_length: found 0.1, expe"),
+        ("kind: capsule, diameter: 0.1, length: 0.05", "length: found 0.05, expected at least the"),
+        ("kind: shelf, size: [0.2, 0.02, 0.2], wall: 0.01", "wall: twice the wall is 0.02, expec"),
+        ("kind: shelf, size: [0.2, 0.2, 0.02], wall: 0.01", "wall: its boards' thickness is 0.02"),
+        ("kind: cabinet, size: [0.2, 0.2, 0.2], wall: 0.1", "wall: twice the wall is 0.2, expect"),
+        (
+            "kind: cabinet, size: [0.2, 0.2, 0.2], door: {thickness: 0.2}",
+            "door.thickness: found 0.2, expected less than the depth 0.2",
+        ),
+        (
+            "kind: cabinet, size: [0.2, 0.2, 0.2], door: {handle: {width: 0.3}}",
+            "door.handle.width: found 0.3, expected less than the front it is on",
+        ),
+        (
+            "kind: drawer_unit, size: [0.2, 0.2, 0.05], drawers: [{name: a}, {name: b}, {name: c}]",
+            "drawers: the stack does not fit: compartments of 0.008667, 0.008667, 0.008667",
+        ),
+        (
+            "kind: drawer_unit, size: [0.2, 0.2, 0.2], drawers: [{name: a, height: 0.3}]",
+            "drawers: the stack does not fit: compartments of 0.3 and 2 walls of 0.006",
+        ),
+        (
+            "kind: drawer_unit, size: [0.2, 0.2, 0.2], drawers: [{name: a, travel: 0.2}]",
+            "drawers[0].travel: found 0.2, expected less than the depth 0.2",
+        ),
+        (
+            "kind: drawer_unit, size: [0.2, 0.02, 0.2], drawers: [{name: a}]",
+            "wall: four times the wall is 0.024, expected less than the width 0.02",
+        ),
+        (
+            "kind: drawer_unit, size: [0.2, 0.2, 0.2], drawers: [{name: a, handle: {width: 0.5}}]",
+            "drawers[0].handle.width: found 0.5, expected less than the front it is on",
+        ),
+    ],
+)
+def test_inner_dimensions(item: str, message: str, tmp_path: Path) -> None:
+    error = scene_error(tmp_path, objects(it=f"{{{item}, at: [0.4, 0.0]}}"))
+    assert error.startswith("scene.yaml:2: objects.it.")
+    assert message in error
+
+
+def test_things_of_unknown_size_are_only_placed(tmp_path: Path) -> None:
+    write(tmp_path, "a.obj", "x")
+    mesh = "{{kind: mesh, file: a.obj, {}}}"
+    ok(
+        tmp_path,
+        one=mesh.format("at: [0.4, 0.0], hollow: true"),
+        two=mesh.format("at: [0.4, 0.0]"),
+        ball=BALL.format("inside: one"),
+        top=BALL.format("on: two"),
+    )
+
+
+def test_tilted_boxes(tmp_path: Path) -> None:
+    # Turned by 90° about y the long side stands up.
+    upright = "quaternion: [0.70710678, 0, 0.70710678, 0]"
+    scene = ok(tmp_path, it=BOX.format(f"at: [0.4, 0.0], {upright}"))
+    place = place_all(scene)["it"]
+    assert place.top - place.base == pytest.approx(0.2, abs=1e-6)
+    ok(tmp_path, a=BOX.format(f"at: [0.4, 0.0], {upright}"), b=BOX.format("at: [0.56, 0.0]"))
+
+
+def test_a_scene_without_a_document() -> None:
+    ball = Sphere(kind="sphere", diameter=0.1, at=(3.0, 0.0))
+    with pytest.raises(SpecError, match=r"^objects\.ball\.at: unreachable") as caught:
+        check_scene(Scene(objects={"ball": ball}))
+    assert caught.value.line is None
