@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
+from etot_cli.errors import EtotError
 from etot_cli.skills.action import Action
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import Cause, RolloutRecord, SceneState
@@ -64,6 +65,29 @@ class FailedStep:
     record: RolloutRecord
     verdict: Verdict
     start: SceneState
+
+
+class StopReason(StrEnum):
+    """Why a reasoner cannot go on."""
+
+    MAX_CALLS = "max_calls"
+    MAX_COST = "max_cost"
+    SERVICE = "service"
+    """A service that it needs is not there."""
+    NO_ANSWER = "no_answer"
+    """What it was told makes no plan, however often it asked."""
+
+
+class ReasonerStopped(EtotError):
+    """The reasoner cannot go on; what was found so far counts.
+
+    Any of a reasoner's methods may raise it. A search ends with it and keeps its tree.
+    """
+
+    def __init__(self, reason: StopReason, message: str) -> None:
+        super().__init__(message)
+        self.reason = reason
+        self.exit_code = 3 if reason is StopReason.SERVICE else 1
 
 
 class Reasoner(Protocol):

@@ -25,8 +25,19 @@ TILT_NOTED = 0.3
 """Smaller tilts are corrected silently [deg]."""
 LEAST_DESK = 0.02
 """The desk covers at least this share of the picture."""
-MAX_SHIFT = 10
-"""Largest displacement of depth against colour that is looked for [px]."""
+MAX_SHIFT = 12
+"""Largest displacement of depth against colour that is taken back [px]."""
+MAX_OFFSET = 16
+JUMP = 0.012
+"""Depth step that makes an edge [m]."""
+SLOPE = 0.004
+"""Depth that a slanting surface may gain per pixel [m]."""
+LEAST_GAIN = 1.15
+"""A displacement must make edges agree better by this factor to be believed."""
+STRONGEST = 20.0
+"""Stronger edges count no more, so that faint outlines have a say (of 255 per pixel)."""
+WIDEST_HOLE = 30
+"""Across a wider hole no edge is assumed [px]."""
 SHIFT_NOTED = 1
 _TRIALS = 400
 
@@ -81,8 +92,7 @@ def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
     cloud = view.cloud(capture.depth)
     top = float(middle[2])
     height = cloud[..., 2] - top
-    tall = max(0.01, 6 * noise)
-    shift = _measure_shift(capture, height, tall)
+    shift = _measure_shift(capture, (height > max(0.006, 5 * noise)) & (height < 0.6))
     depth = capture.depth
     if shift != (0, 0):
         depth = _displaced(capture.depth, (-shift[0], -shift[1]))
@@ -164,43 +174,116 @@ def _levelled(pose: Array, normal: Array, pivot: Array) -> Array:
     return levelled
 
 
-def _measure_shift(capture: Capture, height: Array, tall: float) -> tuple[int, int]:
-    """How far (right, down) depth lies from colour [px]."""
-    raised = ((height > tall) & (height < 0.6)).astype(np.uint8)
-    raised = cv2.morphologyEx(raised, cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
-    if raised.sum() < 200:
-        return 0, 0
+def _measure_shift(capture: Capture, raised: Mask) -> tuple[int, int]:
+    """How far (right, down) depth lies from colour [px].
+
+    Where depth jumps away from the camera, colour (or a given mask) has an edge. Each of the four
+    directions of jumps is looked at by itself: readings lost at the edges move opposite ones in
+    opposite directions, a displacement moves them together.
+    """
     if capture.masks:
         union = np.any(list(capture.masks.values()), axis=0)
-        zone = cv2.dilate(union.astype(np.uint8), np.ones((41, 41), np.uint8))
-        raised &= zone
-        target = _edge_strength(union.astype(np.float32) * 255)
+        zone = cv2.dilate(union.astype(np.uint8), np.ones((31, 31), np.uint8)) > 0
+        channels = [np.asarray(mask, np.float32) * 255 for mask in capture.masks.values()]
     else:
+        zone = raised
         lab = cv2.cvtColor(capture.color, cv2.COLOR_RGB2LAB).astype(np.float32)
-        target = np.max([_edge_strength(lab[..., i]) for i in range(3)], axis=0)
-        target = np.minimum(target, 60.0)
-    target = cv2.GaussianBlur(target, (0, 0), 2.0)
-    contour = cv2.morphologyEx(raised, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
-    v, u = np.nonzero(contour)
-    inner = (v > 15) & (u > 15) & (v < height.shape[0] - 16) & (u < height.shape[1] - 16)
-    v, u = v[inner], u[inner]
-    if len(v) < 100:
+        channels = [lab[..., index] for index in range(3)]
+    across = np.max([np.abs(cv2.Sobel(c, cv2.CV_32F, 1, 0)) / 4 for c in channels], axis=0)
+    down = np.max([np.abs(cv2.Sobel(c, cv2.CV_32F, 0, 1)) / 4 for c in channels], axis=0)
+    strength = (
+        cv2.GaussianBlur(np.minimum(across, STRONGEST), (0, 0), 0.8),
+        cv2.GaussianBlur(np.minimum(down, STRONGEST), (0, 0), 0.8),
+    )
+    jumps = {
+        (axis, sign): _jumps(capture.depth, axis, sign) & zone
+        for axis in (0, 1) for sign in (-1, 1)
+    }  # fmt: skip
+    found = [0.0, 0.0]  # right, down
+    erosion: list[float] = []
+    for _ in range(3):
+        for axis in (1, 0):
+            known = {}
+            for sign in (-1, 1):
+                offset = _best_offset(jumps[axis, sign], strength[1 - axis], axis, found)
+                if offset is not None:
+                    known[sign] = offset
+            slot = 1 - axis
+            if len(known) == 2:
+                found[slot] = (known[1] + known[-1]) / 2
+                erosion.append((known[-1] - known[1]) / 2)
+            elif known and erosion:
+                sign, offset = next(iter(known.items()))
+                found[slot] = offset + sign * erosion[-1]
+    right, below = (round(value) for value in found)
+    lost = round(float(np.median(erosion))) if erosion else 0
+    still = _agreement(jumps, strength, (0, 0), 0)
+    if _agreement(jumps, strength, (right, below), lost) < LEAST_GAIN * still:
         return 0, 0
-    scores = {}
-    for down in range(-MAX_SHIFT, MAX_SHIFT + 1):
-        for right in range(-MAX_SHIFT, MAX_SHIFT + 1):
-            # A little against large shifts, for scenes that cannot tell.
-            scores[right, down] = float(target[v - down, u - right].mean()) * (
-                1 - 0.001 * np.hypot(right, down)
-            )
-    best = max(scores, key=lambda key: scores[key])
-    return best if scores[best] > 1.04 * scores[0, 0] else (0, 0)
+    if max(abs(right), abs(below)) > MAX_SHIFT:
+        return 0, 0
+    return right, below
 
 
-def _edge_strength(channel: Array) -> Array:
-    gx = cv2.Sobel(channel, cv2.CV_32F, 1, 0) / 4
-    gy = cv2.Sobel(channel, cv2.CV_32F, 0, 1) / 4
-    return np.asarray(np.hypot(gx, gy))
+def _agreement(
+    jumps: dict[tuple[int, int], Mask],
+    strength: tuple[Array, Array],
+    shift: tuple[int, int],
+    lost: int,
+) -> float:
+    """Mean strength of edges where jumps come to lie when depth is moved back by ``shift`` and
+    grown by the ``lost`` readings at its edges.
+    """
+    total, count = 0.0, 0
+    for (axis, sign), points in jumps.items():
+        v, u = np.nonzero(points)
+        out = sign * lost
+        v = np.clip(v - shift[1] + (out if axis == 0 else 0), 0, points.shape[0] - 1)
+        u = np.clip(u - shift[0] + (out if axis == 1 else 0), 0, points.shape[1] - 1)
+        total += float(strength[1 - axis][v, u].sum())
+        count += len(v)
+    return total / max(count, 1)
+
+
+def _jumps(depth: Array, axis: int, sign: int) -> Mask:
+    """Pixels (h, w) next to which, along an axis, the scene falls away from the camera."""
+    work = depth if axis == 1 else depth.T
+    work = work[:, ::sign]
+    width = work.shape[1]
+    column = np.arange(width)
+    # The next pixel with a reading, for every pixel.
+    following = np.where(work > 0, column, width)
+    following = np.minimum.accumulate(following[:, ::-1], axis=1)[:, ::-1]
+    after = np.full(work.shape, width)
+    after[:, :-1] = following[:, 1:]
+    gap = after - column
+    known = (work > 0) & (after < width) & (gap <= WIDEST_HOLE)
+    beyond = np.take_along_axis(work, np.minimum(after, width - 1), axis=1)
+    found = known & (beyond - work > JUMP + SLOPE * gap)
+    found = found[:, ::sign]
+    return np.asarray(found if axis == 1 else found.T)
+
+
+def _best_offset(points: Mask, strength: Array, axis: int, found: list[float]) -> float | None:
+    """The displacement along an axis at which jumps meet edges best [px]; None: cannot tell."""
+    v, u = np.nonzero(points)
+    v, u = v - (round(found[1]) if axis == 1 else 0), u - (round(found[0]) if axis == 0 else 0)
+    margin = MAX_OFFSET + 2
+    height, width = strength.shape
+    keep = (v >= margin) & (u >= margin) & (v < height - margin) & (u < width - margin)
+    v, u = v[keep], u[keep]
+    if len(v) < 80:
+        return None
+    offsets = np.arange(-MAX_OFFSET, MAX_OFFSET + 1)
+    values = np.array(
+        [strength[v - d, u].mean() if axis == 0 else strength[v, u - d].mean() for d in offsets]
+    )
+    smooth = np.convolve(np.pad(values, 1, mode="edge"), [0.25, 0.5, 0.25], mode="valid")
+    peak = int(np.argmax(smooth))
+    if smooth[peak] < 1.5 * float(np.median(smooth)) or peak in (0, len(offsets) - 1):
+        return None
+    a, b, c = smooth[peak - 1 : peak + 2]
+    return float(offsets[peak] + 0.5 * (a - c) / (a - 2 * b + c))
 
 
 def _displaced(depth: Array, shift: tuple[int, int]) -> Array:

@@ -49,7 +49,7 @@ class ObjectBase(Spec):
     rolling_friction: RollingFriction | None = None
     color: Color | None = None
     label: str | None = Field(default=None, max_length=60)
-    """What people call it ("tennis ball"), for the instruction; default: the name's words."""
+    """What people call it ("coffee mug"), for the instruction; default: the name's words."""
     fixed: bool | None = None
     """Fastened to the desk. Default: furniture is, everything else is not."""
 
@@ -203,7 +203,7 @@ class Door(Spec):
 
 
 class Cabinet(ObjectBase):
-    """A box with one hinged door in its front (+x turned by ``yaw_deg``), e.g. a microwave."""
+    """A box with one hinged door in its front (+x turned by ``yaw_deg``), e.g. an oven."""
 
     kind: Literal["cabinet"]
     size: tuple[Length, Length, Length]

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.errors import SpecError
@@ -220,6 +220,7 @@ PLAIN = st.recursive(
 )
 
 
+@settings(max_examples=40)
 @given(st.dictionaries(KEYS.filter(lambda key: key != "<<"), PLAIN, min_size=1, max_size=5))
 def test_json_comes_back_unchanged(data: dict[str, object]) -> None:
     if any("<<" in str(item) for item in data.values()):
@@ -227,6 +228,7 @@ def test_json_comes_back_unchanged(data: dict[str, object]) -> None:
     assert parse_document(json.dumps(data, ensure_ascii=False), "f").plain() == data
 
 
+@settings(max_examples=40)
 @given(st.text(max_size=60))
 def test_any_text_gives_data_or_one_line(text: str) -> None:
     try:
@@ -238,11 +240,13 @@ def test_any_text_gives_data_or_one_line(text: str) -> None:
         assert isinstance(node.plain(), dict)
 
 
+@settings(max_examples=40)
 @given(st.text("ab:-[]{}&*!#|>'\" \n0.", max_size=60))
 def test_yaml_like_text_gives_data_or_one_line(text: str) -> None:
     test_any_text_gives_data_or_one_line.hypothesis.inner_test(text)  # type: ignore[attr-defined]
 
 
+@settings(max_examples=40)
 @given(st.dictionaries(KEYS, PLAIN, min_size=1, max_size=4).filter(lambda d: "<<" not in str(d)))
 def test_every_value_has_a_place(data: dict[str, object]) -> None:
     lines = [json.dumps({key: item}, ensure_ascii=False)[1:-1] for key, item in data.items()]

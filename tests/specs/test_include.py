@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -158,7 +157,7 @@ def test_a_folder_reached_by_a_link(folder: Path) -> None:
     write(tasks, "t.yaml", text)
     elsewhere = folder.parent.parent / "elsewhere"
     elsewhere.mkdir()
-    os.symlink(tasks, elsewhere / "tasks")
+    (elsewhere / "tasks").symlink_to(tasks)
     assert load_task(elsewhere / "tasks" / "t.yaml").scene.description == "base"
 
 

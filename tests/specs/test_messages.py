@@ -138,7 +138,7 @@ UNIT = "kind: drawer_unit, at: [0.4, 0.0], size: [0.24, 0.18, 0.15]"
             "quaternion: found a list of 3, expected a unit quaternion [w, x, y, z]",
         ),
         (
-            "{kind: box, size: [0.1, 0.1, 0.1], at: [0.4, 0], yaw_deg: 5, quaternion: [1, 0, 0, 0]}",
+            "{kind: box, size: [0.1, 0.1, 0.1], on: desk, yaw_deg: 5, quaternion: [1, 0, 0, 0]}",
             "give either 'yaw_deg' or 'quaternion', not both",
         ),
         (

@@ -95,9 +95,7 @@ def test_task_examples_of_the_documentation(text: str, tmp_path: Path) -> None:
     load_task(file)
 
 
-KINDS = [
-    get_args(model)[0] if get_args(model) else model for model in get_args(get_args(SceneObject)[0])
-]
+KINDS = get_args(get_args(SceneObject)[0])
 
 
 @pytest.mark.parametrize(

@@ -89,7 +89,7 @@ STACK = {
 
 @settings(max_examples=30, deadline=None)
 @given(SEEDS)
-def test_things_move_with_what_carries_them(tmp_path_factory: object, seed: int) -> None:
+def test_things_move_with_what_carries_them(seed: int) -> None:
     nominal = Scene.model_validate(_stack_data())
     varied = vary(nominal, seed)
     before, after = place_all(nominal), place_all(varied)

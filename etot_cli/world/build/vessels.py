@@ -12,7 +12,7 @@ from etot_cli.specs import scene as specs
 from etot_cli.world.build.material import Look, add_geom, add_visual
 from etot_cli.world.index import Region
 
-STAVES = 16
+STAVES = 24
 """Wall pieces around; enough that a ball on the rim sees a round mouth."""
 FOOT_LIFT = 0.0006
 """The staves end this far above the foot's face [m], so that only the disc touches the desk:
