@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from etot_cli.skills.simulated import Simulator
     from etot_cli.reasoning.protocol import Reasoner
+    from etot_cli.skills.simulated import Simulator
     from etot_cli.specs.scene import Scene
     from etot_cli.specs.task import Task
     from etot_cli.world.state import SceneState

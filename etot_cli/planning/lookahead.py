@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from itertools import chain, islice
 
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 from etot_cli.planning.tree import PlanNode
+from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 
 SUBMISSIONS_PER_JOB = 2
 """One running and one ready per worker, so that none idles while a slow node holds up the order."""

@@ -20,11 +20,11 @@ from etot_cli.planning.result import (
     SilentObserver,
     Statistics,
 )
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Reasoner
 from etot_cli.skills.action import Action
+from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.world.state import RolloutRecord, SceneState
 
 

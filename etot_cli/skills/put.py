@@ -16,6 +16,7 @@ from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import PhaseEnd, Pilot
 from etot_cli.skills.spots import surface_spots
 from etot_cli.world.index import Region
+from etot_cli.world.placing import must_stand
 from etot_cli.world.state import DESK, CauseKind
 
 Vector = NDArray[np.float64]
@@ -149,7 +150,7 @@ def _container_targets(
     floor = body.xpos + rotation @ (np.array(region.center) - UP * region.half[2])
     if rotation[2, 2] < 0.7 or region.opening[2] < 0.7:
         return
-    stands = entry.axis is not None and entry.info.size[0] > 2 * min(region.half[:2])
+    stands = must_stand(entry, region)
     base = _standing_rotation(pilot, attached) if stands else _resting_rotation(pilot, attached)
     low, _ = pilot.checker.extent(name, base)
     room = np.array(region.half[:2]) - (0.0 if stands else float(np.abs(low[:2]).max()))

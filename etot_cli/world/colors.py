@@ -1,58 +1,42 @@
-"""Colour words and their RGB values."""
+"""Colours of objects as the world and its readers use them: RGB values and basic colour words."""
 
 from __future__ import annotations
 
-import re
+from etot_cli.errors import WorldError
+from etot_cli.specs import color as names
+from etot_cli.specs.scene import Color
 
-BASIC_COLORS: dict[str, tuple[float, float, float]] = {
-    "white": (0.93, 0.93, 0.91),
-    "black": (0.08, 0.08, 0.09),
-    "gray": (0.5, 0.5, 0.5),
-    "red": (0.78, 0.14, 0.12),
-    "orange": (0.92, 0.5, 0.12),
-    "yellow": (0.93, 0.83, 0.2),
-    "green": (0.25, 0.6, 0.25),
-    "blue": (0.16, 0.33, 0.72),
-    "purple": (0.48, 0.25, 0.6),
-    "pink": (0.93, 0.6, 0.68),
-    "brown": (0.45, 0.3, 0.18),
-}
-"""The words an instruction may use; other names below map to the nearest of them."""
-
-NAMED_COLORS: dict[str, tuple[float, float, float]] = {
-    **BASIC_COLORS,
-    "grey": BASIC_COLORS["gray"],
-    "wheat": (0.86, 0.78, 0.65),
-    "lime": (0.75, 0.88, 0.25),
-    "silver": (0.75, 0.76, 0.78),
-    "beech": (0.82, 0.68, 0.5),
-    "cyan": (0.2, 0.7, 0.75),
-}
-
-_HEX = re.compile(r"^#[0-9A-Fa-f]{6}$")
+NAMED_COLORS = names.NAMED
+_BASIC = (
+    "white", "black", "gray", "red", "orange", "yellow", "green", "blue", "purple", "pink", "brown",
+)  # fmt: skip
+BASIC_COLORS = {word: names.NAMED[word] for word in _BASIC}
+"""Colour words that an instruction can count on, with their RGB values."""
+_ALIASES = {"beech": "brown", "wheat": "brown", "lime": "green", "cyan": "blue", "silver": "gray"}
 
 
-def rgb(color: str | tuple[float, float, float]) -> tuple[float, float, float]:
-    """RGB in 0…1 of a colour name, ``#rrggbb`` or RGB triple.
+def rgb(color: Color) -> tuple[float, float, float]:
+    """RGB in 0…1.
 
     Raises:
-        ValueError: listing the known names.
+        WorldError: the name is unknown; lists the known ones.
     """
-    if not isinstance(color, str):
-        return color
-    if _HEX.match(color):
-        red, green, blue = (int(color[i : i + 2], 16) / 255 for i in (1, 3, 5))
-        return red, green, blue
-    try:
-        return NAMED_COLORS[color.lower()]
-    except KeyError:
-        raise ValueError(
-            f"unknown colour {color!r}; expected #rrggbb or one of {', '.join(NAMED_COLORS)}"
-        ) from None
+    found = names.rgb(color)
+    if found is None:
+        raise WorldError(
+            f"unknown colour {color!r}; expected #rrggbb or one of {', '.join(names.NAMED)}"
+        )
+    return found
 
 
-def nearest_basic(color: str | tuple[float, float, float]) -> str:
-    """The basic colour word nearest to a colour."""
+def nearest_basic(color: Color) -> str:
+    """The basic colour word for a colour: by name where it has one, else the nearest in RGB."""
+    if isinstance(color, str):
+        word = {"grey": "gray"}.get(color.lower(), color.lower())
+        if word in BASIC_COLORS:
+            return word
+        if word in _ALIASES:
+            return _ALIASES[word]
     value = rgb(color)
 
     def distance(word: str) -> float:

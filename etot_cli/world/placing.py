@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World, resting_quaternion
 from etot_cli.world.state import DESK
 
@@ -109,7 +110,7 @@ def _set_and_measure_bottom(
     """Puts the object there and returns the height of its lowest point [m]."""
     data.joint(name).qpos[:3] = position
     mujoco.mj_kinematics(world.model, data)
-    return object_bounds(world, data, name)[0][2]
+    return float(object_bounds(world, data, name)[0][2])
 
 
 def object_bounds(
@@ -165,12 +166,17 @@ def _place_inside(world: World, data: mujoco.MjData, name: str, address: str) ->
     if spec.at is not None:
         target[:2] = spec.at
     pose = data.joint(name).qpos
-    too_long = entry.info.size[0] > 2 * min(region.half[:2])
+    too_long = must_stand(entry, region)
     if entry.axis is not None and too_long and spec.quaternion is None:
         pose[3:] = _standing(entry.axis)
     bottom = _set_and_measure_bottom(world, data, name, np.array([*target[:2], 1.0]))
     pose[:3] = [target[0], target[1], target[2] + GAP + (1.0 - bottom)]
     mujoco.mj_kinematics(world.model, data)
+
+
+def must_stand(entry: ObjectEntry, region: Region) -> bool:
+    """Whether a rod only fits upright: it is longer than the container's longest side."""
+    return entry.axis is not None and entry.info.size[0] > 2 * max(region.half[:2])
 
 
 def _standing(axis: tuple[float, float, float]) -> NDArray[np.float64]:

@@ -173,8 +173,8 @@ def to_region(
 ) -> NDArray[np.float64]:
     """A base-frame point (3,) in the region's frame, relative to its centre [m]."""
     body = data.body(region.body)
-    local: NDArray[np.float64] = body.xmat.reshape(3, 3).T @ (point - body.xpos)
-    return local - np.array(region.center)
+    local = body.xmat.reshape(3, 3).T @ (point - body.xpos)
+    return np.asarray(local - np.array(region.center))
 
 
 def _in_bounds(local: NDArray[np.float64], region: Region, margin: float) -> bool:

@@ -6,6 +6,7 @@ import hashlib
 import os
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -145,6 +146,7 @@ def attach_mjcf(
         WorldError: the file is no valid MJCF, or names a joint or site that it lacks.
     """
     path = Path(directory) / spec.file
+    _refuse_outside_files(path)
     try:
         child = mujoco.MjSpec.from_file(str(path))
     except ValueError as error:
@@ -171,6 +173,35 @@ def attach_mjcf(
             )
     mj.attach(child, prefix=f"{name}/", frame=body.add_frame())
     return child
+
+
+def _refuse_outside_files(path: Path) -> None:
+    """Files that an MJCF file names must lie below its own folder.
+
+    Raises:
+        WorldError: naming the file that does not, or XML that cannot be read.
+    """
+    try:
+        root = ElementTree.parse(path).getroot()
+    except (ElementTree.ParseError, OSError) as error:
+        raise WorldError(f"{path.name}: not readable as XML ({error})") from error
+    base = path.parent.resolve()
+    folders = {""}
+    for element in root.iter():
+        for key in ("meshdir", "texturedir", "assetdir"):
+            folders.add(element.get(key, ""))
+    for element in root.iter():
+        if element.tag == "plugin" or element.tag == "extension":
+            raise WorldError(f"{path.name}: plugins are not accepted in object files")
+        for key, value in element.attrib.items():
+            if not key.startswith("file"):
+                continue
+            for folder in folders:
+                if not (base / folder / value).resolve().is_relative_to(base):
+                    raise WorldError(
+                        f"{path.name}: <{element.tag}> names {value!r}, which lies outside "
+                        "the file's own folder"
+                    )
 
 
 def mjcf_parts(
@@ -210,11 +241,8 @@ def mjcf_parts(
 def _region(model: mujoco.MjModel, site_name: str, address: str) -> Region:
     site = model.site(site_name)
     is_round = int(site.type[0]) == mujoco.mjtGeom.mjGEOM_CYLINDER
-    half = (
-        (float(site.size[0]), float(site.size[0]), float(site.size[1]))
-        if is_round
-        else tuple(float(value) for value in site.size)
-    )
+    x, y, z = (float(value) for value in site.size)
+    half = (x, x, y) if is_round else (x, y, z)
     body = model.body(int(site.bodyid[0])).name
     return Region(address, body, tuple(site.pos), half, is_round)
 
