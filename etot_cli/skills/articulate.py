@@ -6,7 +6,7 @@ Every way is prepared kinematically first; how far the arm can follow decides wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import mujoco
@@ -18,12 +18,11 @@ from etot_cli.skills.grasps import FINGER_ROOM, TIP_BEYOND_TOOL
 from etot_cli.skills.kinematics import JUMP, Pose, rotation_from_axes, straight, turn_about
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
 from etot_cli.skills.pick import struck_objects
-from etot_cli.skills.pilot import PhaseEnd, Pilot
+from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.world.index import Face, Graspable, Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
 
 Vector = NDArray[np.float64]
-Attempt = Callable[[Pilot], SkillOutcome]
 
 UP = np.array([0.0, 0.0, 1.0])
 STANDOFF = 0.09
@@ -539,7 +538,7 @@ def _execute(pilot: Pilot, part: Part, move: PreparedMove, opening: bool) -> Ski
     recorder.mark(pilot.data)
     fraction = _fraction(part, float(pilot.data.joint(part.joint).qpos[0]))
     if (fraction >= OPEN_AT) if opening else (fraction <= CLOSED_AT):
-        return DONE
+        return SkillOutcome(True, roughness=move.length * (1 - fraction if opening else fraction))
     verb, state = ("open", "open") if opening else ("close", "closed")
     at = pilot.data.time - recorder.start_time
     if obstacles:

@@ -14,11 +14,13 @@ from etot_cli.world.state import Cause, CauseKind
 class SkillOutcome:
     """``effect``: the skill ran to its end and saw its own effect; else ``cause`` says why not.
 
-    ``attempted``: physics was stepped.
+    ``roughness``: how far it strayed from what it meant to do (slip in the hand, a drop, travel
+    that is missing) [m]; of two ways with their effect the smoother one is kept.
     """
 
     effect: bool
     cause: Cause | None = None
+    roughness: float = 0.0
 
 
 DONE = SkillOutcome(True)

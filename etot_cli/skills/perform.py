@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 
@@ -18,8 +17,8 @@ from etot_cli.skills.collision import CollisionChecker
 from etot_cli.skills.kinematics import Arm
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.pick import execute_grasp, prepared_grasps
-from etot_cli.skills.pilot import Pilot
-from etot_cli.skills.put import put_into, put_on
+from etot_cli.skills.pilot import Attempt, Pilot
+from etot_cli.skills.put import put_into_attempts, put_on_attempts
 from etot_cli.skills.solids import Solids
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
@@ -29,13 +28,16 @@ from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Snapshot, restore, save
 from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
-ATTEMPTS = 3
-"""Ways of an action tried one after the other, each from the action's own start state."""
+LANES = 2
+"""Ways of an action that are tried side by side, in parallel worlds where there are workers."""
+ATTEMPTS = 4
+"""Ways of an action that are tried at most, each from the action's own start state."""
+SHOVED = 0.03
+"""A way that shoves another object further than this is not clean [m]."""
+SMOOTHER = 0.003
+"""A later way replaces the first one only when it is smoother by more than this [m]."""
 SETTLE_AT_START = 1.0
 """Time for a new scene to come to rest [s]."""
-
-
-Attempt = Callable[[Pilot], SkillOutcome]
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,10 @@ class Performed:
     record: RolloutRecord
     end: Snapshot
     trajectory: Trajectory | None
+    clean: bool = True
+    """It had its effect, and nothing else was shoved about."""
+    roughness: float = 0.0
+    """How far it strayed from what was meant, and what it shoved [m]."""
 
 
 class Workshop:
@@ -87,13 +93,59 @@ class Workshop:
 
     def perform(self, start: Snapshot, action: Action) -> Performed:
         """Tries an action from a stored state; a function of its arguments and the seed alone."""
+        return choose(self.run_lanes(start, action, range(LANES)))
+
+    def run_lanes(
+        self, start: Snapshot, action: Action, lanes: Iterable[int]
+    ) -> list[Performed | None]:
+        """Tries an action in the ways that belong to some lanes.
+
+        The ways are dealt out to the lanes in turn. A lane tries its ways one after the other,
+        each from the start state, until one has its effect without shoving other objects about;
+        failing that, its first way counts. Lanes know nothing of each other, so they may run in
+        different processes.
+
+        Returns:
+            For each lane asked for its result; None where the action has no way for it.
+        """
         restore(self.world, self.data, start)
         before, _ = read_scene(self.world, self.data, start.memory)
-        steps_before = self.total_steps
-        outcome, recorder = self._try(start, action, before)
+        planner = self._pilot(self._recorder(), str(action))
+        wanted = list(lanes)
+        results: dict[int, Performed] = {}
+        for index, attempt in enumerate(islice(self._attempts(planner, action, before), ATTEMPTS)):
+            if isinstance(attempt, SkillOutcome):
+                reason = self._record(start, action, before, attempt, planner)
+                return [reason] * len(wanted)
+            lane = index % LANES
+            earlier = results.get(lane)
+            if lane in wanted and not (earlier and earlier.clean):
+                pilot = self._pilot(self._recorder(), f"{action}/{index}")
+                outcome = attempt(pilot)
+                tried = self._record(start, action, before, outcome, pilot)
+                results[lane] = tried if earlier is None else _better(earlier, tried)
+                restore(self.world, self.data, start)
+            last_round = index >= ATTEMPTS - LANES
+            if all(k in results and (results[k].clean or last_round) for k in wanted):
+                break
+        return [results.get(lane) for lane in wanted]
+
+    def _recorder(self) -> Recorder:
+        return Recorder(self.world, self.data, keep_frames=self.keep_frames)
+
+    def _record(
+        self,
+        start: Snapshot,
+        action: Action,
+        before: SceneState,
+        outcome: SkillOutcome,
+        pilot: Pilot,
+    ) -> Performed:
+        """The account of one attempt, whose end state ``data`` holds."""
+        recorder = pilot.recorder
+        self.total_steps += pilot.steps
         mujoco.mj_forward(self.world.model, self.data)
         after, memory = read_scene(self.world, self.data, start.memory)
-        steps = self.total_steps - steps_before
         record = RolloutRecord(
             before=before,
             after=after,
@@ -102,46 +154,26 @@ class Workshop:
             contacts=recorder.contacts(),
             displacement=recorder.displacement(),
             swept=recorder.swept(before.holding or after.holding),
-            simulated_s=round(steps * self.world.model.opt.timestep, 4),
-            steps=steps,
+            simulated_s=round(pilot.steps * self.world.model.opt.timestep, 4),
+            steps=pilot.steps,
         )
-        return Performed(record, save(self.world, self.data, memory), recorder.trajectory())
-
-    def _try(
-        self, start: Snapshot, action: Action, before: SceneState
-    ) -> tuple[SkillOutcome, Recorder]:
-        """Runs the prepared attempts one after the other, each from the start state, until one
-        has its effect without shoving other objects about; else the first attempt counts.
-        """
-        world, data = self.world, self.data
-        recorder = Recorder(world, data, keep_frames=self.keep_frames)
-        planner = self._pilot(recorder, str(action))
-        first: tuple[SkillOutcome, Recorder, Snapshot] | None = None
-        for index, attempt in enumerate(islice(self._attempts(planner, action, before), ATTEMPTS)):
-            if isinstance(attempt, SkillOutcome):
-                return attempt, recorder
-            if index > 0:
-                recorder = Recorder(world, data, keep_frames=self.keep_frames)
-            pilot = self._pilot(recorder, f"{action}/{index}")
-            outcome = attempt(pilot)
-            self.total_steps += pilot.steps
-            if outcome.effect and _others_kept(before, recorder, action):
-                return outcome, recorder
-            if first is None:
-                first = (outcome, recorder, save(world, data, start.memory))
-            restore(world, data, start)
-        assert first is not None  # an action has at least one attempt or a reason
-        restore(world, data, first[2])
-        return first[0], first[1]
+        shoved = _shoved(before, recorder, action)
+        return Performed(
+            record,
+            save(self.world, self.data, memory),
+            recorder.trajectory(),
+            clean=outcome.effect and shoved < SHOVED,
+            roughness=outcome.roughness + shoved,
+        )
 
     def _attempts(
         self, pilot: Pilot, action: Action, before: SceneState
     ) -> Iterator[Attempt | SkillOutcome]:
         """Ways to carry out the action, best first; a reason instead where there is none."""
         if action.verb is Verb.PUT_ON:
-            yield partial(put_on, action=action)
+            yield from put_on_attempts(pilot, action)
         elif action.verb is Verb.PUT_INTO:
-            yield partial(put_into, action=action)
+            yield from put_into_attempts(pilot, action)
         elif action.verb is Verb.PICK_UP:
             problem = _pick_precondition(self.world, action, before)
             if problem is not None:
@@ -175,21 +207,38 @@ def _pick_precondition(world: World, action: Action, before: SceneState) -> Skil
     return None
 
 
-_BYSTANDER_LIMIT = 0.03
-"""A grasp that shoves another object further than this is not the best one [m]."""
+def choose(results: Sequence[Performed | None]) -> Performed:
+    """The result that counts: the smoothest clean one, else the first lane's.
+
+    Steps and time of all lanes are counted to it.
+    """
+    present = [result for result in results if result is not None]
+    best = present[0]
+    for other in present[1:]:
+        if other.clean and (not best.clean or other.roughness < best.roughness - SMOOTHER):
+            best = other
+    steps = sum(result.record.steps for result in present)
+    simulated = round(sum(result.record.simulated_s for result in present), 4)
+    return replace(best, record=replace(best.record, steps=steps, simulated_s=simulated))
 
 
-def _others_kept(before: SceneState, recorder: Recorder, action: Action) -> bool:
-    name = action.target
+def _better(first: Performed, second: Performed) -> Performed:
+    """Of two attempts in one lane the clean one, else the first; their steps added up."""
+    kept = second if second.clean else first
+    steps = first.record.steps + second.record.steps
+    simulated = round(first.record.simulated_s + second.record.simulated_s, 4)
+    return replace(kept, record=replace(kept.record, steps=steps, simulated_s=simulated))
+
+
+def _shoved(before: SceneState, recorder: Recorder, action: Action) -> float:
+    """Largest displacement of an object that the action has no business with [m]."""
+    acted = {action.target, action.target.split(".")[0], before.holding}
     carried = {
-        other for other, state in before.states.items() if state.inside == name or name in state.on
+        other
+        for other, state in before.states.items()
+        if state.inside in acted or acted & set(state.on) or other in acted
     }
-    return all(
-        other == name or other in carried or moved < _BYSTANDER_LIMIT
-        for other, moved in recorder.displacement().items()
+    return max(
+        (moved for other, moved in recorder.displacement().items() if other not in carried),
+        default=0.0,
     )
-
-
-def now() -> float:
-    """Wall clock for timings [s]."""
-    return time.perf_counter()

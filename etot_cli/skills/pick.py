@@ -12,7 +12,7 @@ from etot_cli.skills.action import GraspPose
 from etot_cli.skills.collision import Attached
 from etot_cli.skills.grasps import Grasp, GraspSet, sample_grasps, tilted
 from etot_cli.skills.kinematics import Pose, straight
-from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
+from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
 from etot_cli.skills.pilot import PhaseEnd, Pilot
 from etot_cli.skills.solids import Solids
 from etot_cli.world.state import CauseKind
@@ -233,7 +233,7 @@ def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutc
             f"{pilot.world.robot.spec.gripper.opening * 1000:.0f} mm)",
             pilot.data.time - recorder.start_time,
         )
-    return DONE
+    return SkillOutcome(True, roughness=slipped)
 
 
 def _blocked(pilot: Pilot, name: str, where: str) -> SkillOutcome:
@@ -258,4 +258,4 @@ def struck_objects(pilot: Pilot) -> list[str]:
     return list(found)
 
 
-__all__ = ["DONE", "LIFT", "PreparedGrasp", "execute_grasp", "prepared_grasps", "struck_objects"]
+__all__ = ["LIFT", "PreparedGrasp", "execute_grasp", "prepared_grasps", "struck_objects"]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import WorldError
 from etot_cli.skills.collision import Attached, CollisionChecker
 from etot_cli.skills.kinematics import Arm, Pose
+from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.skills.paths import plan_transit
 from etot_cli.skills.trajectory import CONTROL_PERIOD, time_path, tool_speed_to_joint_speed
 from etot_cli.world.model import TIMESTEP, World
@@ -273,3 +274,7 @@ class Pilot:
         """Opens the fingers to a distance [m] and lets go."""
         self.command_opening(opening)
         self.wait(RELEASE_TIME)
+
+
+Attempt = Callable[[Pilot], SkillOutcome]
+"""A prepared way to carry out an action."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,9 @@ from numpy.typing import NDArray
 from etot_cli.skills.action import Action
 from etot_cli.skills.collision import Attached
 from etot_cli.skills.kinematics import Pose, straight, turn_about
-from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
+from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
 from etot_cli.skills.pick import struck_objects
-from etot_cli.skills.pilot import PhaseEnd, Pilot
+from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.skills.spots import surface_spots
 from etot_cli.world.index import Region
 from etot_cli.world.placing import must_stand
@@ -38,6 +39,8 @@ SETTLE_TIME = 1.6
 CLEARING_STEP = 0.05
 MAX_CLEARING = 6
 CLEARING_PAUSE = 0.15
+ENOUGH_PLACEMENTS = 2
+"""Ways down to the bottom after which no more are looked for."""
 MAX_SPOTS = 24
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
 MOUTH_CLEARANCE = 0.02
@@ -56,71 +59,82 @@ class Placement:
     """How far above its wanted height the object is let go [m]."""
 
 
-def put_on(pilot: Pilot, action: Action) -> SkillOutcome:
-    """Puts the held object on a surface."""
+def put_on_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillOutcome]:
+    """Ways to put the held object on a surface, each at another spot, prepared as asked for.
+
+    A reason instead where there is none. The pilot's world must stand as it did at the first call
+    whenever the next item is asked for.
+    """
     name = pilot.held()
     if name is None:
-        return failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
+        yield failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
+        return
     world = pilot.world
     if action.target != DESK and action.target not in world.surfaces:
-        return failed(
-            CauseKind.PRECONDITION,
-            [action.target],
-            f"{action.target} has no flat top to put something on",
-        )
+        text = f"{action.target} has no flat top to put something on"
+        yield failed(CauseKind.PRECONDITION, [action.target], text)
+        return
     attached = pilot.attach(name)
-    pilot.checker.freeze(pilot.data)
     blockers = Blockers(world)
-    prepared = None
-    for target in _surface_targets(pilot, attached, action):
-        prepared = _prepare(pilot, attached, target, {action.target, action.target.split(".")[0]},
-                            blockers)  # fmt: skip
-        if prepared is not None:
-            break
-    if prepared is None:
-        blocking = blockers.most(excluding=[name])
-        return failed(
+    touching = {action.target, action.target.split(".")[0]}
+    found = False
+    for targets in _surface_targets(pilot, attached, action):
+        pilot.checker.freeze(pilot.data)
+        for target in targets:
+            placement = _prepare(pilot, attached, target, touching, blockers)
+            if placement is not None:
+                found = True
+                yield partial(_execute, attached=attached, placement=placement)
+                break
+    if not found:
+        yield failed(
             CauseKind.NO_ROOM,
-            [*blocking, name],
+            [*blockers.most(excluding=[name]), name],
             f"no free, reachable spot for {name} on {action.target}",
         )
-    return _execute(pilot, attached, prepared)
 
 
-def put_into(pilot: Pilot, action: Action) -> SkillOutcome:
-    """Puts the held object into a container, standing a rod upright where it must."""
+def put_into_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillOutcome]:
+    """Ways to put the held object into a container, the deepest first; a rod stands where it must.
+
+    A reason instead where there is none.
+    """
     name = pilot.held()
     if name is None:
-        return failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
+        yield failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
+        return
     part = pilot.world.parts.get(action.target)
     region = pilot.world.regions.get(part.info.address if part else action.target)
     if region is None:
-        return failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
+        yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
+        return
     attached = pilot.attach(name)
     pilot.checker.freeze(pilot.data)
     blockers = Blockers(pilot.world)
-    best: Placement | None = None
+    placements: list[Placement] = []
     for target, hover in _container_targets(pilot, attached, region):
-        prepared = _lower_into(pilot, attached, target, hover, action.target, blockers)
-        if prepared is not None and (best is None or prepared.drop < best.drop - 0.004):
-            best = prepared
-        if best is not None and best.drop < LOWER_STEP:
+        placement = _lower_into(pilot, attached, target, hover, blockers)
+        if placement is not None:
+            placements.append(placement)
+        if sum(item.drop < LOWER_STEP for item in placements) >= ENOUGH_PLACEMENTS:
             break
-    if best is None:
+    if not placements:
         blocking = blockers.most(excluding=[name])
-        return failed(
+        yield failed(
             CauseKind.NO_ROOM,
             [*blocking, name],
             f"{name} cannot be brought into {action.target}"
             + (f": {', '.join(blocking)} in the way" if blocking else ": out of the arm's reach"),
         )
-    return _execute(pilot, attached, best)
+    for placement in sorted(placements, key=lambda item: round(item.drop / LOWER_STEP)):
+        yield partial(_execute, attached=attached, placement=placement)
 
 
 # -- where to --------------------------------------------------------------------------------------
 
 
-def _surface_targets(pilot: Pilot, attached: Attached, action: Action) -> Iterator[Pose]:
+def _surface_targets(pilot: Pilot, attached: Attached, action: Action) -> Iterator[list[Pose]]:
+    """For each spot, best first, the poses in which the object could stand there."""
     name = attached.name
     base = _resting_rotation(pilot, attached)
     low, high = pilot.checker.extent(name, base)
@@ -135,9 +149,12 @@ def _surface_targets(pilot: Pilot, attached: Attached, action: Action) -> Iterat
         prefer=pilot.object_pose(name).position[:2],
     )
     for spot, height in spots[:MAX_SPOTS]:
+        poses = []
         for rotation in _turned(pilot, attached, base, spot)[:4]:
             low, _ = pilot.checker.extent(name, rotation)
-            yield Pose(np.array([spot[0], spot[1], height + SURFACE_GAP - low[2]]), rotation)
+            position = np.array([spot[0], spot[1], height + SURFACE_GAP - low[2]])
+            poses.append(Pose(position, rotation))
+        yield poses
 
 
 def _container_targets(
@@ -280,7 +297,6 @@ def _lower_into(
     attached: Attached,
     target: Pose,
     hover: float,
-    container: str,
     blockers: Blockers,
 ) -> Placement | None:
     """Down into a container as deep as it goes without touching anything.
@@ -358,7 +374,7 @@ def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOut
     recorder.mark(pilot.data)
     if pilot.held() == name:
         return failed(CauseKind.NO_EFFECT, [name], f"{name} stayed in the fingers")
-    return DONE
+    return SkillOutcome(True, roughness=placement.drop)
 
 
 def _clear_hand(pilot: Pilot) -> None:

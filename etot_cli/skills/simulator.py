@@ -17,7 +17,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 
 from etot_cli.skills.action import Action
-from etot_cli.skills.perform import Performed, Workshop
+from etot_cli.skills.perform import LANES, Performed, Workshop, choose
 from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
@@ -111,8 +111,9 @@ class ActionSimulator:
             return future
         pool = self._ensure_pool()
         parts = [
-            pool.submit(_perform, index, snapshot, action)
+            pool.submit(_run_lane, index, snapshot, action, lane)
             for index, snapshot in enumerate(snapshots)
+            for lane in range(LANES)
         ]
         return _gather(parts, begun)
 
@@ -153,8 +154,8 @@ def _begin_worker(scenes: list[tuple[Scene, int, bool]] | None) -> None:
         ]
 
 
-def _perform(index: int, snapshot: Snapshot, action: Action) -> Performed:
-    return _shared.workshops[index].perform(snapshot, action)
+def _run_lane(index: int, snapshot: Snapshot, action: Action, lane: int) -> Performed | None:
+    return _shared.workshops[index].run_lanes(snapshot, action, [lane])[0]
 
 
 def _combine(performed: list[Performed], begun: float) -> Simulated:
@@ -165,11 +166,11 @@ def _combine(performed: list[Performed], begun: float) -> Simulated:
     )
 
 
-def _gather(parts: list[Future[Performed]], begun: float) -> Future[Simulated]:
+def _gather(parts: list[Future[Performed | None]], begun: float) -> Future[Simulated]:
     """One future for all worlds of a node; cancelling it cancels what has not begun."""
     whole: Future[Simulated] = Future()
 
-    def finish(_: Future[Performed]) -> None:
+    def finish(_: Future[Performed | None]) -> None:
         if whole.cancelled():
             for part in parts:
                 part.cancel()
@@ -182,7 +183,9 @@ def _gather(parts: list[Future[Performed]], begun: float) -> Future[Simulated]:
         elif any(part.cancelled() for part in parts):
             whole.cancel()
         else:
-            whole.set_result(_combine([part.result() for part in parts], begun))
+            lanes = [part.result() for part in parts]
+            worlds = [choose(lanes[i : i + LANES]) for i in range(0, len(lanes), LANES)]
+            whole.set_result(_combine(worlds, begun))
 
     for part in parts:
         part.add_done_callback(finish)
