@@ -77,7 +77,9 @@ def sample_grasps(
         pose: only grasps from above (vertical) or from the side (horizontal); None: both.
     """
     low, high = object_bounds(world, data, name)
-    center = data.body(name).xipos.copy() if world.entries[name].free else (low + high) / 2
+    # A model from a file may have its masses in bodies below the one that is called so.
+    massive = world.entries[name].free and world.model.body(name).mass[0] > 0.0
+    center = data.body(name).xipos.copy() if massive else (low + high) / 2
     axis = _axis(world, data, name)
     closings = _closings(axis)
     grasps: list[Grasp] = []

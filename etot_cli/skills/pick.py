@@ -107,15 +107,21 @@ def _prepare(
     checker, arm = pilot.checker, pilot.arm
     checker.set_fingers(grasp.opening)
     approach = grasp.tool.rotation[:, 2]
-    start = grasp.tool.moved(-STANDOFF * approach)
-    at_start = arm.reach(start, pilot.commanded)
-    if not at_start.reached:
-        return None
-    line, count = arm.line(straight(start, grasp.tool), at_start.joints)
-    if count == 0 or np.linalg.norm(arm.forward(line[-1]).position - grasp.tool.position) > 2e-3:
+    # The grasp itself first: where the hand has no room there, the way to it need not be found.
+    at_grasp = arm.reach(grasp.tool, pilot.commanded)
+    if not at_grasp.reached:
         return None
     allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
-    for joints in (line[-1], line[len(line) // 2], at_start.joints):
+    hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
+    if hits:
+        blockers.add(hits)
+        return False
+    way = straight(grasp.tool, grasp.tool.moved(-STANDOFF * approach))
+    back, count = arm.line(way, at_grasp.joints)
+    if count < len(way):
+        return None
+    line = np.vstack([back[-2::-1], at_grasp.joints])
+    for joints in (back[-1], back[count // 2]):
         hits = checker.hits(joints, clearance=CONTACT_CLEARANCE, allow=allow)
         if hits:
             blockers.add(hits)
@@ -123,7 +129,7 @@ def _prepare(
     lift = _lift(pilot, name, grasp, line[-1], blockers)
     if lift is None:
         return False
-    return PreparedGrasp(grasp, at_start.joints, line, lift)
+    return PreparedGrasp(grasp, back[-1], line, lift)
 
 
 def _lift(

@@ -32,7 +32,7 @@ SURFACE_GAP = 0.002
 """The object is let go this far above a surface [m]."""
 FLOOR_GAP = 0.006
 """... and this far above a container's floor [m]."""
-LOWER_STEP = 0.012
+LOWER_STEP = 0.016
 OPEN_WIDER = 0.024
 """The fingers open by this much to let go [m]."""
 SETTLE_TIME = 1.6

@@ -50,11 +50,12 @@ def open_simulator(
 
 
 def known_targets(scene: SceneState) -> list[str]:
-    """Everything that an action may name: objects, parts and the desk."""
+    """Everything that an action may name: objects, parts, boards and the desk."""
     names = [DESK]
     for info in scene.infos.values():
         names.append(info.name)
         names += [f"{part.owner}.{part.name}" for part in info.parts]
+        names += [f"{info.name}.{board}" for board in info.boards]
     return names
 
 
