@@ -14,20 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.grasps import FINGER_ROOM, TIP_BEYOND_TOOL
+from etot_cli.skills.grasps import FINGER_ROOM
 from etot_cli.skills.kinematics import JUMP, Pose, rotation_from_axes, straight, turn_about
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
 from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.world.index import Face, Graspable, Part
+from etot_cli.world.model import RobotIndex
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
 
 Vector = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
 STANDOFF = 0.09
-FINGER_HALF = 0.0125
-"""Half thickness of the closed fingers, across the approach [m]."""
 FACE_GAP = 0.004
 """Distance from the face before the push [m]."""
 PRESS = 0.003
@@ -394,7 +393,7 @@ def _push_move(
     frame = _PartFrame(pilot, part)
     checker.set_fingers(0.0)
     checker.set_joint(part.joint, value)
-    tool = _push_pose(frame.at(value), push, tilt, -FACE_GAP)
+    tool = _push_pose(pilot.world.robot, frame.at(value), push, tilt, -FACE_GAP)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
     best: PreparedMove | None = None
     for before, approach in _approaches(pilot, start, tool, True, blockers, lenient):
@@ -467,7 +466,7 @@ def _next_push(
         tilt = lean + change
         if not 0.0 <= tilt <= 1.6:
             continue
-        tool = _push_pose(pose, push, tilt, PRESS)
+        tool = _push_pose(pilot.world.robot, pose, push, tilt, PRESS)
         result = pilot.arm.solve(tool, joints, free_spin=True)
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             continue
@@ -476,7 +475,7 @@ def _next_push(
     return None
 
 
-def _push_pose(part: Pose, push: Push, tilt: float, inside: float) -> Pose:
+def _push_pose(robot: RobotIndex, part: Pose, push: Push, tilt: float, inside: float) -> Pose:
     """Tool pose with the fingertip on the face: pointing down, tilted along the push or outward."""
     direction = -(part.rotation @ np.array(push.face.normal))
     point = part.position + part.rotation @ push.contact
@@ -485,7 +484,7 @@ def _push_pose(part: Pose, push: Push, tilt: float, inside: float) -> Pose:
     approach = -UP * np.cos(tilt) + level * np.sin(tilt)
     across = max(float(approach @ direction), 0.0)
     side = float(np.sqrt(max(0.0, 1.0 - float(approach @ direction) ** 2)))
-    offset = TIP_BEYOND_TOOL * across + FINGER_HALF * side
+    offset = robot.tip * across + robot.finger_half * side
     position = point - direction * (offset - inside)
     return Pose(position, rotation_from_axes(approach, np.cross(UP, level)))
 

@@ -26,8 +26,6 @@ FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""
 WIDTH_MARGIN = 0.004
 """The gripper must open this much wider than the object [m]."""
-TIP_BEYOND_TOOL = 0.0075
-"""The fingertips reach this far beyond the tool point [m]."""
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
 FINGER_DEPTH = 0.05
@@ -146,7 +144,7 @@ def _from_above(
                 labels.append((closing, offset, depth))
     lines = solids.intervals(data, name, np.array(origins), np.array(directions))
     for origin, (closing, offset, depth), line in zip(origins, labels, lines, strict=True):
-        deepest = high[2] - low[2] - TIP_BEYOND_TOOL - SUPPORT_GAP
+        deepest = high[2] - low[2] - world.robot.tip - SUPPORT_GAP
         tool_depth = min(depth, deepest)
         for interval, rim in _choices(line):
             middle = origin + closing * (interval.start + interval.end) / 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 import mujoco
@@ -25,6 +26,8 @@ TIMESTEP = 0.002
 FLOOR_DEPTH = 0.7
 """The floor lies this far below the desk top [m]; what falls there is lost."""
 ROBOT_PREFIX = "robot/"
+TIP_MARGIN, FINGER_MARGIN = 0.0005, 0.0015
+"""Added to the measured length and thickness of the fingers [m]."""
 DEFAULT_COLOR = (0.62, 0.64, 0.66)
 
 
@@ -46,6 +49,10 @@ class RobotIndex:
     lower: NDArray[np.float64]
     """Joint limits [rad], (n,)."""
     upper: NDArray[np.float64]
+    tip: float
+    """How far the fingertips reach beyond the tool point [m]."""
+    finger_half: float
+    """Half thickness of the closed fingers, across the approach [m]."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +64,9 @@ class World:
     robot: RobotIndex
     entries: dict[str, ObjectEntry]
     geom_address: tuple[str, ...]
-    """For every geom: object, ``object.part``, ``robot``, ``gripper``, ``desk`` or ``floor``."""
+    """For every geom: object, ``object.part`` or ``.board``, ``robot``, ``gripper``, ``desk`` or
+    ``floor``.
+    """
 
     @cached_property
     def geom_object(self) -> tuple[str, ...]:
@@ -132,7 +141,7 @@ def _set_options(mj: mujoco.MjSpec) -> None:
     mj.visual.global_.offwidth = 1920
     mj.visual.global_.offheight = 1440
     mj.visual.quality.shadowsize = 4096
-    # All lights together stay below white on a bright level surface, so that colours keep their hue.
+    # All lights together stay below white on a bright level surface: colours keep their hue.
     mj.visual.headlight.ambient = [0.34, 0.34, 0.34]
     mj.visual.headlight.diffuse = [0.20, 0.20, 0.20]
     mj.visual.headlight.specular = [0.03, 0.03, 0.03]
@@ -338,6 +347,8 @@ def _entry(
     axis: tuple[float, float, float] | None = None,
 ) -> ObjectEntry:
     fixed = is_fixed(spec)
+    behind_parts = {part.info.address for part in parts if part.info.container}
+    boards = [surface.address.partition(".")[2] for surface in surfaces]
     info = ObjectInfo(
         name=name,
         kind=spec.kind,
@@ -346,11 +357,11 @@ def _entry(
         size=(float(size[0]), float(size[1]), float(size[2])),
         mass=0.0,
         movable=not fixed and not isinstance(spec, specs.FURNITURE),
-        container=any(region.body == name for region in regions)
-        and not isinstance(spec, specs.Cabinet),
+        container=bool({region.address for region in regions} & {name} - behind_parts),
         surface=bool(surfaces),
         elongated=axis is not None and size[0] > 3 * size[1],
         parts=tuple(part.info for part in parts),
+        boards=tuple(board for board in boards if board),
     )
     upright = not isinstance(spec, specs.Sphere | specs.Pen | specs.Capsule)
     return ObjectEntry(info, name, not fixed, parts, regions, surfaces, upright, axis)
@@ -403,6 +414,7 @@ def _robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         int(model.jnt_qposadr[int(body.jntadr[0])]) for body in fingers if body.jntnum[0]
     ]
     lower, upper = np.array([joint.range for joint in joints]).T
+    tip, finger_half = _fingertips(model, int(site), [int(pad) for pad in pads])
     return RobotIndex(
         spec=spec,
         qpos=np.array([int(joint.qposadr[0]) for joint in joints]),
@@ -415,7 +427,24 @@ def _robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         finger_bodies=(int(fingers[0].id), int(fingers[1].id)),
         lower=lower,
         upper=upper,
+        tip=tip,
+        finger_half=finger_half,
     )
+
+
+def _fingertips(model: mujoco.MjModel, site: int, pads: list[int]) -> tuple[float, float]:
+    """Reach of the pads beyond the tool point, and their half thickness when closed [m]."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    rotation, point = data.site_xmat[site].reshape(3, 3), data.site_xpos[site]
+    corners = []
+    for pad in pads:
+        box = model.geom_aabb[pad]
+        for signs in product((-1, 1), repeat=3):
+            local = data.geom_xmat[pad].reshape(3, 3) @ (box[:3] + np.array(signs) * box[3:])
+            corners.append(rotation.T @ (data.geom_xpos[pad] + local - point))
+    across, tip = np.abs(corners)[:, :2].max(), np.array(corners)[:, 2].max()
+    return round(float(tip), 6) + TIP_MARGIN, round(float(across), 6) + FINGER_MARGIN
 
 
 def _addresses(model: mujoco.MjModel, entries: dict[str, ObjectEntry]) -> tuple[str, ...]:
@@ -424,6 +453,7 @@ def _addresses(model: mujoco.MjModel, entries: dict[str, ObjectEntry]) -> tuple[
         for entry in entries.values()
         for part in entry.parts
     }
+    boards = {f"{name}.{board}" for name, e in entries.items() for board in e.info.boards}
     addresses: list[str] = []
     hand = _hand_bodies(model)
     for geom in range(model.ngeom):
@@ -438,7 +468,8 @@ def _addresses(model: mujoco.MjModel, entries: dict[str, ObjectEntry]) -> tuple[
                 if address != root:
                     break
                 body = int(model.body_parentid[body])
-            addresses.append(address)
+            own = model.geom(geom).name
+            addresses.append(own if own in boards else address)
         else:
             addresses.append("gripper" if body in hand else "robot")
     return tuple(addresses)

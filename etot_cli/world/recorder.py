@@ -15,6 +15,9 @@ FRAME_PERIOD = 0.04
 """Time between stored configurations [s]."""
 MOVED = 0.01
 """Objects displaced further than this count as having moved [m]."""
+TRAIL_STEP = 0.05
+"""Spacing of the points that an object's way is remembered by [m]."""
+MAX_TRAIL = 24
 PRESSED = 2.0
 """A contact that existed before the action matters only when it is pressed harder than this [N]."""
 FORCE_THRESHOLD = 0.05
@@ -51,8 +54,8 @@ class Recorder:
         self._last_time = self.start_time
         self._origin = data.xpos[self._bodies].copy()
         self._farthest = np.zeros(len(self._names))
-        self._path_low = self._origin.copy()
-        self._path_high = self._origin.copy()
+        self._trail_end = self._origin.copy()
+        self._trails = [[(float(x), float(y))] for x, y, _ in self._origin]
         self._peak = np.zeros(len(owners) ** 2)
         self._impulse = np.zeros(len(owners) ** 2)
         self._first_time = np.zeros(len(owners) ** 2)
@@ -83,10 +86,18 @@ class Recorder:
         positions = data.xpos[self._bodies]
         distance = np.linalg.norm(positions - self._origin, axis=1)
         np.maximum(self._farthest, distance, out=self._farthest)
-        np.minimum(self._path_low, positions, out=self._path_low)
-        np.maximum(self._path_high, positions, out=self._path_high)
+        strayed = np.linalg.norm(positions - self._trail_end, axis=1) > TRAIL_STEP
+        if strayed.any():
+            self._extend_trails(positions, strayed)
         if self._keep_frames and (not self._times or now - self._times[-1] >= FRAME_PERIOD - 1e-6):
             self._frame(data)
+
+    def _extend_trails(self, positions: NDArray[np.float64], strayed: NDArray[np.bool_]) -> None:
+        desk_top = self._world.scene.desk.top
+        for index in np.nonzero(strayed)[0]:
+            self._trail_end[index] = positions[index]
+            if positions[index][2] > desk_top:
+                self._trails[index].append((float(positions[index][0]), float(positions[index][1])))
 
     def _observe_contacts(self, data: mujoco.MjData, now: float, elapsed: float) -> None:
         contact = data.contact
@@ -140,17 +151,14 @@ class Recorder:
         }
 
     def swept(self, held: str | None = None) -> tuple[Swept, ...]:
-        """Discs around the ways of displaced objects, ``held`` excepted."""
+        """Discs along the ways of displaced objects over the desk, ``held`` excepted."""
         discs = []
-        for i, name in enumerate(self._names):
-            if not self._free[i] or name == held or self._farthest[i] < MOVED:
+        for index, name in enumerate(self._names):
+            if not self._free[index] or name == held or self._farthest[index] < MOVED:
                 continue
-            low, high = self._path_low[i][:2], self._path_high[i][:2]
-            center = (low + high) / 2
             own = max(self._world.entries[name].info.size[:2]) / 2
-            radius = float(np.linalg.norm(high - low)) / 2 + own
-            discs.append(Swept(name, round(float(center[0]), 4), round(float(center[1]), 4),
-                               round(radius, 4)))  # fmt: skip
+            for x, y in self._trails[index][:MAX_TRAIL]:
+                discs.append(Swept(name, round(x, 4), round(y, 4), round(own, 4)))
         return tuple(discs)
 
     def trajectory(self) -> Trajectory | None:

@@ -32,7 +32,7 @@ DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG = 180.0, -38.0
 """A scene without cameras is seen from the front, obliquely, towards the robot."""
 MAX_GEOMS = 5000
 MIN_SIDE = 16
-"""Smallest picture side [px]; video encoders want even numbers, and people want to see something."""
+"""Smallest picture side [px]."""
 NO_OPENGL = (
     "no pictures can be rendered here, because OpenGL is missing ({reason}); on Debian and Ubuntu "
     "install libegl1 libgl1 libgl1-mesa-dri and set MUJOCO_GL=egl, or install libosmesa6 and set "
@@ -75,7 +75,7 @@ def open_context(width: int, height: int) -> Any:
 
 
 def _forget_opengl() -> None:
-    """PyOpenGL binds itself to one platform when first imported; another can be tried after this."""
+    """PyOpenGL binds itself to one platform on import; after this, another can be tried."""
     os.environ.pop("PYOPENGL_PLATFORM", None)
     for name in [name for name in sys.modules if name.split(".")[0] == "OpenGL"]:
         del sys.modules[name]
@@ -105,7 +105,8 @@ class WorldRenderer:
     Args:
         world: the compiled scene.
         camera: a camera of the scene; None for a view of the whole desk.
-        width, height: bounds of the picture [px]; it keeps the camera's proportions within them.
+        width: largest width [px]; pictures keep the camera's proportions.
+        height: largest height [px].
 
     Raises:
         ServiceError: there is no OpenGL.
@@ -170,7 +171,7 @@ class WorldRenderer:
         for item in self._scene.geoms[: self._scene.ngeom]:
             if item.segid >= 0 and item.objtype == mujoco.mjtObj.mjOBJ_GEOM:
                 geoms[item.segid + 1] = item.objid
-        return geoms[np.clip(segments, 0, self._scene.ngeom)]
+        return np.asarray(geoms[np.clip(segments, 0, self._scene.ngeom)], dtype=np.int32)
 
     def visible_pixels(self, qpos: NDArray[Any]) -> dict[str, NDArray[np.bool_]]:
         """For every object that is seen, the mask (height, width) of its pixels."""
@@ -243,7 +244,8 @@ def render_frames(
         scene: what is seen; a scene is compiled first.
         qpos: rows (nq,) such as those of a trajectory.
         camera: a camera of the scene; None for its first, or for a view of the whole desk.
-        width, height: bounds of the pictures [px]; they keep the camera's proportions.
+        width: largest width [px]; pictures keep the camera's proportions.
+        height: largest height [px].
 
     Raises:
         ServiceError: there is no OpenGL.

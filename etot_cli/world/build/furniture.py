@@ -27,7 +27,13 @@ EDGE_GRIP = 0.014
 """How far below a panel's edge the fingertips close on it [m]."""
 
 
-def _panel(body: Any, look: Look, low: tuple[float, ...], high: tuple[float, ...]) -> None:
+def _panel(
+    body: Any,
+    look: Look,
+    low: tuple[float, ...],
+    high: tuple[float, ...],
+    name: str | None = None,
+) -> None:
     """Adds a box given by two opposite corners."""
     add_geom(
         body,
@@ -35,6 +41,7 @@ def _panel(body: Any, look: Look, low: tuple[float, ...], high: tuple[float, ...
         BOX,
         [(b - a) / 2 for a, b in zip(low, high, strict=True)],
         pos=[(a + b) / 2 for a, b in zip(low, high, strict=True)],
+        name=name,
     )
 
 
@@ -250,8 +257,8 @@ def add_shelf(
     surfaces: list[Surface] = []
     for index, board in enumerate(spec.boards):
         top = -height + t + index * step if count > 1 else height
-        _panel(body, look, (-depth + t, -width + t, top - t), (depth, width - t, top))
         address = f"{name}.{board}"
+        _panel(body, look, (-depth + t, -width + t, top - t), (depth, width - t, top), address)
         surfaces.append(Surface(address, name, (t / 2, 0, top), (depth - t / 2, width - t)))
     surfaces.insert(0, Surface(name, name, surfaces[-1].center, surfaces[-1].half))
     return (), (), tuple(surfaces)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
 from etot_cli.world.build.material import Look, add_geom, add_visual
-from etot_cli.world.index import Face, Part, Region, Surface
+from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo
 
 COACD_THRESHOLD = 0.08
@@ -223,7 +223,8 @@ def mjcf_parts(
             name, part_name, address, kind, abs(opened - closed), part.container_site is not None
         )
         outer, inner = _faces(model, name, part, joint, body)
-        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, ()))
+        grasps = _grasps(model, f"{name}/{part.front_site}", outer) if part.front_site else ()
+        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, grasps))
         if part.container_site:
             regions.append(_region(model, f"{name}/{part.container_site}", address))
     if spec.container_site:
@@ -245,6 +246,39 @@ def _region(model: mujoco.MjModel, site_name: str, address: str) -> Region:
     half = (x, x, y) if is_round else (x, y, z)
     body = model.body(int(site.bodyid[0])).name
     return Region(address, body, tuple(site.pos), half, is_round)
+
+
+def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspable, ...]:
+    """Ways to close the gripper on a part's ``front_site``, the thinnest side first.
+
+    Along the face the hand comes from the front; across it, from any side. Whether the fingers
+    find room behind it is for the collision checks to say.
+    """
+    site = model.site(site_name)
+    center, half = np.array(site.pos), np.array(site.size)
+    normal = np.array(outer.normal)
+    grasps = []
+    for index in np.argsort(half, kind="stable"):
+        closing = np.eye(3)[index]
+        if abs(closing @ normal) > 0.5:
+            others = [i for i in range(3) if i != index]
+            approaches = [-sign * np.eye(3)[i] for i in reversed(others) for sign in (1.0, -1.0)]
+        else:
+            approaches = [-normal]
+        along = np.cross(closing, approaches[0])
+        grasps.append(
+            Graspable(
+                _triple(center), _triple(closing), _triple(along),
+                float(np.abs(along) @ half), float(2 * half[index]),
+                tuple(_triple(item) for item in approaches),
+            )
+        )  # fmt: skip
+    return tuple(grasps)
+
+
+def _triple(values: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
 
 
 def _faces(
