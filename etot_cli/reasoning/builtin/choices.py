@@ -85,9 +85,7 @@ def address_of(thing: Thing, relation: Relation, scene: SceneState) -> tuple[str
         return (f"{thing.name}.{thing.board}" if thing.board else thing.name,)
     if thing.part is None and info.container:
         return (thing.name,)
-    return tuple(
-        part.address for part in container_parts(info) if thing.part in (None, part.name)
-    )
+    return tuple(part.address for part in container_parts(info) if thing.part in (None, part.name))
 
 
 def _with_parts(goal: Goal, index: int, scene: SceneState) -> Referent:

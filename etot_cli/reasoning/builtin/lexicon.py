@@ -47,10 +47,11 @@ ORDINALS = {
 SIDES = {
     "left": "left", "leftmost": "left", "lefthand": "left",
     "right": "right", "rightmost": "right", "righthand": "right",
-    "front": "near", "frontmost": "near", "near": "near", "nearest": "near", "nearer": "near",
+    "front": "front", "frontmost": "front", "near": "near", "nearest": "near", "nearer": "near",
     "closest": "near", "closer": "near",
-    "back": "far", "rear": "far", "rearmost": "far", "far": "far", "farthest": "far",
-    "furthest": "far", "farther": "far", "further": "far", "hindmost": "far",
+    "back": "back", "rear": "back", "rearmost": "back", "hindmost": "back",
+    "far": "far", "farthest": "far",
+    "furthest": "far", "farther": "far", "further": "far",
     "middle": "middle", "center": "middle", "centre": "middle", "central": "middle",
 }  # fmt: skip
 """Words for where an object is, as seen from the robot."""

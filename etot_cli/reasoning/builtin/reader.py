@@ -80,7 +80,9 @@ def read(text: str, vocabulary: frozenset[str]) -> tuple[Sentence, ...]:
         raise UnreadableError(text.strip()[:40], "", "it says nothing")
     if len(parts) > MAX_SENTENCES:
         raise UnreadableError(
-            parts[MAX_SENTENCES], ". ".join(parts[:3]), f"it has more than {MAX_SENTENCES} sentences"
+            parts[MAX_SENTENCES],
+            ". ".join(parts[:3]),
+            f"it has more than {MAX_SENTENCES} sentences",
         )
     sentences: list[Sentence] = []
     for part in parts:
@@ -98,11 +100,13 @@ def _sentence(text: str, before: str, vocabulary: frozenset[str]) -> Sentence:
     try:
         tree = parser(vocabulary).parse(text)
     except UnexpectedCharacters as error:
-        stop = _word_start(text, error.pos_in_stream)
+        stop = _word_start(text, int(getattr(error, "pos_in_stream", 0) or 0))
         raise UnreadableError(_first_words(text[stop:]), _joined(before, text[:stop])) from None
     except UnexpectedEOF:
         raise UnreadableError(
-            _last_words(text), _joined(before, text), "the sentence seems to break off there"
+            _last_words(text),
+            _joined(before, text),
+            "something is missing, such as into or onto what",
         ) from None
     readings = {clauses_of(tree, text): None for tree in islice(_derivations(tree), MAX_READINGS)}
     # Words that need not single out an object say more when they tell where something is to go.

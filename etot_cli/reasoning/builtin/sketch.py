@@ -38,7 +38,7 @@ class Sketch:
         self._open = {part.address: is_open(scene, part) for part in parts}
         self._closed = {part.address: is_closed(scene, part) for part in parts}
         for action in actions:
-            self._do(action)
+            self.do(action)
 
     def pick_up(self, name: str, pose: GraspPose | None = None) -> None:
         """Takes an object, opening what it lies in; nothing when it is in the hand."""
@@ -47,8 +47,8 @@ class Sketch:
         self.put_down()
         for part in self._parts_around(name):
             if not self._accessible[part.address]:
-                self._do(Action(Verb.OPEN, part.address))
-        self._do(Action(Verb.PICK_UP, name, pose))
+                self.do(Action(Verb.OPEN, part.address))
+        self.do(Action(Verb.PICK_UP, name, pose))
 
     def put(
         self, name: str, relation: Relation, target: str, pose: GraspPose | None = None
@@ -61,22 +61,30 @@ class Sketch:
             return
         part = self._scene.part(target) if relation is Relation.INSIDE else None
         if part is None:
-            self.pick_up(name, pose)
             verb = Verb.PUT_ON if relation is Relation.ON else Verb.PUT_INTO
-            self._do(Action(verb, target))
+            opened = self._uncover(target)
+            self.pick_up(name, pose)
+            self.do(Action(verb, target))
+            for outer in reversed(opened):
+                self.do(Action(Verb.CLOSE, outer.address))
             return
         if not self._accessible[part.address]:
             self.put_down()
-            self._do(Action(Verb.OPEN, part.address))
+            self.do(Action(Verb.OPEN, part.address))
         self.pick_up(name, pose)
-        self._do(Action(Verb.PUT_INTO, part.address))
-        self._do(Action(Verb.CLOSE, part.address))
+        self.do(Action(Verb.PUT_INTO, part.address))
+        self.do(Action(Verb.CLOSE, part.address))
+
+    def take_away(self, name: str, put: Action, pose: GraspPose | None = None) -> None:
+        """Takes an object to a safe place."""
+        self.pick_up(name, pose)
+        self.do(put)
 
     def open(self, part: PartInfo) -> None:
         """Opens a part; nothing when it is open."""
         if not self._open[part.address]:
             self.put_down()
-            self._do(Action(Verb.OPEN, part.address))
+            self.do(Action(Verb.OPEN, part.address))
 
     def close(self, part: PartInfo, wanted: Iterable[str] = ()) -> None:
         """Closes a part; nothing when it is closed.
@@ -91,12 +99,19 @@ class Sketch:
                 self.put_down()
         if not self._closed[part.address]:
             self.put_down()
-            self._do(Action(Verb.CLOSE, part.address))
+            self.do(Action(Verb.CLOSE, part.address))
 
     def put_down(self) -> None:
         """Empties the hand."""
         if self._held is not None:
-            self._do(PUT_DOWN)
+            self.do(PUT_DOWN)
+
+    def reaches(self, action: Action) -> bool:
+        """Whether no closed part encloses what an action takes or where it puts something."""
+        owner = owner_of(action.target)
+        if action.verb in (Verb.OPEN, Verb.CLOSE) or owner not in self._scene.states:
+            return True
+        return all(self._accessible[part.address] for part in self._parts_around(owner))
 
     def holds(self, name: str, relation: Relation, target: str) -> bool:
         """Whether an object is at a place by now."""
@@ -107,6 +122,17 @@ class Sketch:
                 return self._moved[name] == (relation, target)
             return is_on(self._scene, name, target)
         return target in self._containers_around(name)
+
+    def _uncover(self, target: str) -> list[PartInfo]:
+        """Opens the closed parts around a vessel or surface; returns them, the outermost first."""
+        owner = owner_of(target)
+        if owner not in self._scene.states:
+            return []
+        closed = [p for p in self._parts_around(owner) if not self._accessible[p.address]]
+        for part in closed:
+            self.put_down()
+            self.do(Action(Verb.OPEN, part.address))
+        return closed
 
     def _containers_around(self, name: str) -> tuple[str, ...]:
         """Addresses of the containers around an object, from the nearest outwards."""
@@ -131,7 +157,8 @@ class Sketch:
         parts = (self._scene.part(address) for address in self._containers_around(name))
         return [part for part in parts if part is not None][::-1]
 
-    def _do(self, action: Action) -> None:
+    def do(self, action: Action) -> None:
+        """Takes an action over as it is."""
         self.actions.append(action)
         match action.verb:
             case Verb.PICK_UP:

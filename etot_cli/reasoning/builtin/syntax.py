@@ -88,7 +88,10 @@ class Destination:
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """"the apple is inside the cup", "the drawer is closed" (then ``word`` is the adjective)."""
+    """What is to hold, as in "the apple is inside the cup".
+
+    ``word``: the adjective in "the drawer is closed".
+    """
 
     subjects: tuple[NounPhrase, ...]
     destinations: tuple[Destination, ...] = ()
@@ -117,7 +120,6 @@ class PutClause:
 
     groups: tuple[PutGroup, ...]
     grouping: Grouping = Grouping.ANY
-    respectively: bool = False
     conditions: tuple[State, ...] = ()
 
 

@@ -84,6 +84,7 @@ class _Walk:
                 (PutGroup(self._things_in(tree), (Destination(Toward.HERE, word="down"),)),)
             ),
             "remove": self._remove,
+            "empty": self._empty,
             "open": lambda tree: MoveClause(self._things_in(tree), opens=True),
             "close": lambda tree: MoveClause(self._things_in(tree), opens=False),
             "ensure": lambda tree: EnsureClause(self.states(_child(tree, "states"))),
@@ -98,9 +99,7 @@ class _Walk:
     def _pick(self, tree: Any) -> PickClause:
         poses = [child for child in _subtrees(tree) if child.data == "poses"]
         selected = tuple(
-            _POSES[_tokens(pose)[0].type]
-            for group in poses
-            for pose in _subtrees(group)
+            _POSES[_tokens(pose)[0].type] for group in poses for pose in _subtrees(group)
         )
         things = self._things_in(tree)
         source = self._source(tree)
@@ -121,20 +120,28 @@ class _Walk:
             for child in _subtrees(tree)
             if child.data == "put_group"
         )
-        grouping, respectively, conditions = Grouping.ANY, False, []
+        grouping, conditions = Grouping.ANY, []
         for extra in _subtrees(tree):
             if extra.data != "extra":
                 continue
             for token in _tokens(extra):
                 grouping = _GROUPINGS.get(token.type, grouping)
-                respectively = respectively or token.type == "RESPECTIVELY"
-            for child in _subtrees(extra):
-                if child.data == "condition":
-                    conditions.append(self._state(_subtrees(child)[0]))
-        return PutClause(groups, grouping, respectively, tuple(conditions))
+            conditions += [
+                self._state(_subtrees(child)[0])
+                for child in _subtrees(extra)
+                if child.data == "condition"
+            ]
+        return PutClause(groups, grouping, tuple(conditions))
 
     def _remove(self, tree: Any) -> RemoveClause:
         return RemoveClause(self._things_in(tree), self._source(tree))
+
+    def _empty(self, tree: Any) -> RemoveClause:
+        contents = (
+            NounPhrase("all", ("objects",), (Modifier(Prep.IN, (vessel,)),), text=vessel.text)
+            for vessel in self._things_in(tree).phrases
+        )
+        return RemoveClause(Things(tuple(contents)))
 
     def _source(self, tree: Any) -> NounPhrase | None:
         for child in _subtrees(tree):
@@ -197,9 +204,7 @@ class _Walk:
             for child in children
             if child.data == "words"
         ]
-        modifiers = tuple(
-            self._modifier(child) for child in children if child.data in _MODIFIERS
-        )
+        modifiers = tuple(self._modifier(child) for child in children if child.data in _MODIFIERS)
         owner = None
         if tree.data == "owned":
             owner = NounPhrase(determiner, words[0], text=" ".join(words[0]))

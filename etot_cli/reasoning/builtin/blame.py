@@ -1,0 +1,162 @@
+"""Why an action failed, derived from contacts and states where the skill itself did not say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from etot_cli.reasoning.builtin.effects import acted_object
+from etot_cli.reasoning.builtin.harm import Harm, HarmKind
+from etot_cli.reasoning.builtin.relations import (
+    container_address,
+    contents,
+    is_on,
+    owner_of,
+)
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
+
+ROBOT = frozenset({"robot", "gripper"})
+GROUND = frozenset({"desk", "floor"})
+
+
+def cause_of_failure(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
+    """The physical cause of an action that lacks its effect.
+
+    What the skill said itself comes first; harm to others is added to it.
+    """
+    if record.cause is not None:
+        return _with_harm(record.cause, harmed)
+    derive = {
+        Verb.PICK_UP: _not_picked_up,
+        Verb.PUT_ON: _not_put,
+        Verb.PUT_INTO: _not_put,
+        Verb.OPEN: _not_moved,
+        Verb.CLOSE: _not_moved,
+    }[action.verb]
+    return _with_harm(derive(action, record, harmed), harmed)
+
+
+def cause_of_harm(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
+    """The cause of a failure by harm alone: the action had its effect."""
+    worst = harmed[0]
+    times = [time for harm in harmed if (time := _first_touch(record, harm.name)) is not None]
+    return Cause(
+        worst.kind.cause,
+        tuple(harm.name for harm in harmed),
+        f"during {action} {_listed(harm.words() for harm in harmed)}",
+        min(times, default=None),
+    )
+
+
+def _with_harm(cause: Cause, harmed: Sequence[Harm]) -> Cause:
+    """The cause with harmed objects behind those to blame, and the harm in its text."""
+    objects = tuple(dict.fromkeys((*cause.objects, *(harm.name for harm in harmed))))
+    unsaid = [harm.words() for harm in harmed if harm.words() not in cause.text]
+    text = f"{cause.text}; {_listed(unsaid)}" if unsaid else cause.text
+    return Cause(cause.kind, objects, text, cause.time_s)
+
+
+def _not_picked_up(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
+    del harmed
+    target = action.target
+    if target not in record.before.infos:
+        return Cause(CauseKind.PRECONDITION, (), f"there is no {target} to pick up")
+    struck = _struck_by(ROBOT, record, excluding={target})
+    if struck:
+        text = f"the robot ran into {_listed(struck)} and did not get hold of {target}"
+        return Cause(CauseKind.COLLISION, (*struck, target), text, _first_touch(record, struck[0]))
+    if _first_touch(record, target) is not None:
+        text = f"{target} slipped out of the fingers"
+        return Cause(CauseKind.SLIP, (target,), text, _first_touch(record, target))
+    return Cause(CauseKind.NO_EFFECT, (target,), f"{target} is not in the hand")
+
+
+def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
+    held = acted_object(action, record)
+    target, owner = action.target, owner_of(action.target)
+    if held is None:
+        return Cause(CauseKind.PRECONDITION, (), "there is nothing in the hand to put down")
+    if record.after.states[held].in_hand:
+        return Cause(CauseKind.NO_EFFECT, (held,), f"{held} stayed in the fingers")
+    if any(harm.name == owner and harm.kind is HarmKind.TOPPLED for harm in harmed):
+        text = f"{target} toppled when {held} was put into it"
+        return Cause(CauseKind.TOPPLED, (owner,), text, _first_touch(record, owner))
+    joint = "in" if action.verb is Verb.PUT_INTO else "on"
+    struck = _struck_by({held}, record, excluding={owner, *ROBOT})
+    resident = [name for name in struck if _is_at(name, action, record)]
+    if resident:
+        text = f"{held} rebounded off {_listed(resident)} {joint} {target}"
+        return Cause(CauseKind.REBOUND, (*resident, held), text, _first_touch(record, resident[0]))
+    if struck:
+        text = f"{held} struck {_listed(struck)} and did not come to rest {joint} {target}"
+        return Cause(CauseKind.COLLISION, (*struck, held), text, _first_touch(record, struck[0]))
+    filling = [name for name in record.before.states if _is_at(name, action, record)]
+    if filling and action.verb is Verb.PUT_INTO:
+        text = f"there is no room for {held} in {target} beside {_listed(filling)}"
+        return Cause(CauseKind.NO_ROOM, (*filling, held), text)
+    if record.after.states[held].lost:
+        return Cause(CauseKind.LOST, (held,), f"{held} fell off the desk")
+    blamed = (owner, held) if owner in record.before.infos else (held,)
+    return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
+
+
+def _not_moved(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
+    del harmed
+    owner, before = owner_of(action.target), record.before
+    part = before.part(action.target)
+    if part is None:
+        return Cause(CauseKind.PRECONDITION, (), f"{action.target} has nothing to open or close")
+    touched = _struck_by({owner}, record, excluding=set(ROBOT))
+    inside = contents(before, part.address)
+    blocking = [name for name in touched if name in inside]
+    blocking += [name for name in touched if name not in inside]
+    verb = action.verb.value.lower()
+    fraction = f"{record.after.openness(part):.0%} of its travel"
+    if blocking:
+        text = f"{part.address} did not {verb} ({fraction}): {_listed(blocking)} blocks it"
+        return Cause(CauseKind.BLOCKED, (*blocking, owner), text, _first_touch(record, blocking[0]))
+    return Cause(CauseKind.NO_EFFECT, (owner,), f"{part.address} did not {verb} ({fraction})")
+
+
+def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:
+    """Whether an object was in or on the action's target before."""
+    if name == acted_object(action, record):
+        return False
+    address = container_address(record.before, action.target)
+    inside = action.verb is Verb.PUT_INTO and address is not None
+    if inside and name in contents(record.before, action.target):
+        return True
+    owner = owner_of(action.target)
+    return owner in record.before.infos and is_on(record.before, name, owner)
+
+
+def _struck_by(movers: Iterable[str], record: RolloutRecord, excluding: set[str]) -> list[str]:
+    """Objects touched by any of ``movers``, the hardest hit first."""
+    moving = set(movers)
+    known = set(record.before.infos)
+    impulses: dict[str, float] = {}
+    for contact in record.contacts:
+        pair = _owners(contact)
+        for one, other in (pair, pair[::-1]):
+            if one in moving and other in known - moving - excluding:
+                impulses[other] = impulses.get(other, 0.0) + contact.impulse
+    return sorted(impulses, key=lambda name: -impulses[name])
+
+
+def _first_touch(record: RolloutRecord, name: str) -> float | None:
+    """When an object was first touched by anything but the desk or the floor."""
+    times = [
+        contact.time_s
+        for contact in record.contacts
+        if name in (pair := _owners(contact)) and not GROUND & set(pair)
+    ]
+    return min(times, default=None)
+
+
+def _owners(contact: ContactEvent) -> tuple[str, str]:
+    return owner_of(contact.first), owner_of(contact.second)
+
+
+def _listed(items: Iterable[str]) -> str:
+    words = list(items)
+    return ", ".join(words[:-1]) + (" and " if len(words) > 1 else "") + words[-1]

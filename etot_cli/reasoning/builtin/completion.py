@@ -1,0 +1,81 @@
+"""Brings back what a revision took out of a place that the goal wants it in.
+
+A branch has no steps for what already holds at its start. When a revision relocates such an object,
+its goal has to be restored at the end of the branch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.choices import address_of
+from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing
+from etot_cli.reasoning.builtin.relations import is_inside, is_on
+from etot_cli.reasoning.builtin.rules import check_plan
+from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.reasoning.protocol import Branch, FailedStep
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import SceneState
+
+
+def completed(revised: Branch, failed: FailedStep, goals: Iterable[Goal]) -> Branch:
+    """The revision with steps that restore what held at the start and was asked for.
+
+    Args:
+        revised: a well-formed revision.
+        failed: what it was revised from.
+        goals: what the branches were proposed for; nothing is restored without them.
+    """
+    start = failed.start
+    sketch = Sketch(start, revised.actions)
+    for name in _taken_away(revised.actions):
+        for relation, target in _wanted_from_start(name, goals, start):
+            if not sketch.holds(name, relation, target):
+                sketch.put(name, relation, target)
+                break
+    actions = tuple(sketch.actions)
+    if actions == revised.actions or check_plan(actions, start):
+        return revised
+    return replace(revised, actions=actions)
+
+
+def _taken_away(actions: Sequence[Action]) -> list[str]:
+    """Objects whose last put in a branch is to a safe place."""
+    held: str | None = None
+    safe: dict[str, bool] = {}
+    for action in actions:
+        if action.verb is Verb.PICK_UP:
+            held = action.target
+        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+            if held is not None:
+                safe[held] = action.safe
+            held = None
+    return [name for name, is_safe in safe.items() if is_safe]
+
+
+def _wanted_from_start(
+    name: str, goals: Iterable[Goal], start: SceneState
+) -> list[tuple[Relation, str]]:
+    """Places of an object that hold at the start and that a goal asks for."""
+    thing = Thing(name)
+    found: dict[tuple[Relation, str], None] = {}
+    for goal in goals:
+        for step in goal.steps:
+            if not isinstance(step, Put):
+                continue
+            meant = any(
+                thing in option for index in step.what for option in goal.referents[index].options
+            )
+            if not meant:
+                continue
+            for place in step.places:
+                for option in goal.referents[place.where].options:
+                    for target in option:
+                        for address in address_of(target, place.relation, start):
+                            found[place.relation, address] = None
+    return [
+        (relation, address)
+        for relation, address in found
+        if (is_on if relation is Relation.ON else is_inside)(start, name, address)
+    ]

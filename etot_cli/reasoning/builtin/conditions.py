@@ -1,0 +1,182 @@
+"""From a task's formal ``goal`` conditions to the same goal structure that instructions give."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import islice, product
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Open,
+    Pick,
+    Place,
+    Put,
+    Referent,
+    Relation,
+    Step,
+    Thing,
+)
+from etot_cli.reasoning.builtin.matching import ReferenceProblem
+from etot_cli.reasoning.builtin.references import Role, can_be
+from etot_cli.reasoning.builtin.relations import is_inside, is_on
+from etot_cli.reasoning.builtin.settling import settled
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import DESK, SceneState
+
+MAX_ALTERNATIVES = 256
+"""Alternatives that nested ``any`` conditions may multiply into."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Atom:
+    """One statement: a key of :class:`Condition`, what it is about, and whether it is denied."""
+
+    key: str
+    names: tuple[str, ...]
+    denied: bool = False
+
+
+def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
+    """Alternative goals, each of which makes all conditions true.
+
+    Args:
+        conditions: must all hold in the end.
+        scene: what they are about.
+
+    Raises:
+        InstructionError: a name is unknown, or no skill can make the conditions true.
+    """
+    alternatives = _conjunctions([_alternatives(item, denied=False) for item in conditions])
+    goals: list[Goal] = []
+    objection: InstructionError | None = None
+    for atoms in alternatives:
+        draft = _Draft(scene)
+        try:
+            for atom in atoms:
+                draft.add(atom)
+            goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps))))
+        except ReferenceProblem as error:
+            objection = objection or InstructionError(f"goal: {error.phrase}: {error.why}")
+    if not goals:
+        raise objection or InstructionError("goal: no condition is given")
+    return tuple(goals)
+
+
+def _alternatives(condition: Condition, *, denied: bool) -> list[tuple[_Atom, ...]]:
+    """Lists of statements, any of which makes a condition true."""
+    if condition.not_ is not None:
+        return _alternatives(condition.not_, denied=not denied)
+    nested = condition.any if condition.any is not None else condition.all
+    if nested is not None:
+        options = [_alternatives(item, denied=denied) for item in nested]
+        # De Morgan: denying "any of" means that none holds.
+        if (condition.any is not None) != denied:
+            return [atoms for option in options for atoms in option]
+        return _conjunctions(options)
+    for key in ("on", "inside"):
+        pair: tuple[str, str] | None = getattr(condition, key)
+        if pair is not None:
+            return [(_Atom(key, pair, denied),)]
+    for key in ("in_hand", "open", "closed", "upright", "present"):
+        name: str | None = getattr(condition, key)
+        if name is not None:
+            return [(_Atom(key, (name,), denied),)]
+    return [()]
+
+
+def _conjunctions(options: Iterable[list[tuple[_Atom, ...]]]) -> list[tuple[_Atom, ...]]:
+    combined = islice(product(*options), MAX_ALTERNATIVES)
+    return [tuple(atom for atoms in selected for atom in atoms) for selected in combined]
+
+
+@dataclass
+class _Draft:
+    """Referents and steps of one alternative."""
+
+    scene: SceneState
+    referents: list[Referent] = field(default_factory=list)
+    steps: list[Step] = field(default_factory=list)
+
+    def add(self, atom: _Atom) -> None:
+        """Adds what makes a statement true.
+
+        Raises:
+            ReferenceProblem: no skill can do that, or a name is unknown.
+        """
+        adders: dict[str, Callable[[_Atom], None]] = {
+            "on": self._place,
+            "inside": self._place,
+            "in_hand": self._in_hand,
+            "open": self._open,
+            "closed": self._open,
+            "upright": self._state,
+            "present": self._state,
+        }
+        adders[atom.key](atom)
+
+    def _place(self, atom: _Atom) -> None:
+        name, place = atom.names
+        relation = Relation.ON if atom.key == "on" else Relation.INSIDE
+        theme = self._refer(name, Role.THEME)
+        target = self._refer(place, Role.SURFACE if atom.key == "on" else Role.CONTAINER)
+        if not atom.denied:
+            self.steps.append(Put((theme,), (Place(relation, target),)))
+            return
+        holds = is_on if relation is Relation.ON else is_inside
+        if holds(self.scene, name, place):
+            if place == DESK:
+                raise ReferenceProblem(name, "say where it is to be instead of on the desk")
+            self.steps.append(Put((theme,), (Place(Relation.ON, self._refer(DESK, Role.SURFACE)),)))
+
+    def _in_hand(self, atom: _Atom) -> None:
+        name = atom.names[0]
+        theme = self._refer(name, Role.THEME)
+        if not atom.denied:
+            self.steps.append(Pick(theme))
+        elif self.scene.holding == name:
+            desk = self._refer(DESK, Role.SURFACE)
+            self.steps.append(Put((theme,), (Place(Relation.ON, desk),)))
+
+    def _open(self, atom: _Atom) -> None:
+        part = self._refer(atom.names[0], Role.PART)
+        opens = (atom.key == "open") != atom.denied
+        self.steps.append(Open(part, final=True) if opens else Close(part, final=True))
+
+    def _state(self, atom: _Atom) -> None:
+        name = atom.names[0]
+        self._refer(name, Role.ANY)
+        state = self.scene.states.get(name)
+        holds = state is None or not (state.lost or (atom.key == "upright" and state.toppled))
+        if holds == atom.denied:
+            raise ReferenceProblem(name, f"no skill makes '{atom.key}' true or false")
+
+    def _refer(self, name: str, role: Role) -> int:
+        """The referent of a name as the task file writes it."""
+        thing = self._thing(name)
+        if not can_be(thing, role, self.scene):
+            raise ReferenceProblem(name, f"it cannot be {role.value}")
+        referent = Referent(((thing,),), name)
+        if referent not in self.referents:
+            self.referents.append(referent)
+        return self.referents.index(referent)
+
+    def _thing(self, name: str) -> Thing:
+        if name == DESK:
+            return Thing(DESK)
+        owner, _, part = name.partition(".")
+        info = self.scene.infos.get(owner)
+        if info is None:
+            known = ", ".join((*self.scene.infos, DESK))
+            raise ReferenceProblem(name, f"the scene has no such object; it has {known}")
+        if not part:
+            return Thing(owner)
+        if part in info.boards:
+            return Thing(owner, board=part)
+        parts = [item.name for item in info.parts]
+        if part not in parts:
+            known = ", ".join((*parts, *info.boards)) or "none"
+            raise ReferenceProblem(name, f"{owner} has no such part; it has {known}")
+        return Thing(owner, part)

@@ -1,0 +1,51 @@
+"""What a determiner says about how many instances are meant and how they are chosen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from etot_cli.reasoning.builtin.lexicon import NUMBERS
+
+_DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "your", "its", "their"})
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """How many are meant.
+
+    Args:
+        count: exactly this many; None leaves it to the noun's number.
+        every: all that fit.
+        definite: known from the scene or from earlier words ("the cup").
+        other: not the ones mentioned before.
+    """
+
+    count: int | None = None
+    every: bool = False
+    definite: bool = False
+    other: bool = False
+
+
+def quantity_of(determiner: str) -> Quantity:
+    """Reads a determiner such as ``the``, ``one of the``, ``both``, ``the other two``."""
+    words = determiner.split()
+    if not words:
+        return Quantity(definite=True)
+    first = words[0]
+    other = "other" in words or first == "another"
+    numbers = [NUMBERS.get(word) or (int(word) if word.isdigit() else None) for word in words]
+    count = next((number for number in reversed(numbers) if number is not None), None)
+    if "single" in words and count is None:
+        count = 1
+    if first in ("all", "every", "each"):
+        counted = count if first == "all" else None
+        return Quantity(count=counted, every=True, definite=True, other=other)
+    if first == "both":
+        return Quantity(count=2, every=True, definite=True, other=other)
+    if first in ("any", "some", "either"):
+        return Quantity(count=count or 1, other=other)
+    if first in _DEFINITE:
+        return Quantity(count=count, definite=True, other=other)
+    if first in ("a", "an", "another"):
+        return Quantity(count=count or 1, other=other)
+    return Quantity(count=count, other=other)

@@ -1,0 +1,165 @@
+"""Undesired changes: every object is compared before and after an action.
+
+Source: paper, "Failure Detection": unsafe is what the skills cannot recover, such as a ball that
+rolled off the table or a pen out of the arm's reach.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import IntEnum
+
+from etot_cli.reasoning.builtin.effects import acted_object, carried_along
+from etot_cli.reasoning.builtin.relations import (
+    can_topple,
+    contents,
+    enclosing,
+    owner_of,
+)
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord
+
+SHOVED = 0.03
+"""An object displaced further than this has been disturbed [m]."""
+CHANGED = 0.005
+"""An object displaced further than this has changed at all [m]."""
+FELL = 0.01
+"""An object that rests on something else and moved further than this has fallen off [m]."""
+PART_MOVED = 0.25
+"""A part moved by more than this share of its travel, unasked, has been disturbed."""
+
+
+class HarmKind(IntEnum):
+    """Kinds of harm, the gravest first."""
+
+    LOST = 0
+    STRANDED = 1
+    TOPPLED = 2
+    DISLODGED = 3
+    """It left the container or the support that it was in or on."""
+    SHOVED = 4
+
+    @property
+    def unsafe(self) -> bool:
+        """Whether the skills cannot recover it."""
+        return self in (HarmKind.LOST, HarmKind.STRANDED)
+
+    @property
+    def cause(self) -> CauseKind:
+        """The physical cause that it is recorded as."""
+        kinds = {
+            HarmKind.LOST: CauseKind.LOST,
+            HarmKind.STRANDED: CauseKind.STRANDED,
+            HarmKind.TOPPLED: CauseKind.TOPPLED,
+        }
+        return kinds.get(self, CauseKind.COLLISION)
+
+
+@dataclass(frozen=True, slots=True)
+class Harm:
+    """What happened to an object. ``distance``: how far it was moved [m]."""
+
+    name: str
+    kind: HarmKind
+    distance: float
+
+    def words(self) -> str:
+        """What happened, as a clause with the object as its subject."""
+        far = f"{self.distance * 100:.0f} cm"
+        return {
+            HarmKind.LOST: f"{self.name} fell off the desk",
+            HarmKind.STRANDED: f"{self.name} ended up out of the arm's reach",
+            HarmKind.TOPPLED: f"{self.name} toppled",
+            HarmKind.DISLODGED: f"{self.name} was knocked from its place ({far})",
+            HarmKind.SHOVED: f"{self.name} was pushed {far}",
+        }[self.kind]
+
+
+def harms(action: Action, record: RolloutRecord) -> tuple[Harm, ...]:
+    """All objects harmed by an action, the gravest harm first."""
+    found = []
+    for name in record.before.states:
+        kind = _harm(name, action, record)
+        if kind is not None:
+            found.append(Harm(name, kind, displacement(name, record)))
+    return tuple(sorted(found, key=lambda harm: (harm.kind, -harm.distance)))
+
+
+def displacement(name: str, record: RolloutRecord) -> float:
+    """The largest known displacement of an object during the action [m]."""
+    before, after = record.before.states[name], record.after.states[name]
+    return max(record.displacement.get(name, 0.0), math.dist(before.position, after.position))
+
+
+def changed(record: RolloutRecord) -> tuple[str, ...]:
+    """Objects whose state differs afterwards, in scene order."""
+    return tuple(name for name in record.before.states if _has_changed(name, record))
+
+
+def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
+    info = record.before.infos[name]
+    before, after = record.before.states[name], record.after.states[name]
+    acted = name == acted_object(action, record)
+    if after.lost and not before.lost:
+        return HarmKind.LOST
+    if info.movable and before.reachable and not after.reachable and not after.in_hand:
+        return HarmKind.STRANDED
+    # What was put down may lie as it likes unless it has to hold something.
+    upright = can_topple(info) and (info.container or not acted)
+    if upright and after.toppled and not before.toppled and not after.in_hand:
+        return HarmKind.TOPPLED
+    if acted:
+        return None
+    if _is_dislodged(name, record):
+        return HarmKind.DISLODGED
+    if _is_shoved(name, action, record):
+        return HarmKind.SHOVED
+    return None
+
+
+def _is_dislodged(name: str, record: RolloutRecord) -> bool:
+    before, after = record.before.states[name], record.after.states[name]
+    if before.inside is not None and before.inside not in enclosing(record.after, name):
+        return True
+    supports, now = _owners(before), _owners(after)
+    elsewhere = bool(supports) and bool(now) and not supports & now
+    return elsewhere and before.inside == after.inside and displacement(name, record) > FELL
+
+
+def _is_shoved(name: str, action: Action, record: RolloutRecord) -> bool:
+    if name in carried_along(action, record):
+        return False
+    # A vessel may shift, and what lies in it give way, when something comes in.
+    inserted = action.verb is Verb.PUT_INTO and (
+        name == owner_of(action.target) or name in contents(record.before, action.target)
+    )
+    if not inserted and displacement(name, record) > SHOVED:
+        return True
+    before, after = record.before.states[name], record.after.states[name]
+    return any(
+        abs(after.openness.get(part, value) - value) > PART_MOVED
+        for part, value in before.openness.items()
+    )
+
+
+def _has_changed(name: str, record: RolloutRecord) -> bool:
+    before, after = record.before.states[name], record.after.states[name]
+    same = (
+        before.inside == after.inside
+        and before.in_hand == after.in_hand
+        and before.toppled == after.toppled
+        and before.lost == after.lost
+        and before.reachable == after.reachable
+        and dict(before.opened) == dict(after.opened)
+        and (not _owners(before) or not _owners(after) or _owners(before) == _owners(after))
+    )
+    openness = any(
+        abs(after.openness.get(part, value) - value) > 0.05
+        for part, value in before.openness.items()
+    )
+    return not same or openness or displacement(name, record) > CHANGED
+
+
+def _owners(state: ObjectState) -> frozenset[str]:
+    return frozenset(owner_of(support) for support in state.on)

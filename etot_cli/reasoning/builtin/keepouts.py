@@ -1,0 +1,46 @@
+"""Where a safe place must not be: what a failed action swept, and what it is about."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.builtin.harm import displacement
+from etot_cli.reasoning.builtin.relations import owner_of, radius
+from etot_cli.reasoning.protocol import FailedStep
+from etot_cli.skills.action import Keepout, Verb
+from etot_cli.world.state import SceneState
+
+MOVED = 0.01
+"""Objects displaced further than this keep their old and new place clear [m]."""
+CLEARANCE = 0.05
+"""Room for the hand around what the failed action is about [m]."""
+
+
+def keepouts_of(failed: FailedStep, name: str) -> tuple[Keepout, ...]:
+    """Discs that a safe place for an object avoids, from the failed rollout; base frame.
+
+    Args:
+        failed: the failed step.
+        name: the object to be taken away; it must not stay where it is.
+    """
+    record = failed.record
+    before, after = record.before, record.after
+    discs = [_disc(item.x, item.y, item.radius) for item in record.swept]
+    for other in before.states:
+        if before.infos[other].movable and displacement(other, record) > MOVED:
+            discs += [_around(before, other), _around(after, other)]
+    discs.append(_around(before, name))
+    action = failed.branch.actions[failed.index]
+    about = owner_of(action.target)
+    articulated = action.verb in (Verb.OPEN, Verb.CLOSE)
+    if not articulated and about in before.infos and before.infos[about].movable:
+        discs.append(_around(before, about, CLEARANCE))
+    return tuple(sorted(set(discs)))
+
+
+def _around(scene: SceneState, name: str, clearance: float = 0.0) -> Keepout:
+    x, y, _ = scene.states[name].position
+    return _disc(x, y, radius(scene.infos[name]) + clearance)
+
+
+def _disc(x: float, y: float, size: float) -> Keepout:
+    """A disc in whole millimetres, so that equal causes give equal actions."""
+    return Keepout(round(x, 3), round(y, 3), round(size, 3))

@@ -1,0 +1,50 @@
+"""The built-in reasoner: the paper's VLM roles done offline, from the world's state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.branching import branches_of
+from etot_cli.reasoning.builtin.completion import completed
+from etot_cli.reasoning.builtin.conditions import goals_of
+from etot_cli.reasoning.builtin.goal import Goal
+from etot_cli.reasoning.builtin.judging import judge_action
+from etot_cli.reasoning.builtin.reflection import reflect_on
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Verdict
+from etot_cli.skills.action import Action
+from etot_cli.world.state import RolloutRecord, SceneState
+
+
+class BuiltinReasoner:
+    """Reads controlled English, branches, judges and reflects; implements ``Reasoner``.
+
+    It is deterministic and knows no task. Between calls it keeps only the goal that it proposed
+    branches for last, so that a revision can bring back what it had to take out of its place.
+    """
+
+    def __init__(self) -> None:
+        self._goals: tuple[Goal, ...] = ()
+
+    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
+        """Priori branching: all candidate branches, in the order of the instruction's own words.
+
+        Raises:
+            InstructionError: the assignment cannot be understood against this scene.
+        """
+        if assignment.goal is not None:
+            self._goals = goals_of(assignment.goal, scene)
+        else:
+            # The grammar needs the parser, which only this role should pay for.
+            from etot_cli.reasoning.builtin.instructions import goal_of
+
+            self._goals = (goal_of(assignment.instruction, scene),)
+        return branches_of(self._goals, scene)
+
+    def judge(self, action: Action, record: RolloutRecord) -> Verdict:
+        """Compares all objects before and after the action."""
+        return judge_action(action, record)
+
+    def reflect(self, failed: FailedStep) -> Branch | None:
+        """A corrected branch from the root, or None where no revision keeps the purpose."""
+        revised = reflect_on(failed)
+        return None if revised is None else completed(revised, failed, self._goals)

@@ -1,0 +1,275 @@
+"""Reflective branching: a corrected branch from the recorded physical cause of a failure.
+
+Two kinds of correction, as in the paper: what is in the way goes to a safe place first, or the
+order changes where an earlier step of the branch made this one impossible. Besides, a grasp pose
+that the instruction did not ask for may be tried. A mismatch of the two objects of the action
+itself (too big, too heavy) has no correction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.relations import (
+    NOT_OBJECTS,
+    OPEN_ENOUGH,
+    bearers,
+    distance,
+    is_inside,
+    owner_of,
+    radius,
+)
+from etot_cli.reasoning.builtin.revision import (
+    Actions,
+    cycle_of,
+    hand_free_at,
+    inserted,
+    moved_before,
+    opened_before,
+    placed_by,
+    purpose,
+    reachable_throughout,
+    relocation,
+    relocations,
+)
+from etot_cli.reasoning.builtin.rules import check_plan
+from etot_cli.reasoning.protocol import Branch, FailedStep
+from etot_cli.skills.action import Action, GraspPose, Verb
+from etot_cli.world.state import DESK, Cause, CauseKind, PartInfo
+
+REACH_AROUND = 0.10
+"""A part that opens this close to an object may keep the hand from it [m]."""
+_COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCKED})
+"""Causes of a failed pick that an opened part may be behind, even when it is not named."""
+
+
+class Correction(NamedTuple):
+    """A revised branch and what was changed, in words."""
+
+    actions: Actions
+    change: str
+
+
+def reflect_on(failed: FailedStep) -> Branch | None:
+    """The first correction that is well-formed and keeps the branch's purpose.
+
+    Args:
+        failed: the failed step; everything used is its record and the branch.
+
+    Returns:
+        A whole branch from the root, or None where no correction keeps the purpose.
+    """
+    cause = failed.verdict.cause or failed.record.cause
+    if cause is None or not 0 <= failed.index < len(failed.branch.actions):
+        return None
+    case = _Case(failed, cause)
+    aim = purpose(case.actions, failed.start)
+    for correction in case.corrections():
+        actions = correction.actions
+        if (
+            actions != case.actions
+            and purpose(actions, failed.start) == aim
+            and not check_plan(actions, failed.start)
+        ):
+            return Branch(actions, f"{correction.change}, because {cause.text}")
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Case:
+    """A failed step with what has to be known about it."""
+
+    failed: FailedStep
+    cause: Cause
+
+    @property
+    def actions(self) -> Actions:
+        return self.failed.branch.actions
+
+    @property
+    def action(self) -> Action:
+        return self.actions[self.failed.index]
+
+    @property
+    def acted(self) -> str | None:
+        """The object that the failed action moves."""
+        if self.action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+            return self.failed.record.before.holding
+        return owner_of(self.action.target)
+
+    def corrections(self) -> Iterator[Correction]:
+        """Possible corrections, the most promising first."""
+        match self.action.verb:
+            case Verb.PICK_UP:
+                yield from self._of_pick()
+            case Verb.PUT_ON | Verb.PUT_INTO:
+                yield from self._of_put()
+            case Verb.OPEN | Verb.CLOSE:
+                yield from self._of_articulation()
+
+    # -- who is in the way -------------------------------------------------------------------------
+
+    def _culprits(self) -> list[str]:
+        """Objects to blame, those that the branch itself has moved or opened first.
+
+        What this branch has changed did not stand in the way at the start.
+        """
+        index, scene = self.failed.index, self.failed.record.before
+        named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
+        others = [
+            name
+            for name in named
+            if name in scene.infos and name not in NOT_OBJECTS and name != self.acted
+        ]
+        opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, index)}
+        return sorted(
+            others,
+            key=lambda name: (
+                not (name in opened or placed_by(self.actions, name, index) is not None)
+            ),
+        )
+
+    def _relocated(self, name: str, index: int) -> Iterator[Correction]:
+        """The branch with an object taken to a safe place before ``index``."""
+        scene = self.failed.record.before
+        info = scene.infos[name]
+        if not info.movable or scene.states[name].lost or relocations(self.actions, name):
+            return
+        if name in bearers(scene, self.acted or ""):
+            return  # what bears the object would take it along
+        place = hand_free_at(self.actions, index, self.failed.start)
+        extra = relocation(name, keepouts_of(self.failed, name))
+        change = f"{name} goes to a safe place first"
+        if place is not None:
+            yield Correction(inserted(self.actions, place, extra), change)
+            return
+        # The hand was full from the start: it is emptied and filled again.
+        held = self.failed.start.holding
+        assert held is not None  # otherwise the hand would have been empty at the root
+        down = Action(Verb.PUT_ON, DESK, safe=True)
+        again = Action(Verb.PICK_UP, held)
+        yield Correction((down, *extra, again, *self.actions), change)
+
+    def _earlier(self, before: int, name: str) -> Iterator[Correction]:
+        """The branch with the failed cycle brought before the one that is at ``before``."""
+        own, other = cycle_of(self.actions, self.failed.index), cycle_of(self.actions, before)
+        if other.start < own.start and before not in own:
+            actions = moved_before(self.actions, own, other.start)
+            yield Correction(
+                reachable_throughout(actions, self.failed.start),
+                f"{self.action} comes before {name} is in the way",
+            )
+
+    # -- by verb -----------------------------------------------------------------------------------
+
+    def _of_pick(self) -> Iterator[Correction]:
+        index = self.failed.index
+        for name in self._culprits():
+            placed = placed_by(self.actions, name, index)
+            if placed is not None:
+                yield from self._earlier(placed, name)
+            elif self.failed.record.before.infos[name].movable:
+                yield from self._relocated(name, index)
+            else:
+                yield from self._taken_before_opening(name)
+        if self.cause.kind in _COVERED:
+            for opening in opened_before(self.actions, index):
+                part = self.failed.start.part(self.actions[opening].target)
+                if part is not None and self._is_near(part):
+                    yield from self._taken_before_opening(part.owner)
+        yield from self._other_pose(index)
+
+    def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
+        """The picked object is taken to a safe place before what now covers it was opened."""
+        name, index, start = self.action.target, self.failed.index, self.failed.start
+        for opening in opened_before(self.actions, index):
+            target = self.actions[opening].target
+            if owner_of(target) != owner or is_inside(start, name, target):
+                continue
+            change = f"{name} is taken before {target} covers it"
+            is_relocation = index + 1 < len(self.actions) and self.actions[index + 1].safe
+            if is_relocation:
+                own = cycle_of(self.actions[index : index + 2], 0)
+                moved = self.actions[index : index + own.end]
+                rest = (*self.actions[:index], *self.actions[index + own.end :])
+                yield Correction(inserted(rest, opening, moved), change)
+            elif not relocations(self.actions, name):
+                extra = relocation(name, keepouts_of(self.failed, name))
+                yield Correction(inserted(self.actions, opening, extra), change)
+
+    def _is_near(self, part: PartInfo) -> bool:
+        """Whether a part opens close to the object that could not be picked up."""
+        scene, name = self.failed.record.before, self.action.target
+        if name not in scene.infos:
+            return False
+        owner = scene.infos[part.owner]
+        # A door swings as far as it is wide.
+        travel = part.travel if part.joint_type == "slide" else max(owner.size[:2])
+        limit = radius(owner) + travel + radius(scene.infos[name]) + REACH_AROUND
+        return distance(scene.states[part.owner], scene.states[name]) < limit
+
+    def _other_pose(self, pick: int) -> Iterator[Correction]:
+        """A grasp from above where none was asked for and the object slipped."""
+        action = self.actions[pick]
+        if self.cause.kind is not CauseKind.SLIP or action.pose is not None:
+            return
+        posed = replace(action, pose=GraspPose.VERTICAL)
+        actions = (*self.actions[:pick], posed, *self.actions[pick + 1 :])
+        yield Correction(actions, f"{action.target} is grasped from above")
+
+    def _of_put(self) -> Iterator[Correction]:
+        index, owner = self.failed.index, owner_of(self.action.target)
+        pick = next((i for i in range(index, -1, -1) if self.actions[i].verb is Verb.PICK_UP), None)
+        if (
+            self.cause.objects
+            and owner_of(self.cause.objects[0]) == owner
+            and (self.cause.kind is CauseKind.TOPPLED)
+        ):
+            return  # the container does not stand what is put into it
+        for name in self._culprits():
+            if name == owner:
+                continue
+            placed = placed_by(self.actions, name, index)
+            if placed is not None:
+                if self.actions[placed + 1].target != self.action.target:
+                    yield from self._earlier(placed, name)
+            elif self.failed.record.before.infos[name].movable:
+                yield from self._relocated(name, index)
+            else:
+                for opening in opened_before(self.actions, index):
+                    if owner_of(self.actions[opening].target) == name:
+                        yield from self._earlier(opening, name)
+        if self.action.safe:
+            yield from self._other_safe_place()
+        if pick is not None:
+            yield from self._other_pose(pick)
+
+    def _other_safe_place(self) -> Iterator[Correction]:
+        """The next surface for something that only has to be out of the way."""
+        infos = self.failed.start.infos
+        tops = [name for name, info in infos.items() if info.surface and not info.movable]
+        surfaces = [DESK, *tops]
+        index, target = self.failed.index, self.action.target
+        if target in surfaces:
+            for surface in surfaces[surfaces.index(target) + 1 :]:
+                other = replace(self.action, target=surface)
+                actions = (*self.actions[:index], other, *self.actions[index + 1 :])
+                yield Correction(actions, f"{surface} serves as the safe place")
+
+    def _of_articulation(self) -> Iterator[Correction]:
+        index, before = self.failed.index, self.failed.record.before
+        part = before.part(self.action.target)
+        if part is None:
+            return
+        for name in self._culprits():
+            placed = placed_by(self.actions, name, index)
+            within = is_inside(before, name, part.address)
+            if placed is not None:
+                put_there = self.actions[placed + 1].target == part.address
+                if not (within or put_there):
+                    yield from self._earlier(placed, name)
+            elif not within or before.openness(part) >= OPEN_ENOUGH:
+                yield from self._relocated(name, index)

@@ -1,0 +1,210 @@
+"""Editing branches: cycles, relocations, reordering, and what a branch is for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from etot_cli.reasoning.builtin.goal import Relation
+from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.skills.action import Action, Keepout, Verb
+from etot_cli.world.state import DESK, SceneState
+
+Actions = tuple[Action, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """Actions that belong together: ``start`` up to, not including, ``end``.
+
+    A pick and its put; an insertion into an articulated container with its open and close; or a
+    single action.
+    """
+
+    start: int
+    end: int
+
+    def __contains__(self, index: int) -> bool:
+        return self.start <= index < self.end
+
+
+@dataclass(frozen=True, slots=True)
+class Purpose:
+    """What a branch leads to, whatever it does on the way.
+
+    Args:
+        places: final put of each object, safe places left out.
+        parts: last verb of each opened or closed part.
+        held: what is in the hand at the end.
+    """
+
+    places: frozenset[tuple[str, Verb, str]]
+    parts: frozenset[tuple[str, Verb]]
+    held: str | None
+
+
+def purpose(actions: Sequence[Action], scene: SceneState) -> Purpose:
+    """What a branch is for; relocations to a safe place are means and no part of it."""
+    held = scene.holding
+    places: dict[str, tuple[Verb, str]] = {}
+    parts: dict[str, Verb] = {}
+    for action in actions:
+        match action.verb:
+            case Verb.PICK_UP:
+                held = action.target
+            case Verb.PUT_ON | Verb.PUT_INTO:
+                if held is not None and not action.safe:
+                    places[held] = (action.verb, action.target)
+                held = None
+            case Verb.OPEN | Verb.CLOSE:
+                parts[action.target] = action.verb
+    return Purpose(
+        frozenset((name, *place) for name, place in places.items()),
+        frozenset(parts.items()),
+        held,
+    )
+
+
+def cycles(actions: Sequence[Action]) -> list[Cycle]:
+    """Splits a branch into cycles, in order; every action belongs to exactly one."""
+    found: list[Cycle] = []
+    index = 0
+    while index < len(actions):
+        end = _insertion_end(actions, index)
+        if end is None:
+            two = actions[index].verb is Verb.PICK_UP and index + 1 < len(actions)
+            end = index + (2 if two else 1)
+        found.append(Cycle(index, end))
+        index = end
+    return found
+
+
+def _insertion_end(actions: Sequence[Action], start: int) -> int | None:
+    """End of the insertion cycle that an OPEN, or a PICK UP before an open drawer, begins."""
+    first = actions[start]
+    if first.verb is Verb.OPEN:
+        for index in range(start + 1, len(actions)):
+            action = actions[index]
+            if action.target == first.target and action.verb is Verb.CLOSE:
+                inserted = any(
+                    item.verb is Verb.PUT_INTO and item.target == first.target
+                    for item in actions[start:index]
+                )
+                return index + 1 if inserted else None
+            if action.target == first.target and action.verb is Verb.OPEN:
+                return None
+        return None
+    if first.verb is Verb.PICK_UP and start + 2 < len(actions):
+        put, close = actions[start + 1], actions[start + 2]
+        if (put.verb, close.verb, close.target) == (Verb.PUT_INTO, Verb.CLOSE, put.target):
+            return start + 3
+    return None
+
+
+def cycle_of(actions: Sequence[Action], index: int) -> Cycle:
+    """The cycle that an action belongs to."""
+    return next(cycle for cycle in cycles(actions) if index in cycle)
+
+
+def placed_by(actions: Sequence[Action], name: str, before: int) -> int | None:
+    """Index of the last PICK UP of an object before a place in the branch, safe places left out."""
+    for index in range(before - 1, -1, -1):
+        action = actions[index]
+        if action.verb is Verb.PICK_UP and action.target == name:
+            put = actions[index + 1] if index + 1 < len(actions) else None
+            return None if put is None or put.safe else index
+    return None
+
+
+def relocations(actions: Sequence[Action], name: str) -> int:
+    """How often a branch takes an object to a safe place."""
+    return sum(
+        1
+        for pick, put in pairwise(actions)
+        if pick.verb is Verb.PICK_UP and pick.target == name and put.safe
+    )
+
+
+def relocation(name: str, keepout: tuple[Keepout, ...], surface: str = DESK) -> Actions:
+    """Taking an object to a safe place."""
+    return (
+        Action(Verb.PICK_UP, name),
+        Action(Verb.PUT_ON, surface, safe=True, keepout=keepout),
+    )
+
+
+def inserted(actions: Actions, index: int, extra: Actions) -> Actions:
+    """A branch with actions added before ``index``."""
+    return (*actions[:index], *extra, *actions[index:])
+
+
+def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
+    """A branch with a cycle brought forward to ``index``, which lies before it."""
+    return (
+        *actions[:index],
+        *actions[cycle.start : cycle.end],
+        *actions[index : cycle.start],
+        *actions[cycle.end :],
+    )
+
+
+def reachable_throughout(actions: Actions, scene: SceneState) -> Actions:
+    """The branch, with a drawer opened and closed again where it would shut away what is needed.
+
+    Bringing a cycle forward may leave a vessel in a drawer by the time something goes into it.
+    """
+    walk = Sketch(scene)
+    for action in actions:
+        if not walk.reaches(action):
+            return _written_anew(actions, scene)
+        walk.do(action)
+    return actions
+
+
+def _written_anew(actions: Actions, scene: SceneState) -> Actions:
+    """The same picks, puts, openings and closings with the cycles around them renewed."""
+    sketch = Sketch(scene)
+    for index, action in enumerate(actions):
+        part = scene.part(action.target)
+        following = actions[index + 1] if index + 1 < len(actions) else None
+        if action.verb is Verb.OPEN and part is not None:
+            if _insertion_end(actions, index) is None:
+                sketch.open(part)
+        elif action.verb is Verb.CLOSE and part is not None:
+            sketch.close(part)
+        elif action.verb is Verb.PICK_UP and following is None:
+            sketch.pick_up(action.target, action.pose)
+        elif action.verb is Verb.PICK_UP and following is not None:
+            if following.safe:
+                sketch.take_away(action.target, following, action.pose)
+            else:
+                on = following.verb is Verb.PUT_ON
+                relation = Relation.ON if on else Relation.INSIDE
+                sketch.put(action.target, relation, following.target, action.pose)
+    return tuple(sketch.actions)
+
+
+def hand_free_at(actions: Sequence[Action], index: int, scene: SceneState) -> int | None:
+    """The latest place at or before ``index`` where the hand is empty; None when there is none."""
+    free = [scene.holding is None]
+    for action in actions[:index]:
+        if action.verb is Verb.PICK_UP:
+            free.append(False)
+        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+            free.append(True)
+        else:
+            free.append(free[-1])
+    return next((place for place in range(index, -1, -1) if free[place]), None)
+
+
+def opened_before(actions: Sequence[Action], index: int) -> list[int]:
+    """Indices of OPEN actions before ``index`` whose part is still open there, latest first."""
+    found: list[int] = []
+    for place in range(index):
+        action = actions[place]
+        if action.verb is Verb.OPEN:
+            found.append(place)
+        elif action.verb is Verb.CLOSE:
+            found = [item for item in found if actions[item].target != action.target]
+    return found[::-1]

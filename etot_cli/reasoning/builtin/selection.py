@@ -1,0 +1,128 @@
+"""Singles out instances by place, size, order and state ("the left cup", "the second ball")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin import spatial
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.lexicon import ORDINALS, SIDES, SIZES, STATES
+from etot_cli.reasoning.builtin.matching import ReferenceProblem
+from etot_cli.reasoning.builtin.relations import contents, is_closed
+from etot_cli.reasoning.builtin.syntax import Modifier, Prep
+from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
+
+
+def side_word(phrase: str) -> str | None:
+    """The side that "on the far left of the desk" names."""
+    return next((word for word in phrase.split() if word in SIDES and word != "far"), None)
+
+
+def select(
+    words: Sequence[str],
+    modifiers: Sequence[Modifier],
+    things: list[Thing],
+    count: int | None,
+    scene: SceneState,
+    phrase: str,
+) -> list[Thing]:
+    """Things that selecting words and modifiers of place single out.
+
+    Args:
+        words: adjectives such as ``left``, ``second``, ``big``, ``empty``.
+        modifiers: of the phrase; those of place ("on the left") are looked at.
+        things: to choose from, in scene order.
+        count: how many are meant, None when the noun is an open plural.
+        scene: where they are.
+        phrase: as written, for messages.
+
+    Raises:
+        ReferenceProblem: nothing is left.
+    """
+    sides = [side_word(item.word) for item in modifiers if item.prep is Prep.SIDE]
+    ordinals = [word for word in words if word in ORDINALS]
+    for word in words:
+        if word in STATES:
+            things = [thing for thing in things if state_holds(word, thing, scene)]
+    if not things:
+        raise ReferenceProblem(phrase, "nothing is in that state", 1)
+    if ordinals:
+        return [_nth(ordinals[0], sides[0] if sides else "left", things, scene, phrase)]
+    for word in words:
+        if word in SIZES:
+            things = _by_size(word, things, count, scene, phrase)
+    selected = [word for word in words if word in SIDES]
+    if len(selected) > 1:  # "the far left cup"
+        selected = [word for word in selected if word not in ("far", "near")]
+    for word in (*selected, *(side for side in sides if side is not None)):
+        things = _at_side(SIDES[word], things, count, scene, phrase)
+    return things
+
+
+def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
+    """Whether an adjective of state ("open", "empty", …) is true of a thing."""
+    if thing.name == DESK:
+        return False
+    info, state = scene.infos[thing.name], scene.states[thing.name]
+    parts = [part for part in info.parts if thing.part in (None, part.name)]
+    match STATES[word]:
+        case "open":
+            return any(scene.openness(part) >= OPEN_AT for part in parts)
+        case "ajar":
+            return any(CLOSED_AT < scene.openness(part) < OPEN_AT for part in parts)
+        case "closed":
+            return bool(parts) and all(is_closed(scene, part) for part in parts)
+        case "empty" | "full":
+            places = [part.address for part in parts] if thing.part else [thing.name]
+            places += [part.address for part in parts]
+            filled = any(contents(scene, place) for place in places)
+            return filled == (STATES[word] == "full")
+        case _:
+            return state.toppled
+
+
+def _nth(
+    ordinal: str, origin: str | None, things: list[Thing], scene: SceneState, phrase: str
+) -> Thing:
+    """The n-th from the left unless another side is said; parts count from the top."""
+    if all(thing.part is not None or thing.board is not None for thing in things):
+        ordered = things
+    else:
+        ordered = spatial.by_side(SIDES[origin or "left"], things, scene)
+    index = ORDINALS[ordinal]
+    if index >= len(ordered):
+        names = ", ".join(thing.name for thing in things)
+        raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
+    return ordered[index]
+
+
+def _by_size(
+    word: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
+) -> list[Thing]:
+    quantity, sign = SIZES[word]
+
+    def measure(thing: Thing) -> float:
+        info = scene.infos[thing.name]
+        x, y, z = info.size
+        values = {"volume": x * y * z, "height": z, "width": max(x, y), "mass": info.mass}
+        return -sign * values[quantity]
+
+    return _leading(sorted(things, key=measure), count, phrase)
+
+
+def _at_side(
+    side: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
+) -> list[Thing]:
+    if side == "middle":
+        if len(things) % 2 == 0:
+            names = ", ".join(thing.name for thing in things)
+            raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
+        return [spatial.by_side("left", things, scene)[len(things) // 2]]
+    return _leading(spatial.by_side(side, things, scene), count, phrase)
+
+
+def _leading(ordered: list[Thing], count: int | None, phrase: str) -> list[Thing]:
+    """As many as are meant, of things that are ordered from the best fitting one on."""
+    if count is None and len(ordered) > 1:
+        raise ReferenceProblem(phrase, "say how many of them are meant", 1)
+    return ordered[: count or 1]

@@ -1,0 +1,90 @@
+"""Puts a goal's steps together: a pick that leads to a put is one step, and the hand holds one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import (
+    Goal,
+    Pick,
+    Put,
+    Relation,
+    Step,
+    Thing,
+    referents_of,
+)
+from etot_cli.reasoning.builtin.matching import ReferenceProblem
+from etot_cli.world.state import DESK
+
+
+def settled(goal: Goal, turned: Sequence[int] = ()) -> Goal:
+    """A goal whose steps can be carried out one after the other.
+
+    "Pick up the pear, … put it into the bowl" becomes one step, with the grasp that was asked for;
+    so does taking something out and putting it elsewhere.
+
+    Args:
+        goal: steps as the clauses gave them.
+        turned: referents that were to be reoriented.
+
+    Raises:
+        ReferenceProblem: two objects would have to stay in the hand, or something is only to be
+            turned, for which there is no skill.
+    """
+    steps: list[Step] = []
+    for index, step in enumerate(goal.steps):
+        later = goal.steps[index + 1 :]
+        if isinstance(step, Pick) and any(_moves(other, step.what) for other in later):
+            continue
+        if isinstance(step, Put) and _is_removal(goal, step):
+            kept = tuple(i for i in step.what if not any(_moves(other, i) for other in later))
+            if not kept:
+                continue
+            steps.append(replace(step, what=kept))
+            continue
+        if isinstance(step, Put):
+            steps.append(_with_poses(step, goal.steps[:index]))
+            continue
+        steps.append(step)
+    _check_hand(goal, steps)
+    for index in turned:
+        if not any(index in referents_of(step) for step in steps):
+            text = goal.referents[index].text
+            raise ReferenceProblem(
+                text, "turning something is no skill of its own; say where it is to go", 2
+            )
+    return replace(goal, steps=tuple(steps))
+
+
+def _moves(step: Step, referent: int) -> bool:
+    return isinstance(step, Put) and referent in step.what
+
+
+def _is_removal(goal: Goal, step: Put) -> bool:
+    """Whether a step only takes things away, to anywhere on the desk."""
+    return all(
+        place.relation is Relation.ON
+        and goal.referents[place.where].options == ((Thing(DESK),),)
+        and goal.referents[place.where].text == DESK
+        for place in step.places
+    )
+
+
+def _with_poses(step: Put, earlier: Sequence[Step]) -> Put:
+    """The step with the grasp poses that an earlier pick of the same things asked for."""
+    for other in reversed(earlier):
+        if isinstance(other, Pick) and other.what in step.what and other.poses != (None,):
+            return replace(step, poses=other.poses)
+    return step
+
+
+def _check_hand(goal: Goal, steps: Sequence[Step]) -> None:
+    picks = list(dict.fromkeys(step.what for step in steps if isinstance(step, Pick)))
+    sets = [goal.referents[index] for index in picks]
+    if len(picks) > 1 or any(len(option) > 1 for referent in sets for option in referent.options):
+        raise ReferenceProblem(
+            " and ".join(referent.text for referent in sets),
+            "the hand holds one object at a time; say where each of them is to go",
+            3,
+        )

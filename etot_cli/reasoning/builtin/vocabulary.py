@@ -1,0 +1,194 @@
+"""The words by which a scene's objects, parts and surfaces can be called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.lexicon import (
+    BOARD_NOUNS,
+    CONTAINER_NOUNS,
+    DESK_NOUNS,
+    JOINT_NOUNS,
+    KIND_NOUNS,
+    THING_NOUNS,
+    basic_color,
+    is_plural_of,
+    matches_any,
+)
+from etot_cli.reasoning.builtin.reader import normalized
+from etot_cli.world.state import DESK, ObjectInfo, SceneState
+
+EXACT, HEAD, GENERIC, PART_OF_NAME, REST_OF_NAME = range(5)
+"""How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
+its kind; another word of its name; only words before the phrase's noun fit ("kettle thing")."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A thing and its words, all lower case.
+
+    Args:
+        thing: what is called so.
+        own: words of its label and name.
+        heads: the nouns among them (the last words).
+        generic: nouns by kind.
+        context: words that may come before its noun without singling it out (its owner's).
+        numbers: numbers in its name or label.
+        exact: full names.
+        color: its basic colour.
+        info: the object (or the part's owner); None for the desk.
+    """
+
+    thing: Thing
+    own: tuple[str, ...]
+    heads: tuple[str, ...]
+    generic: tuple[str, ...] = ()
+    context: tuple[str, ...] = ()
+    numbers: tuple[str, ...] = ()
+    exact: tuple[str, ...] = ()
+    color: str | None = None
+    info: ObjectInfo | None = None
+
+    def grade(self, noun: str) -> int | None:
+        """How well a noun fits, None where it does not."""
+        if noun in self.exact:
+            return EXACT
+        if matches_any(noun, self.heads):
+            return HEAD
+        if matches_any(noun, self.generic):
+            return GENERIC
+        if matches_any(noun, self.own):
+            return PART_OF_NAME
+        return None
+
+    def has_word(self, word: str) -> bool:
+        """Whether a word is one of its own, apart from number."""
+        return matches_any(word, self.own)
+
+    def has_color(self, color: str) -> bool:
+        """Whether it is of a basic colour, or is called by a word for it."""
+        return self.color == color or any(basic_color(word) == color for word in self.own)
+
+    def is_colored(self) -> bool:
+        """Whether anything is known of its colour."""
+        return self.color is not None or any(basic_color(word) for word in self.own)
+
+    def is_plural(self, noun: str) -> bool:
+        """Whether a noun is the plural of one of its nouns."""
+        singulars = (*self.heads, *self.generic, *self.own)
+        return noun not in singulars and is_plural_of(noun, singulars)
+
+
+class Vocabulary:
+    """All entries of a scene, in scene order."""
+
+    def __init__(self, scene: SceneState) -> None:
+        self.objects: list[Entry] = []
+        self.parts: list[Entry] = []
+        self.boards: list[Entry] = []
+        for info in scene.infos.values():
+            entry = _object_entry(info)
+            self.objects.append(entry)
+            self.parts += _part_entries(info, entry)
+            self.boards += _board_entries(info, entry)
+        self.desk = Entry(Thing(DESK), (), (), generic=DESK_NOUNS, exact=(DESK,))
+
+    def words(self) -> frozenset[str]:
+        """Every word of the scene's names and labels."""
+        entries = (*self.objects, *self.parts, *self.boards)
+        return frozenset(word for entry in entries for word in (*entry.own, *entry.exact))
+
+    def joined(self, text: str) -> str:
+        """Normalized text in which names with single letters ("mug a") stand as one word."""
+        for entry in self.objects:
+            if entry.info is not None and re.search(r"(?:^|_)[^\W\d_](?:_|$)", entry.info.name):
+                spaced = re.escape(entry.info.name.casefold().replace("_", " "))
+                text = re.sub(rf"\b{spaced}\b", entry.info.name.casefold(), text)
+        return text
+
+    def is_known(self, word: str) -> bool:
+        """Whether some object of the scene is called so, at least in part."""
+        return any(entry.has_word(word) for entry in (*self.objects, *self.parts, *self.boards))
+
+    def names(self) -> str:
+        """What an error message lists."""
+        return ", ".join(
+            entry.info.label if entry.info is not None else DESK for entry in self.objects
+        )
+
+
+def is_general_noun(word: str) -> bool:
+    """Whether a word is one of the lexicon's nouns, whatever the scene."""
+    groups: Sequence[Sequence[str]] = (
+        *KIND_NOUNS.values(), *JOINT_NOUNS.values(), CONTAINER_NOUNS, THING_NOUNS, DESK_NOUNS,
+    )  # fmt: skip
+    return any(matches_any(word, group) for group in groups)
+
+
+def _words_of(text: str) -> list[str]:
+    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|_|(?<=[A-Za-z])(?=\d)", " ", text)
+    return re.findall(r"\w+", normalized(spaced))
+
+
+def _object_entry(info: ObjectInfo) -> Entry:
+    called = [_words_of(info.label), _words_of(info.name)]
+    own: dict[str, None] = {}
+    heads: dict[str, None] = {}
+    numbers: dict[str, None] = {}
+    for words in called:
+        nouns = [word for word in words if not word.isdigit() and len(word) > 1]
+        own.update(dict.fromkeys(nouns))
+        heads.update(dict.fromkeys(nouns[-1:]))
+        numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
+    generic = KIND_NOUNS.get(info.kind, ())
+    if info.container or any(part.container for part in info.parts):
+        generic = (*generic, *CONTAINER_NOUNS)
+    return Entry(
+        thing=Thing(info.name),
+        own=tuple(own),
+        heads=tuple(heads),
+        generic=generic,
+        numbers=tuple(numbers),
+        exact=(info.name.casefold(),),
+        color=info.color,
+        info=info,
+    )
+
+
+def _part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
+    entries = []
+    for part in info.parts:
+        words = [word for word in _words_of(part.name) if not word.isdigit()]
+        entries.append(
+            Entry(
+                thing=Thing(info.name, part.name),
+                own=tuple(words),
+                heads=tuple(words[-1:]),
+                generic=JOINT_NOUNS.get(part.joint_type, ()),
+                context=(*owner.own, *owner.generic),
+                numbers=tuple(word for word in _words_of(part.name) if word.isdigit()),
+                exact=(f"{info.name}.{part.name}".casefold(),),
+                color=info.color,
+                info=info,
+            )
+        )
+    return entries
+
+
+def _board_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
+    return [
+        Entry(
+            thing=Thing(info.name, board=board),
+            own=tuple(_words_of(board)),
+            heads=tuple(_words_of(board)[-1:]),
+            generic=(*BOARD_NOUNS, *owner.heads, *owner.generic),
+            context=(*owner.own, *owner.generic),
+            exact=(f"{info.name}.{board}".casefold(),),
+            color=info.color,
+            info=info,
+        )
+        for board in info.boards
+    ]
