@@ -1,0 +1,194 @@
+"""The main job as a user runs it: processes, files, exit codes."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from tests.measure.expectations import NAIVE_PLANS, TASKS, is_right_plan
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMAS = ROOT / "docs" / "schemas"
+TIME_LIMIT_S = 180
+"""Generous: the test machine may be busy. Speed itself is measured by ``make bench``."""
+
+
+def etot(*arguments: str | Path, env: dict[str, str] | None = None) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", "etot_cli.cli.app", *map(str, arguments)],
+        cwd=ROOT,
+        env={**os.environ, **(env or {})},
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT_S,
+        check=False,
+    )
+
+
+def plan(task: str, out: Path, *extra: str) -> tuple[int, dict]:
+    done = etot("plan", f"tasks/{task}.yaml", "--json", "--out", out, *extra)
+    assert done.stdout, done.stderr
+    report = json.loads(done.stdout)
+    schema = json.loads((SCHEMAS / "etot.plan-1.json").read_text())
+    jsonschema.validate(report, schema)
+    assert report == json.loads((out / "report.json").read_text())
+    return done.returncode, report
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_plan_is_the_right_one_and_its_simulation_agrees(task: str, tmp_path: Path) -> None:
+    code, report = plan(task, tmp_path / "plan")
+    assert code == 0
+    assert report["status"] == "feasible"
+    assert is_right_plan(task, report["plan"])
+    done = etot(
+        "simulate", f"tasks/{task}.yaml", "--plan", tmp_path / "plan" / "report.json",
+        "--json", "--out", tmp_path / "simulate",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    simulated = json.loads(done.stdout)
+    jsonschema.validate(simulated, json.loads((SCHEMAS / "etot.simulate-1.json").read_text()))
+    assert simulated["status"] == "success"
+    assert [step["action"] for step in simulated["steps"]] == report["plan"]
+    assert simulated["success_conditions"]["held"]
+
+
+@pytest.mark.parametrize("naive", NAIVE_PLANS, ids=lambda naive: f"{naive.task}-{naive.blame}")
+def test_naive_plan_fails_and_names_the_culprit(naive, tmp_path: Path) -> None:
+    done = etot(
+        "simulate", f"tasks/{naive.task}.yaml", "--plan", naive.plan, "--json", "--out", tmp_path
+    )
+    assert done.returncode == 1, done.stderr
+    report = json.loads(done.stdout)
+    assert report["status"] in ("failure", "unsafe")
+    assert naive.blame in report["steps"][-1]["cause"]["objects"]
+
+
+@pytest.mark.parametrize(
+    ("task", "solved"), [("task1", False), ("task2", True), ("task3", True), ("task6", False)]
+)
+def test_without_reflective_branching(task: str, solved: bool, tmp_path: Path) -> None:
+    code, report = plan(task, tmp_path, "--without", "reflective")
+    assert (code == 0) is solved
+    assert (report["status"] == "feasible") is solved
+    assert not [n for n in report["tree"]["nodes"] if n["origin"] == "reflective"]
+
+
+def test_without_priori_branching_there_is_one_branch(tmp_path: Path) -> None:
+    _, report = plan("task7", tmp_path, "--without", "priori", "--without", "reflective")
+    parents = [node["parent"] for node in report["tree"]["nodes"]]
+    assert len(parents) == len(set(parents))
+
+
+def test_jobs_change_nothing_but_the_time(tmp_path: Path) -> None:
+    reports = [plan("task6", tmp_path / jobs, "--jobs", jobs)[1] for jobs in ("1", "2")]
+    for report in reports:
+        for node in report["tree"]["nodes"]:
+            del node["wall_s"]
+    one, two = reports
+    assert one["plan"] == two["plan"]
+    assert one["tree"] == two["tree"]
+    assert one["statistics"]["steps"] == two["statistics"]["steps"]
+
+
+def test_same_seed_same_report_other_seed_other_world(tmp_path: Path) -> None:
+    def causes(seed: str, name: str) -> list:
+        _, report = plan("task2", tmp_path / name, "--vary", "--seed", seed)
+        return [(n["action"], n["status"], n["simulated_s"]) for n in report["tree"]["nodes"]]
+
+    first = causes("3", "a")
+    assert first == causes("3", "b")
+    assert first != causes("4", "c")
+
+
+def test_worlds_give_a_probability(tmp_path: Path) -> None:
+    code, report = plan("task2", tmp_path, "--worlds", "4", "--jobs", "2")
+    assert code == 0
+    survival = report["survival"]
+    assert survival["worlds"] == 4
+    assert survival["survived"] >= 3
+    low, high = survival["ci95"]
+    assert 0.0 <= low <= survival["probability"] <= high <= 1.0
+
+
+def test_limits_end_the_search(tmp_path: Path) -> None:
+    code, report = plan("task7", tmp_path, "--max-nodes", "3")
+    assert code == 1
+    assert report["status"] == "limit"
+    assert report["statistics"]["nodes_evaluated"] == 3
+
+
+def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(tmp_path: Path) -> None:
+    broken = {"MUJOCO_GL": "off"}
+    done = etot("plan", "tasks/task3.yaml", "-q", "--out", tmp_path / "plan", env=broken)
+    assert done.returncode == 0, done.stderr
+    done = etot(
+        "simulate", "tasks/task3.yaml", "--plan", "[PICK UP, holder] (vertical)", "--video",
+        "--out", tmp_path / "simulate", env=broken,
+    )  # fmt: skip
+    assert done.returncode == 3
+    assert "OpenGL" in done.stderr
+    assert (tmp_path / "simulate" / "report.json").exists()
+
+
+def test_interrupt_leaves_a_valid_report(tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "etot_cli.cli.app", "plan", "tasks/task7.yaml", "--jobs", "2",
+         "--worlds", "6", "--out", str(tmp_path)],
+        cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    for line in process.stdout:
+        if "proposed" in line:
+            break
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=TIME_LIMIT_S) == 130
+    report = json.loads((tmp_path / "report.json").read_text())
+    jsonschema.validate(report, json.loads((SCHEMAS / "etot.plan-1.json").read_text()))
+    assert report["status"] == "interrupted"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["plan", "tasks/nowhere.yaml"], "nowhere.yaml"),
+        (["plan", "tasks"], "tasks"),
+        (["simulate", "tasks/task3.yaml", "--plan", "lift it"], "lift it"),
+        (["simulate", "tasks/task3.yaml", "--plan", "[PICK UP, nothing]"], "nothing"),
+        (["simulate", "tasks/task3.yaml", "--plan", "[PICK UP]"], "PICK UP"),
+    ],
+)
+def test_unusable_input_is_one_clear_error(arguments: list[str], message: str) -> None:
+    done = etot(*arguments)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert done.stderr.count("error:") == 1
+    assert "Traceback" not in done.stderr
+
+
+def test_unreadable_instruction_names_words_and_ways_out(tmp_path: Path) -> None:
+    text = (ROOT / "tasks" / "task3.yaml").read_text()
+    lines = [
+        "instruction: Contemplate the holder philosophically." if line.startswith("instruction:")
+        else line.replace("../scenes", str(ROOT / "scenes"))
+        for line in text.splitlines()
+    ]  # fmt: skip
+    (tmp_path / "tasks").mkdir()
+    (tmp_path / "scenes").mkdir()
+    for scene in (ROOT / "scenes").glob("*.yaml"):
+        (tmp_path / "scenes" / scene.name).write_text(scene.read_text())
+    task = tmp_path / "tasks" / "odd.yaml"
+    task.write_text("\n".join(lines).replace(str(ROOT / "scenes"), "../scenes"))
+    done = etot("plan", task, "--out", tmp_path / "out")
+    assert done.returncode == 2
+    for part in ("ontemplate", "goal", "vlm"):
+        assert part in done.stderr
