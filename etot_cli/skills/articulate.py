@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -46,6 +47,11 @@ OVERTRAVEL = 0.004
 """How far beyond the closed position the target lies, so that it really closes [m]."""
 COMPLETE = 0.03
 """A move that gets the part this close to its end (share of its travel) is tried at once."""
+BACK_OUT_STEPS = 2
+AJAR = 0.05
+"""Way of a handle that leaves room for a finger behind the part [m] ..."""
+AJAR_SHARE = 0.08
+"""... and the share of the part's travel that must have come of it."""
 SETTLE_TIME = 1.2
 PENETRATION = -0.004
 """Planned overlap of fingers and furniture that is a push, not a collision [m]."""
@@ -99,6 +105,12 @@ def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | Sk
             yield _attempt(part, move, opening)
         if found:
             return
+    if opening:
+        for move in _ajar_moves(pilot, part, value, blockers):
+            found = True
+            yield partial(_open_in_two, part=part, move=move)
+    if found:
+        return
     owner = part.info.owner
     blocking = blockers.most(excluding=[owner])
     verb = "open" if opening else "close"
@@ -129,7 +141,7 @@ def _moves(
     """
     target = part.upper if opening else part.lower
     wanted = OPEN_AT + 0.04 if opening else CLOSED_AT
-    partial: list[tuple[float, int, PreparedMove]] = []
+    partway: list[tuple[float, int, PreparedMove]] = []
     pilot.checker.freeze(pilot.data)
     for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, lenient)):
         missing = abs(move.reached - target) / abs(part.upper - part.lower)
@@ -139,10 +151,27 @@ def _moves(
             yield move
             pilot.checker.freeze(pilot.data)
         elif fraction >= wanted if opening else fraction <= wanted:
-            partial.append((round(missing, 2), rank, move))
+            partway.append((round(missing, 2), rank, move))
     pilot.checker.freeze(pilot.data)
-    for *_, move in sorted(partial, key=lambda item: item[:2]):
+    for *_, move in sorted(partway, key=lambda item: item[:2]):
         yield move
+
+
+def _ajar_moves(
+    pilot: Pilot, part: Part, value: float, blockers: Blockers
+) -> Iterator[PreparedMove]:
+    """Grips that only bring the part far enough for a finger to get behind it, the farthest first.
+
+    The hand often cannot stay on a handle all the way, but can push on from inside.
+    """
+    pilot.checker.freeze(pilot.data)
+    moves = [
+        move
+        for move in _grip_moves(pilot, part, value, part.upper, blockers, False)
+        if move.length >= AJAR
+    ]
+    pilot.checker.freeze(pilot.data)
+    yield from sorted(moves, key=lambda move: -round(move.length, 2))
 
 
 def _candidates(
@@ -303,15 +332,19 @@ def _follow_part(
         pilot.checker.set_joint(part.joint, float(step))
         if not _free(pilot, result.joints, blockers, lenient, PENETRATION):
             break
-        joints, reached = result.joints, float(step)
+        joints = result.joints
         along.append(joints)
     pilot.checker.set_joint(part.joint, value)
-    if not along:
-        return None
-    length = _travel(part, value, reached, radius)
-    retreat = _back(pilot, joints)
+    retreat = None
+    while along and retreat is None:
+        reached = float(values[len(along)])
+        retreat = _back(pilot, along[-1])
+        if retreat is None:
+            # A folded arm cannot back out; a little earlier it can.
+            del along[-BACK_OUT_STEPS:]
     if retreat is None:
         return None
+    length = _travel(part, value, reached, radius)
     return PreparedMove(before, approach, np.array(along), length, grip, opening, reached, retreat)
 
 
@@ -497,6 +530,16 @@ def _attempt(part: Part, move: PreparedMove, opening: bool) -> Attempt:
         return _execute(pilot, part, move, opening)
 
     return run
+
+
+def _open_in_two(pilot: Pilot, part: Part, move: PreparedMove) -> SkillOutcome:
+    """One move to leave the part ajar, and the best one from there."""
+    outcome = _execute(pilot, part, move, True)
+    value = float(pilot.data.joint(part.joint).qpos[0])
+    if outcome.effect or abs(value - part.lower) < AJAR_SHARE * abs(part.upper - part.lower):
+        return outcome
+    second = next(_moves(pilot, part, value, True, Blockers(pilot.world), False), None)
+    return outcome if second is None else _execute(pilot, part, second, True)
 
 
 def _execute(pilot: Pilot, part: Part, move: PreparedMove, opening: bool) -> SkillOutcome:

@@ -173,13 +173,15 @@ def _explain(
     pilot: Pilot, name: str, found: GraspSet, blockers: Blockers, unreachable: int
 ) -> SkillOutcome:
     opening = pilot.world.robot.spec.gripper.opening
-    if not found.grasps and not found.too_wide:
+    blocking = blockers.most(excluding=[name])
+    # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
+    none_fits = bool(found.grasps) and not unreachable and not blocking
+    if none_fits or (not found.grasps and not found.too_wide):
         return failed(
             CauseKind.NO_GRASP,
             [name],
             f"no two opposed surfaces of {name} fit the gripper (opening {opening * 1000:.0f} mm)",
         )
-    blocking = blockers.most(excluding=[name])
     if blocking:
         return failed(
             CauseKind.NO_GRASP,

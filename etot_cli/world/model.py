@@ -140,7 +140,7 @@ def _set_options(mj: mujoco.MjSpec) -> None:
     mj.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     mj.visual.global_.offwidth = 1920
     mj.visual.global_.offheight = 1440
-    mj.visual.quality.shadowsize = 4096
+    mj.visual.quality.shadowsize = 2048
     # All lights together stay below white on a bright level surface: colours keep their hue.
     mj.visual.headlight.ambient = [0.34, 0.34, 0.34]
     mj.visual.headlight.diffuse = [0.20, 0.20, 0.20]

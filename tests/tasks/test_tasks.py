@@ -1,0 +1,107 @@
+"""Tasks with other objects, furniture and arms than the shipped ones: planned, then simulated."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from pathlib import Path
+
+import pytest
+
+from etot_cli.cli.app import run
+from etot_cli.cli.exits import NO
+from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.simulate import SimulateOptions, run_simulate
+from etot_cli.planning.result import SearchStatus
+from etot_cli.reporting.plan_report import PlanReport
+from tests.metamorphic.variants import document, write
+
+FOLDER = Path(__file__).parent
+LIMIT_S = 60.0
+"""Wall time that a whole search may take, on a machine that has other things to do [s]."""
+
+PLANS = {
+    "cupboard": ["[PICK UP, vase]", "[PUT ON, *]", "[OPEN, cupboard]"],
+    "marker_and_mugs": ["[PICK UP, marker]", "[PUT INTO, pink_mug]"],
+    "mujoco_models": [
+        "[OPEN, caddy.upper]", "[PICK UP, spool]", "[PUT INTO, caddy.upper]",
+        "[CLOSE, caddy.upper]",
+    ],
+    "seven_joints": [
+        "[PICK UP, carton]", "[PUT ON, rack]", "[PICK UP, ball]", "[PUT INTO, bowl]",
+    ],
+    "three_drawers": [
+        "[OPEN, dresser]", "[PICK UP, battery]", "[PUT INTO, dresser]", "[CLOSE, dresser]",
+    ],
+}  # fmt: skip
+"""Feasible tasks and their right plans; ``*`` is any surface."""
+
+INFEASIBLE = {"too_big": {"globe"}, "no_grasp": {"wide_crate", "far_crate"}}
+"""Tasks without a plan, and what the causes of failure must name between them."""
+
+
+def planned(name: str) -> PlanReport:
+    started = time.monotonic()
+    report = run_plan(PlanOptions(task=FOLDER / f"{name}.yaml", jobs=1))
+    assert time.monotonic() - started < LIMIT_S
+    return report
+
+
+def causes(report: PlanReport) -> str:
+    return "; ".join(
+        f"{node.action}: {node.cause.text}" for node in report.tree.nodes if node.cause is not None
+    )
+
+
+def matches(plan: list[str], wanted: list[str]) -> bool:
+    return len(plan) == len(wanted) and all(
+        have == want or have.startswith(want.split("*")[0])
+        for have, want in zip(plan, wanted, strict=True)
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(PLANS))
+def test_feasible_task(name: str) -> None:
+    report = planned(name)
+    assert report.status == SearchStatus.FEASIBLE.value, causes(report)
+    assert matches(report.plan, PLANS[name]), report.plan
+    options = SimulateOptions(task=FOLDER / f"{name}.yaml", plan=" ".join(report.plan))
+    simulated = run_simulate(options).report
+    assert simulated.status == "success", simulated.cause
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(INFEASIBLE))
+def test_infeasible_task(name: str, tmp_path: Path) -> None:
+    started = time.monotonic()
+    task = str(FOLDER / f"{name}.yaml")
+    code = run(["plan", task, "--jobs", "1", "--quiet", "--out", str(tmp_path)])
+    assert time.monotonic() - started < LIMIT_S
+    report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert (code, report["status"]) == (NO, "infeasible"), report["plan"]
+    failed = [node for node in report["tree"]["nodes"] if node["cause"]]
+    blamed = {name for node in failed for name in node["cause"]["objects"]}
+    assert blamed >= INFEASIBLE[name]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("hinge", "robot"),
+    [("right", "xarm6"), ("left", "robots/heron/robot.yaml")],
+    ids=["far hinge", "other arm"],
+)
+def test_cupboard_otherwise(hinge: str, robot: str, tmp_path: Path) -> None:
+    """With a far hinge the hand cannot stay on the handle all the way."""
+    shutil.copytree(FOLDER / "robots", tmp_path / "robots")
+    task = document(FOLDER / "cupboard.yaml")
+    task["scene"]["robot"] = robot
+    task["scene"]["objects"]["cupboard"]["door"]["hinge"] = hinge
+    report = run_plan(PlanOptions(task=write(task, tmp_path), jobs=1))
+    assert report.status == SearchStatus.FEASIBLE.value, causes(report)
+    assert matches(report.plan, PLANS["cupboard"]), report.plan
+
+
+def test_every_task_is_tested() -> None:
+    assert {path.stem for path in FOLDER.glob("*.yaml")} == {*PLANS, *INFEASIBLE}
