@@ -50,6 +50,8 @@ class CollisionChecker:
         for name, entry in world.entries.items():
             if entry.free:
                 self._model.geom_margin[world.geoms_of(name)] = _MARGIN
+        # The broad phase looks at bodies' margins, which are fixed when a model is compiled.
+        self._model.body_margin[:] = _MARGIN
         self._tool = world.robot.tool_site
         self.checks = 0
 

@@ -33,8 +33,8 @@ SURFACE_GAP = 0.002
 FLOOR_GAP = 0.006
 """... and this far above a container's floor [m]."""
 LOWER_STEP = 0.016
-OPEN_WIDER = 0.024
-"""The fingers open by this much to let go [m]."""
+RELEASES = (0.024, 0.016, 0.010, 0.006)
+"""How far the fingers open to let go [m]: the widest that touches nothing but the object."""
 SETTLE_TIME = 1.6
 CLEARING_STEP = 0.05
 MAX_CLEARING = 6
@@ -55,6 +55,8 @@ class Placement:
     before: Vector
     down: Vector
     back: Vector
+    release: float
+    """How far the fingers open to let go [m]."""
     drop: float
     """How far above its wanted height the object is let go [m]."""
 
@@ -288,8 +290,8 @@ def _prepare(
         if hits:
             blockers.add(hits)
             return None
-    back = _retreat(pilot, attached.name, tool, down[-1])
-    return None if back is None else Placement(above.joints, down, back, 0.0)
+    retreat = _retreat(pilot, attached.name, tool, down[-1])
+    return None if retreat is None else Placement(above.joints, down, *retreat, drop=0.0)
 
 
 def _lower_into(
@@ -329,26 +331,36 @@ def _lower_into(
         depth = index + 1
     path = down[:depth] if depth else above.joints[None]
     reached = arm.forward(path[-1])
-    back = _retreat(pilot, attached.name, reached, path[-1])
-    if back is None:
+    retreat = _retreat(pilot, attached.name, reached, path[-1])
+    if retreat is None:
         return None
     drop = float(reached.position[2] - tool.position[2])
-    return Placement(above.joints, path, back, drop)
+    return Placement(above.joints, path, *retreat, drop=drop)
 
 
-def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> Vector | None:
-    """Back out along the approach direction with opened fingers."""
+def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
+    """The way back out along the approach direction, and how far the fingers open for it [m].
+
+    Fingers that open against a container's wall would carry it off.
+    """
     checker, arm = pilot.checker, pilot.arm
     away = tool.moved(-RETREAT * tool.rotation[:, 2])
     path, count = arm.line(straight(tool, away), joints)
     if count < 2:
         return None
-    checker.set_fingers(pilot.opening + OPEN_WIDER)
-    obstructed = any(
-        checker.hits(row, clearance=0.0, allow={name}) for row in (path[-1], path[count // 2])
-    )
-    checker.set_fingers(pilot.opening)
-    return None if obstructed else path
+    try:
+        for release in RELEASES:
+            checker.set_fingers(pilot.opening + release)
+            rows = (joints, path[count // 2], path[-1])
+            margins = (CLEARANCE, 0.0, 0.0)
+            if not any(
+                checker.hits(row, clearance=margin, allow={name})
+                for row, margin in zip(rows, margins, strict=True)
+            ):
+                return path, release
+    finally:
+        checker.set_fingers(pilot.opening)
+    return None
 
 
 def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOutcome:
@@ -367,13 +379,14 @@ def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOut
     if end is PhaseEnd.GUARD:
         return _lost_grip(pilot, name, "while lowering it")
     recorder.mark(pilot.data)
-    pilot.release(pilot.opening + OPEN_WIDER)
+    pilot.release(pilot.opening + placement.release)
     pilot.follow_line(placement.back, RETREAT, LOWER_SPEED * 1.5)
     _clear_hand(pilot)
     pilot.settle(SETTLE_TIME)
     recorder.mark(pilot.data)
-    if pilot.held() == name:
-        return failed(CauseKind.NO_EFFECT, [name], f"{name} stayed in the fingers")
+    stuck = pilot.held()
+    if stuck is not None:
+        return failed(CauseKind.NO_EFFECT, [stuck, name], f"{stuck} stayed in the fingers")
     return SkillOutcome(True, roughness=placement.drop)
 
 

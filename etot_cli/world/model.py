@@ -25,6 +25,7 @@ TIMESTEP = 0.002
 """Physics step [s]; 5 ms loses grasps (docs/physics.md)."""
 FLOOR_DEPTH = 0.7
 """The floor lies this far below the desk top [m]; what falls there is lost."""
+MASS_TOLERANCE = 1e-6
 ROBOT_PREFIX = "robot/"
 TIP_MARGIN, FINGER_MARGIN = 0.0005, 0.0015
 """Added to the measured length and thickness of the fingers [m]."""
@@ -120,6 +121,7 @@ def build_world(scene: specs.Scene) -> World:
         model = mj.compile()
     except ValueError as error:
         raise WorldError(f"the scene does not compile: {error}") from error
+    _scale_masses(model, scene)
     entries = {}
     for name, (entry, spec) in drafts.items():
         if isinstance(spec, specs.Mjcf):
@@ -365,6 +367,24 @@ def _entry(
     )
     upright = not isinstance(spec, specs.Sphere | specs.Pen | specs.Capsule)
     return ObjectEntry(info, name, not fixed, parts, regions, surfaces, upright, axis)
+
+
+def _scale_masses(model: mujoco.MjModel, scene: specs.Scene) -> None:
+    """Makes every object as heavy as the scene says, parts included, inertia in proportion."""
+    changed = False
+    for name, spec in scene.objects.items():
+        if spec.mass is None:
+            continue
+        root = model.body(name).id
+        factor = spec.mass / float(model.body_subtreemass[root])
+        if abs(factor - 1.0) < MASS_TOLERANCE:
+            continue
+        own = [b for b in range(model.nbody) if int(model.body_rootid[b]) == root]
+        model.body_mass[own] *= factor
+        model.body_inertia[own] *= factor
+        changed = True
+    if changed:
+        mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
 def _with_mass(entry: ObjectEntry, model: mujoco.MjModel) -> ObjectEntry:

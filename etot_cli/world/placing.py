@@ -94,7 +94,7 @@ def _place(world: World, data: mujoco.MjData, name: str) -> None:
         pose[:3] = [xy[0], xy[1], top + GAP + (1.0 - bottom)]
         mujoco.mj_kinematics(world.model, data)
         return
-    _lower_onto(world, data, name, support.split(".")[0], xy)
+    _lower_onto(world, data, name, support, xy)
 
 
 def _surface_center(world: World, data: mujoco.MjData, address: str) -> NDArray[np.float64]:
@@ -194,10 +194,17 @@ def _standing(axis: tuple[float, float, float]) -> NDArray[np.float64]:
 def _lower_onto(
     world: World, data: mujoco.MjData, name: str, support: str, xy: NDArray[np.float64]
 ) -> None:
-    """Lowers the object straight down until it touches the support."""
+    """Lowers the object straight down until it touches the support.
+
+    A named surface (a board of a shelf) is approached from right above it, any other object from
+    above all of it.
+    """
     model = world.model
     own = set(world.geoms_of(name).tolist())
-    top = object_bounds(world, data, support)[1][2]
+    if support in world.surfaces:
+        top = _surface_center(world, data, support)[2]
+    else:
+        top = object_bounds(world, data, support.split(".")[0])[1][2]
     bottom = _set_and_measure_bottom(world, data, name, np.array([*xy, 1.0]))
     height = top + GAP + (1.0 - bottom)
     limit = int((height - world.scene.desk.top) / DROP_STEP) + 1

@@ -65,6 +65,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         openness, is_open = _openness(data, entry, memory)
         opened.update(f"{name}.{part}" for part, value in is_open.items() if value)
         position = body.xpos
+        center = data.subtree_com[body.id]
         states[name] = ObjectState(
             position=_triple(position),
             quaternion=_quadruple(body.xquat),
@@ -73,8 +74,8 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
             in_hand=name in held,
             toppled=has_toppled,
             tilt_deg=tilt,
-            lost=_is_lost(world, position),
-            reachable=math.hypot(position[0], position[1]) <= world.robot.spec.reach,
+            lost=_is_lost(world, center),
+            reachable=math.hypot(center[0], center[1]) <= world.robot.spec.reach,
             openness=openness,
             opened=is_open,
         )

@@ -57,7 +57,7 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
         try:
             for atom in atoms:
                 draft.add(atom)
-            goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps))))
+            goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps)), scene))
         except ReferenceProblem as error:
             objection = objection or InstructionError(f"goal: {error.phrase}: {error.why}")
     if not goals:

@@ -42,10 +42,15 @@ def quantity_of(determiner: str) -> Quantity:
         return Quantity(count=counted, every=True, definite=True, other=other)
     if first == "both":
         return Quantity(count=2, every=True, definite=True, other=other)
-    if first in ("any", "some", "either"):
+    if first in ("any", "whichever", "some", "either"):
         return Quantity(count=count or 1, other=other)
     if first in _DEFINITE:
         return Quantity(count=count, definite=True, other=other)
     if first in ("a", "an", "another"):
         return Quantity(count=count or 1, other=other)
     return Quantity(count=count, other=other)
+
+
+def is_distributive(determiner: str) -> bool:
+    """Whether what is said holds for each of several one by one."""
+    return determiner.split()[:1] in (["each"], ["every"])

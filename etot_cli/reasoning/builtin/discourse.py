@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
+from etot_cli.reasoning.builtin.lexicon import same_noun
 from etot_cli.reasoning.builtin.matching import ReferenceProblem
 from etot_cli.reasoning.builtin.references import Resolved, Role, can_be
 from etot_cli.world.state import SceneState
@@ -60,7 +61,7 @@ class Discourse:
         index = len(self.referents)
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
-                if set(self.referents[earlier].options) == set(resolved.options):
+                if self._is_again(earlier, resolved):
                     self.mentions.append(Mention(earlier, role, self.clause, resolved.noun))
                     return earlier
         distinct: tuple[int, ...] = ()
@@ -74,6 +75,18 @@ class Discourse:
         self.referents.append(Referent(resolved.options, text, distinct))
         self.mentions.append(Mention(index, role, self.clause, resolved.noun))
         return index
+
+    def _is_again(self, referent: int, resolved: Resolved) -> bool:
+        """Whether a definite phrase speaks of an earlier referent.
+
+        It does when it means the same, and when it means, among others, what was spoken of by the
+        same noun: "the red plum … the plum".
+        """
+        earlier, now = set(self.referents[referent].options), set(resolved.options)
+        if earlier == now:
+            return True
+        nouns = {mention.noun for mention in self.mentions if mention.referent == referent}
+        return earlier < now and any(same_noun(noun, resolved.noun) for noun in nouns)
 
     def mention_again(self, referent: int, role: Role) -> None:
         """Notes that a pronoun spoke of a referent."""

@@ -76,12 +76,16 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Put:
-    """Bring all of ``what``, in this order, each to one of the alternative ``places``."""
+    """Bring all of ``what``, in this order, each to one of the alternative ``places``.
+
+    ``removal``: the point is to take them away; where to is not said.
+    """
 
     what: tuple[int, ...]
     places: tuple[Place, ...]
     grouping: Grouping = Grouping.ANY
     poses: tuple[GraspPose | None, ...] = (None,)
+    removal: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,11 +30,11 @@ seq: clause                              -> first
 ?clause: pick | put | remove | move | ensure | reorient
 
 pick: (poses COMMA?)? ADVERB* PICK things (UP source?)? (COMMA? poses)? ADVERB*
-put: ADVERB* PUT put_group (AND put_group)* extra*
-   | ADVERB* BRING bring_group extra*
+put: ADVERB* PUT put_group (_list_sep put_group)* extra*
+   | ADVERB* BRING bring_group (_list_sep bring_group)* extra*
    | ADVERB* DROP things ADVERB*                         -> put_down
    | ADVERB* PUT things DOWN ADVERB*                     -> put_down
-put_group: things (DOWN | UPRIGHT)? destinations
+put_group: things (DOWN | UPRIGHT | AWAY)? COMMA? destinations
 bring_group: things destinations_to -> put_group
 remove: ADVERB* REMOVE things source? ADVERB*
       | ADVERB* BRING things (OUT | source) ADVERB*
@@ -101,17 +101,23 @@ COMMA: ","
 """
 
 
-@lru_cache(maxsize=8)
 def parser(vocabulary: frozenset[str]) -> Lark:
     """The parser for scenes with these object words.
 
     Args:
         vocabulary: words of the scene's names and labels, lower case.
     """
+    return _parser(frozenset(word for word in vocabulary if word in VERBS or word.endswith("ly")))
+
+
+@lru_cache(maxsize=8)
+def _parser(vocabulary: frozenset[str]) -> Lark:
+    """The parser that takes these verbs and adverbs for nouns as well; hardly any scene has one."""
     from lark import Lark
 
     stop = FUNCTION_WORDS | (VERBS - vocabulary)
-    word = rf"(?!(?:{_alternatives(stop)})\b)[^\W_]\w*(?:\.\w+)?"
+    adverb = rf"(?!(?:{_alternatives(vocabulary) or '0'})\b)\w+ly"
+    word = rf"(?!(?:{_alternatives(stop)}|{adverb})\b)[^\W_]\w*(?:\.\w+)?"
     terminals = {**TERMINALS, "WORD": word}
     lines = [f"{name}: /{_bounded(name, pattern)}/" for name, pattern in terminals.items()]
     return Lark(

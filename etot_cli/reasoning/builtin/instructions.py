@@ -14,7 +14,7 @@ EXAMPLES = (
     "Pick up the red ball.",
     "Put a pen into one of the cups.",
     "Open the top drawer, put the bowl inside and close it.",
-    "Put both apples in either the drawer or the bowl, together or separately.",
+    "Put both blocks in either the drawer or the bowl, together or separately.",
     "Make sure the door is closed.",
 )
 """Shown with every message; ``docs/instructions.md`` describes the whole language."""

@@ -99,7 +99,10 @@ def _pools(vocabulary: Vocabulary, head: str, adjectives: Sequence[str]) -> list
     """Where to look, in this order: parts come first where a level or their own name is said."""
     fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
     one_of_many = len(fitting) == 1 and _is_stacked(fitting[0])
-    level = any(word in LEVELS or (word in ORDINALS and one_of_many) for word in adjectives)
+    level = any(
+        word in LEVELS or (one_of_many and (word in ORDINALS or word in STATES))
+        for word in adjectives
+    )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
     named = [
         part
@@ -206,11 +209,10 @@ def _at_level(graded: list[tuple[Entry, int]], level: str) -> list[tuple[Entry, 
     owners = dict.fromkeys(entry.thing.name for entry, _ in graded)
     for owner in owners:
         stacked = [item for item in graded if item[0].thing.name == owner]
-        named = [item for item in stacked if any(LEVELS.get(word) for word in item[0].own)]
-        if named:
-            found += [
-                item for item in named if any(LEVELS.get(word) == level for word in item[0].own)
-            ]
+        levels = [{LEVELS.get(word) for word in item[0].own} - {None} for item in stacked]
+        named = [item for item, said in zip(stacked, levels, strict=True) if level in said]
+        if named or all(levels):
+            found += named
             continue
         # Parts are listed from top to bottom, boards from bottom to top.
         if stacked[0][0].thing.board is not None:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import Any
 
 from etot_cli.reasoning.builtin.grammar import parser
-from etot_cli.reasoning.builtin.syntax import Clause, modifier_count
+from etot_cli.reasoning.builtin.syntax import Spoken, modifier_count
+from etot_cli.reasoning.builtin.terminals import PREPOSITIONS
 from etot_cli.reasoning.builtin.treewalk import clauses_of
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
 """Longer sentences are refused: the number of readings grows steeply with length."""
+MAX_PREPOSITIONS = 10
+"""In one sentence; each one more doubles the ways of attaching them."""
 MAX_SENTENCES = 24
 MAX_READINGS = 200
 """Readings of one sentence that are looked at."""
@@ -40,10 +42,10 @@ class UnreadableError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Sentence:
-    """A sentence's readings, the most likely one first."""
+    """A sentence's readings, the most likely one first, each as clauses in the order to be done."""
 
     text: str
-    readings: tuple[tuple[Clause, ...], ...]
+    readings: tuple[tuple[Spoken, ...], ...]
 
 
 def normalized(text: str) -> str:
@@ -94,9 +96,12 @@ def _sentence(text: str, before: str, vocabulary: frozenset[str]) -> Sentence:
     from lark.exceptions import UnexpectedCharacters, UnexpectedEOF
 
     if len(text.split()) > MAX_WORDS:
-        raise UnreadableError(
-            " ".join(text.split()[:6]) + " …", before, f"one sentence has over {MAX_WORDS} words"
-        )
+        why = f"one sentence has over {MAX_WORDS} words; make it several sentences"
+        raise UnreadableError(_first_words(text), before, why)
+    prepositions = [word for word in text.split() if word in PREPOSITIONS]
+    if len(prepositions) > MAX_PREPOSITIONS:
+        why = f"one sentence has over {MAX_PREPOSITIONS} prepositions; make it several sentences"
+        raise UnreadableError(_first_words(text), before, why)
     try:
         tree = parser(vocabulary).parse(text)
     except UnexpectedCharacters as error:
@@ -108,26 +113,32 @@ def _sentence(text: str, before: str, vocabulary: frozenset[str]) -> Sentence:
             _joined(before, text),
             "something is missing, such as into or onto what",
         ) from None
-    readings = {clauses_of(tree, text): None for tree in islice(_derivations(tree), MAX_READINGS)}
+    readings = {clauses_of(tree, text): None for tree in _derivations(tree, {})}
     # Words that need not single out an object say more when they tell where something is to go.
     ranked = sorted(readings, key=modifier_count)
     return Sentence(text, tuple(ranked))
 
 
-def _derivations(tree: Any) -> Iterator[Any]:
-    """The unambiguous trees that an ambiguous one stands for."""
+def _derivations(tree: Any, known: dict[int, list[Any]]) -> list[Any]:
+    """The first of the unambiguous trees that an ambiguous one stands for.
+
+    Args:
+        tree: subtrees may occur in it more than once.
+        known: results by a subtree's identity.
+    """
     from lark import Tree
 
     if not isinstance(tree, Tree):
-        yield tree
-        return
-    if tree.data == "_ambig":
-        for child in tree.children:
-            yield from _derivations(child)
-        return
-    children = (list(islice(_derivations(child), MAX_READINGS)) for child in tree.children)
-    for selected in product(*children):
-        yield Tree(tree.data, list(selected), tree.meta)
+        return [tree]
+    if id(tree) not in known:
+        options = [_derivations(child, known) for child in tree.children]
+        if tree.data == "_ambig":
+            found = [derived for option in options for derived in option]
+        else:
+            selections = islice(product(*options), MAX_READINGS)
+            found = [Tree(tree.data, list(selected), tree.meta) for selected in selections]
+        known[id(tree)] = found[:MAX_READINGS]
+    return known[id(tree)]
 
 
 def _word_start(text: str, position: int) -> int:

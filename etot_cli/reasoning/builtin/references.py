@@ -7,14 +7,21 @@ instances fit and nothing singles one out. Every choice becomes a branch.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations, islice
 
 from etot_cli.reasoning.builtin import spatial
 from etot_cli.reasoning.builtin.determiners import Quantity, quantity_of
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.lexicon import THING_NOUNS, matches_any
+from etot_cli.reasoning.builtin.lexicon import (
+    ORDINALS,
+    SIDES,
+    SIZES,
+    THING_NOUNS,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.builtin.matching import ReferenceProblem, match_words
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.selection import select, state_holds
@@ -126,6 +133,7 @@ class Resolver:
         Raises:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
+        phrase = _plain(phrase)
         if not phrase.words and phrase.determiner in _INCOMPLETE:
             raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
         words = phrase.words or (noun or "object",)
@@ -244,6 +252,23 @@ class Resolver:
         elif prep in (Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN):
             order = order[: count or 1]
         return [thing for thing in things if thing in order]
+
+
+def _plain(phrase: NounPhrase) -> NounPhrase:
+    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
+    last = phrase.words[-1:] and phrase.words[-1]
+    of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
+    if not last or of is None:
+        return phrase
+    rest = tuple(item for item in phrase.modifiers if item is not of)
+    whole = of.phrases[0]
+    if last == "contents":
+        inside = Modifier(Prep.IN, (whole,))
+        return replace(phrase, determiner="all", words=("objects",), modifiers=(inside, *rest))
+    if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
+        noun = (*whole.words[:-1], singular(whole.words[-1]))
+        return replace(phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest))
+    return phrase
 
 
 def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:

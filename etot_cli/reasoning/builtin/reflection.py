@@ -146,6 +146,8 @@ class _Case:
         if place is not None:
             yield Correction(inserted(self.actions, place, extra), change)
             return
+        if self.actions[0].safe:
+            return  # emptying the hand is what failed
         # The hand was full from the start: it is emptied and filled again.
         held = self.failed.start.holding
         assert held is not None  # otherwise the hand would have been empty at the root

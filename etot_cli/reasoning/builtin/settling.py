@@ -9,16 +9,15 @@ from etot_cli.reasoning.builtin.goal import (
     Goal,
     Pick,
     Put,
-    Relation,
     Step,
-    Thing,
     referents_of,
 )
 from etot_cli.reasoning.builtin.matching import ReferenceProblem
-from etot_cli.world.state import DESK
+from etot_cli.reasoning.builtin.relations import is_on
+from etot_cli.world.state import DESK, SceneState
 
 
-def settled(goal: Goal, turned: Sequence[int] = ()) -> Goal:
+def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
     """A goal whose steps can be carried out one after the other.
 
     "Pick up the pear, … put it into the bowl" becomes one step, with the grasp that was asked for;
@@ -26,6 +25,7 @@ def settled(goal: Goal, turned: Sequence[int] = ()) -> Goal:
 
     Args:
         goal: steps as the clauses gave them.
+        scene: what they are about.
         turned: referents that were to be reoriented.
 
     Raises:
@@ -37,10 +37,11 @@ def settled(goal: Goal, turned: Sequence[int] = ()) -> Goal:
         later = goal.steps[index + 1 :]
         if isinstance(step, Pick) and any(_moves(other, step.what) for other in later):
             continue
-        if isinstance(step, Put) and _is_removal(goal, step):
+        if isinstance(step, Put) and step.removal:
             kept = tuple(i for i in step.what if not any(_moves(other, i) for other in later))
             if not kept:
                 continue
+            _check_removal(goal, kept, scene)
             steps.append(replace(step, what=kept))
             continue
         if isinstance(step, Put):
@@ -61,14 +62,12 @@ def _moves(step: Step, referent: int) -> bool:
     return isinstance(step, Put) and referent in step.what
 
 
-def _is_removal(goal: Goal, step: Put) -> bool:
-    """Whether a step only takes things away, to anywhere on the desk."""
-    return all(
-        place.relation is Relation.ON
-        and goal.referents[place.where].options == ((Thing(DESK),),)
-        and goal.referents[place.where].text == DESK
-        for place in step.places
-    )
+def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> None:
+    for index in removed:
+        things = [thing for option in goal.referents[index].options for thing in option]
+        if things and all(is_on(scene, thing.name, DESK) for thing in things):
+            text = goal.referents[index].text
+            raise ReferenceProblem(text, "it stands on the desk; say where it is to go", 2)
 
 
 def _with_poses(step: Put, earlier: Sequence[Step]) -> Put:

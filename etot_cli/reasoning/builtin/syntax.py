@@ -88,7 +88,7 @@ class Destination:
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What is to hold, as in "the apple is inside the cup".
+    """What is to hold, as in "the plum is inside the cup".
 
     ``word``: the adjective in "the drawer is closed".
     """
@@ -116,7 +116,7 @@ class PutGroup:
 
 @dataclass(frozen=True, slots=True)
 class PutClause:
-    """Bring things somewhere. ``conditions``: "with the apple inside the cup"."""
+    """Bring things somewhere. ``conditions``: "with the plum inside the cup"."""
 
     groups: tuple[PutGroup, ...]
     grouping: Grouping = Grouping.ANY
@@ -154,6 +154,14 @@ class ReorientClause:
 
 
 Clause = PickClause | PutClause | RemoveClause | MoveClause | EnsureClause | ReorientClause
+
+
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """A clause and where it begins in the text; clauses are not always said in order."""
+
+    clause: Clause
+    position: int
 
 
 def modifier_count(node: object) -> int:

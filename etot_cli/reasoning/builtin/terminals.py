@@ -26,10 +26,11 @@ TERMINALS: dict[str, str] = {
     "JOINT": r"(?:,\s*)?(?:and|but|then|before|after which|after that|afterwards|to|in order to|"
     r"so as to|by)(?:,?\s+(?:then|also|afterwards|finally|lastly|next|after that))*,?|,",
     "SO_THAT": r"(?:,\s*)?(?:so that|such that|so|until|in such a way that)",
-    "SO_THAT_POSE": r"so (?:that )?it (?:fits|stands)(?: upright)?",
+    "SO_THAT_POSE": r"(?:so (?:that )?it (?:fits|stands)(?: upright)?|standing(?: upright| up)?|"
+    r"upright)",
     "AFTER": r"(?:,\s*)?(?:once|after|when)(?: you have| having)?",
     "BEFORE": r"before",
-    "PICK": r"(?:pick(?:ing)? up|pick(?:ing)?|grab(?:bing)?|tak(?:e|ing)(?: hold of)?|"
+    "PICK": r"(?:pick(?:ing)? ?up|pick(?:ing)?|grab(?:bing)?|tak(?:e|ing)(?: hold of)?|"
     r"lift(?:ing)?(?: up)?|fetch(?:ing)?|get(?:ting)?(?: hold of)?|grasp(?:ing)?|grip(?:ping)?|"
     r"hold(?:ing)?(?: up)?|seiz(?:e|ing)|collect(?:ing)?|rais(?:e|ing)|choose and pick up)",
     "UP": r"up",
@@ -41,6 +42,7 @@ TERMINALS: dict[str, str] = {
     r"stand(?:ing)?|rest(?:ing)?|pack(?:ing)?|bring(?:ing)?|pop|leave)",
     "DROP": r"(?:put(?:ting)? down|set(?:ting)? down|lay(?:ing)? down|releas(?:e|ing)|let go of)",
     "DOWN": r"down",
+    "AWAY": r"away",
     "BRING": r"(?:tak(?:e|ing)|get(?:ting)?|lift(?:ing)?|grab(?:bing)?|fetch(?:ing)?|"
     r"pull(?:ing)?|mov(?:e|ing)|bring(?:ing)?|transfer(?:ring)?)",
     "REMOVE": r"(?:remov(?:e|ing)|clear(?:ing)?(?: away)?|unload(?:ing)?|extract(?:ing)?|"
@@ -55,7 +57,7 @@ TERMINALS: dict[str, str] = {
     "ENSURE": r"(?:ensur(?:e|ing)|(?:mak(?:e|ing)|be) (?:sure|certain)|check|see to it|see|verify|"
     r"confirm|guarantee|have)(?: that)?",
     "MODAL": r"(?:should|must|has to|have to|needs? to|ought to|shall|is to|are to)"
-    r"(?: be| end up| stay| remain| get| finally be| then be)+",
+    r"(?: be| end up| stay| remain| get| finally be| then be)+|goes?|belongs?",
     "BE": r"(?:is|are|be|stays?|remains?|ends? up|gets?)"
     r"(?: left| put| placed| kept| again| properly)?",
     "LEAVE": r"(?:leav(?:e|ing)|keep(?:ing)?)",
@@ -65,7 +67,7 @@ TERMINALS: dict[str, str] = {
     "REORIENT": r"(?:re ?orient(?:ing|ate)?|rotat(?:e|ing)|tilt(?:ing)?|flip(?:ping)?|upright|"
     r"turn(?:ing)?)",
     "TURN": r"(?:turn(?:ing)?|stand(?:ing)?|set(?:ting)?|put(?:ting)?|bring(?:ing)?|make)",
-    "UPRIGHT": r"(?:upright|up|on end|vertical)",
+    "UPRIGHT": r"(?:upright|up|on end|vertical(?:ly)?)",
     "EITHER": r"(?:either|one of|any of)",
     "BOTH": r"both",
     "OR": r"or(?: else)?",
@@ -91,8 +93,8 @@ TERMINALS: dict[str, str] = {
     r"when (?:you are )?(?:done|finished)|for me|right away|again|first|fully|completely|"
     r"all the way|wide|too|as well|there ?after|in that order|"
     r"one (?:by one|after (?:the )?(?:other|another)))",
-    "DET": rf"(?:(?:any|each|every|all|both|some|either|{_COUNT})(?: one| single)?(?: of)?"
-    rf"(?: (?:{_THE}))?(?: other)?(?: (?:{_COUNT}))?|"
+    "DET": rf"(?:(?:any|whichever|each|every|all|both|some|either|{_COUNT})"
+    rf"(?: one| single)?(?: of)?(?: (?:{_THE}))?(?: other)?(?: (?:{_COUNT}))?|"
     rf"(?:{_THE}|this|that|a|an|another)(?: (?:other|same|single|{_COUNT}))?(?: (?:{_COUNT}))?)",
     "PRONOUN": r"(?:it|them|they|this|that|these|those|its)",
     "POSSESSIVE": r"'s",
@@ -119,6 +121,7 @@ TERMINALS: dict[str, str] = {
 
 FUNCTION_WORDS = _words(
     """
+    whichever upside twice thrice times half halfway backwards forwards sideways aside away together
     the a an any some another these those this that my your its their it them they of and or
     then in into inside within on onto upon atop to from off out at by next beside near
     nearby behind beyond under underneath below beneath above over between with without is
@@ -143,3 +146,10 @@ VERBS = _words(
     """
 )
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
+PREPOSITIONS = _words(
+    """
+    in into inside within on onto upon atop to from off at by near beside next behind beyond under
+    underneath below beneath above over between with of left right front containing holding that
+    """
+)
+"""Words that attach a phrase to another one."""

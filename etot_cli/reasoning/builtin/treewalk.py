@@ -20,6 +20,7 @@ from etot_cli.reasoning.builtin.syntax import (
     PutGroup,
     RemoveClause,
     ReorientClause,
+    Spoken,
     State,
     Things,
     Toward,
@@ -35,7 +36,7 @@ _GROUPINGS = {
 _ADJECTIVES = {"OPEN_ADJ": "open", "CLOSED_ADJ": "closed"}
 
 
-def clauses_of(tree: Any, text: str) -> tuple[Clause, ...]:
+def clauses_of(tree: Any, text: str) -> tuple[Spoken, ...]:
     """The clauses of an unambiguous tree of one sentence, in the order they are to be done.
 
     Args:
@@ -58,23 +59,29 @@ class _Walk:
     def __init__(self, text: str) -> None:
         self._text = text
 
-    def sequence(self, tree: Any) -> tuple[Clause, ...]:
+    def sequence(self, tree: Any) -> tuple[Spoken, ...]:
         children = _subtrees(tree)
         match tree.data:
             case "first":
-                return (self.clause(children[0]),)
+                return (self._spoken(children[0]),)
             case "then":
-                return (*self.sequence(children[0]), self.clause(children[1]))
+                return (*self.sequence(children[0]), self._spoken(children[1]))
             case "result":
-                return (*self.sequence(children[0]), EnsureClause(self.states(children[1])))
+                return (
+                    *self.sequence(children[0]),
+                    Spoken(EnsureClause(self.states(children[1])), children[1].meta.start_pos),
+                )
             case "in_order":
-                return (self.clause(children[0]), *self.sequence(children[1]))
+                return (self._spoken(children[0]), *self.sequence(children[1]))
             case _:  # "A after B", "before B, A": the clause and the sequence change places
                 sequence = next(child for child in children if child.data in _SEQUENCES)
                 clause = next(child for child in children if child.data not in _SEQUENCES)
                 if children[0] is sequence:
-                    return (self.clause(clause), *self.sequence(sequence))
-                return (*self.sequence(sequence), self.clause(clause))
+                    return (self._spoken(clause), *self.sequence(sequence))
+                return (*self.sequence(sequence), self._spoken(clause))
+
+    def _spoken(self, tree: Any) -> Spoken:
+        return Spoken(self.clause(tree), tree.meta.start_pos)
 
     def clause(self, tree: Any) -> Clause:
         read: dict[str, Callable[[Any], Clause]] = {
@@ -196,7 +203,9 @@ class _Walk:
 
     def _phrase(self, tree: Any) -> NounPhrase:
         children, tokens = _subtrees(tree), _tokens(tree)
-        text = self._text[tree.meta.start_pos : tree.meta.end_pos]
+        # The parser's own positions are those of an ambiguous tree, all of its readings together.
+        spoken = list(tree.scan_values(lambda value: True))
+        text = self._text[spoken[0].start_pos : spoken[-1].end_pos]
         determiner = next((str(token) for token in tokens if token.type == "DET"), "")
         pronoun = next((str(token) for token in tokens if token.type == "PRONOUN"), "")
         words = [

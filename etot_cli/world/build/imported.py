@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import zipfile
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -22,6 +23,8 @@ COACD_THRESHOLD = 0.08
 """Concavity at which CoACD stops splitting; finer pieces cost stepping time."""
 MAX_PIECES = 48
 _MAX_FACES = 200_000
+MAX_INCLUDES = 32
+"""Files that an MJCF object may consist of."""
 CONVEX_ENOUGH = 0.97
 """Volume over hull volume from which a mesh is taken as convex."""
 
@@ -42,7 +45,10 @@ def add_mesh(mj: mujoco.MjSpec, body: Any, spec: specs.Mesh, look: Look, name: s
     seen.userface = faces.ravel().tolist()
     seen.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     add_visual(body, look.rgba, mujoco.mjtGeom.mjGEOM_MESH, [0, 0, 0], mesh=f"{name}/seen")
-    pieces = convex_pieces(vertices, faces)
+    try:
+        pieces = convex_pieces(vertices, faces)
+    except WorldError as error:
+        raise WorldError(f"{path.name}: {error}") from error
     volumes = np.array([_hull_volume(piece) for piece in pieces])
     for index, piece in enumerate(pieces):
         mesh = mj.add_mesh(name=f"{name}/piece{index}")
@@ -97,7 +103,7 @@ def convex_pieces(
         try:
             with np.load(cached) as stored:
                 return [stored[name] for name in stored.files]
-        except (OSError, ValueError):
+        except (OSError, ValueError, EOFError, zipfile.BadZipFile):
             pass  # a damaged entry is made again
     pieces = _decompose(vertices, faces)
     try:
@@ -114,11 +120,15 @@ def _decompose(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> list[NDArray[np.float64]]:
     import trimesh
+    from scipy.spatial import ConvexHull, QhullError
 
+    try:
+        hull = ConvexHull(vertices)
+    except QhullError as error:
+        raise WorldError("the mesh has no volume: all its points lie in one plane") from error
     mesh = trimesh.Trimesh(vertices, faces)
-    hull = mesh.convex_hull
     if mesh.is_watertight and mesh.volume >= CONVEX_ENOUGH * hull.volume:
-        return [np.asarray(hull.vertices)]
+        return [vertices[hull.vertices]]
     import coacd
 
     coacd.set_log_level("error")
@@ -176,22 +186,36 @@ def attach_mjcf(
 
 
 def _refuse_outside_files(path: Path) -> None:
-    """Files that an MJCF file names must lie below its own folder.
+    """Files that an MJCF file names, also through includes, must lie below its own folder.
 
     Raises:
         WorldError: naming the file that does not, or XML that cannot be read.
     """
+    base = path.parent.resolve()
+    waiting, seen = [path], set[Path]()
+    while waiting:
+        current = waiting.pop()
+        if current.resolve() in seen:
+            continue
+        seen.add(current.resolve())
+        if len(seen) > MAX_INCLUDES:
+            raise WorldError(f"{path.name}: includes more than {MAX_INCLUDES} files")
+        waiting += _named_files(current, base)
+
+
+def _named_files(path: Path, base: Path) -> list[Path]:
+    """Checks what one file names; returns the files it includes."""
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError) as error:
         raise WorldError(f"{path.name}: not readable as XML ({error})") from error
-    base = path.parent.resolve()
     folders = {""}
     for element in root.iter():
         for key in ("meshdir", "texturedir", "assetdir"):
             folders.add(element.get(key, ""))
+    included = []
     for element in root.iter():
-        if element.tag == "plugin" or element.tag == "extension":
+        if element.tag in ("plugin", "extension"):
             raise WorldError(f"{path.name}: plugins are not accepted in object files")
         for key, value in element.attrib.items():
             if not key.startswith("file"):
@@ -202,6 +226,9 @@ def _refuse_outside_files(path: Path) -> None:
                         f"{path.name}: <{element.tag}> names {value!r}, which lies outside "
                         "the file's own folder"
                     )
+            if element.tag == "include":
+                included.append(base / value)
+    return included
 
 
 def mjcf_parts(

@@ -1,0 +1,39 @@
+"""Words inside a destination that say whether things share it: "the same box", "different cups"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.builtin.syntax import Destination, NounPhrase, PutGroup
+
+_DIFFERENT = frozenset({"different", "separate", "distinct"})
+
+
+def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination, ...], Grouping]:
+    """The destinations without such words, and what they say.
+
+    Args:
+        group: things and destinations.
+        grouping: what the rest of the sentence says; such words overrule it.
+    """
+    destinations = []
+    for destination in group.destinations:
+        targets = []
+        for target in destination.targets:
+            plain, said = _target(target)
+            grouping = said or grouping
+            targets.append(plain)
+        destinations.append(replace(destination, targets=tuple(targets)))
+    return tuple(destinations), grouping
+
+
+def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
+    words = phrase.words
+    if "same" in phrase.determiner.split():
+        return replace(phrase, determiner="any"), Grouping.TOGETHER
+    if words[:1] == ("own",) and phrase.determiner in ("its", "their"):
+        return replace(phrase, determiner="any", words=words[1:]), Grouping.SEPARATELY
+    if words and words[0] in _DIFFERENT:
+        return replace(phrase, determiner="", words=words[1:]), Grouping.SEPARATELY
+    return phrase, None

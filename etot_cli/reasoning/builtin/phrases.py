@@ -1,0 +1,160 @@
+"""Resolves the phrases of a clause one by one: nouns, pronouns and destinations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.determiners import quantity_of
+from etot_cli.reasoning.builtin.discourse import PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
+from etot_cli.reasoning.builtin.matching import ReferenceProblem
+from etot_cli.reasoning.builtin.references import Resolved, Resolver, Role, can_be, is_robot
+from etot_cli.reasoning.builtin.syntax import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    Prep,
+    Things,
+    Toward,
+)
+from etot_cli.world.state import DESK, SceneState
+
+_DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
+"""Anywhere on the desk, nobody having said so."""
+
+
+class Phrases:
+    """Turns phrases into referents of a discourse.
+
+    Args:
+        scene: what is spoken about.
+        resolver: of phrases with a noun.
+        discourse: what was spoken of before; it grows.
+    """
+
+    def __init__(self, scene: SceneState, resolver: Resolver, discourse: Discourse) -> None:
+        self._scene = scene
+        self._resolver = resolver
+        self.discourse = discourse
+
+    def on_the_desk(self) -> Place:
+        """Somewhere on the desk."""
+        return Place(Relation.ON, self.discourse.add(_DESK, DESK, Role.SURFACE))
+
+    def things(self, things: Things, role: Role) -> list[int]:
+        """Referents of coordinated phrases; alternatives become one referent."""
+        if not things.either:
+            found = [index for phrase in things.phrases for index in self.refer(phrase, role)]
+            return list(dict.fromkeys(found))
+        resolved = [self._resolved(phrase, role) for phrase in things.phrases]
+        options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
+        either = Resolved(options, definite=False, other=False, noun=resolved[-1].noun)
+        text = " or ".join(phrase.text for phrase in things.phrases)
+        return [self.discourse.add(either, text, role)]
+
+    def refer(
+        self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()
+    ) -> tuple[int, ...]:
+        """The referents of a phrase, none of ``excluded``; a plural pronoun may have several."""
+        plain_pronoun = phrase.pronoun and not phrase.modifiers
+        if plain_pronoun and not _chooses(phrase.determiner):
+            found = self.discourse.antecedents(
+                "them" if phrase.determiner else phrase.pronoun, role, phrase.text, excluded
+            )
+            for index in found:
+                self.discourse.mention_again(index, role)
+            return found
+        index = self.discourse.add(self._resolved(phrase, role), phrase.text, role)
+        self._note_landmarks(phrase)
+        return (index,)
+
+    def _note_landmarks(self, phrase: NounPhrase) -> None:
+        """Things that were only mentioned to tell others by can be spoken of later on."""
+        owner = () if phrase.owner is None else (phrase.owner,)
+        named = [item for modifier in phrase.modifiers for item in modifier.phrases]
+        for landmark in (*owner, *named):
+            if landmark.words and not is_robot(landmark):
+                resolved = self._resolver.resolve(landmark, Role.ANY, pronoun=self._pronoun_things)
+                self.discourse.add(resolved, landmark.text, Role.ANY)
+
+    def _resolved(self, phrase: NounPhrase, role: Role) -> Resolved:
+        discourse = self.discourse
+        if phrase.pronoun and not phrase.modifiers:  # "one of them"
+            indices = discourse.antecedents("them", role, phrase.text)
+            things = dict.fromkeys(thing for i in indices for thing in discourse.things(i))
+            options = tuple((thing,) for thing in things)
+            noun = discourse.last_noun(role) or ""
+            return Resolved(options, definite=False, other=False, noun=noun)
+        if phrase.pronoun:  # "those on the desk"
+            noun = discourse.last_noun(role) or "object"
+            plural = phrase.pronoun in PLURAL_PRONOUNS
+            phrase = replace(
+                phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
+            )
+        if phrase.determiner.startswith("its"):
+            owner = Modifier(Prep.OF, (NounPhrase(pronoun="it", text="its"),))
+            phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
+        noun_before = discourse.last_noun(role)
+        return self._resolver.resolve(
+            phrase,
+            role,
+            noun=noun_before,
+            excluded=discourse.mentioned_like(noun_before),
+            pronoun=self._pronoun_things,
+        )
+
+    def _pronoun_things(self, phrase: NounPhrase) -> tuple[Thing, ...]:
+        indices = self.discourse.antecedents(phrase.pronoun, Role.ANY, phrase.text)
+        return tuple(thing for index in indices for thing in self.discourse.things(index))
+
+    def places(
+        self,
+        destinations: Sequence[Destination],
+        themes: Sequence[int],
+        prefer: Sequence[int] = (),
+    ) -> tuple[Place, ...]:
+        """Alternative places. ``prefer``: referents that "inside" means before any other."""
+        places: dict[Place, None] = {}
+        for destination in destinations:
+            if destination.toward is Toward.HERE:
+                places.update(dict.fromkeys(self._here(destination.word, themes, prefer)))
+                continue
+            for phrase in destination.targets:
+                places.update(dict.fromkeys(self._targets(destination.toward, phrase, themes)))
+        return tuple(places)
+
+    def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
+        role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
+        found = []
+        for index in self.refer(phrase, role, themes):
+            options = self.discourse.referents[index].options
+            if quantity_of(phrase.determiner).every and any(len(option) > 1 for option in options):
+                raise ReferenceProblem(phrase.text, "say what is to go into or on which", 2)
+            if index in themes and len(self.discourse.referents[index].options) == 1:
+                raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
+            things = self.discourse.things(index)
+            fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
+            fits_on = any(can_be(thing, Role.SURFACE, self._scene) for thing in things)
+            if fits_in and (toward is not Toward.ON or not fits_on):
+                found.append(Place(Relation.INSIDE, index))
+            if fits_on and toward is not Toward.INSIDE:
+                found.append(Place(Relation.ON, index))
+        return found
+
+    def _here(self, word: str, themes: Sequence[int], prefer: Sequence[int]) -> tuple[Place, ...]:
+        discourse = self.discourse
+        if word == "down":
+            return (self.on_the_desk(),)
+        if word == "there" and discourse.last_places:
+            return discourse.last_places
+        relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
+        for index in prefer:
+            if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
+                return (Place(relation, index),)
+        return (discourse.latest_place(relation, themes, word),)
+
+
+def _chooses(determiner: str) -> bool:
+    """Whether a determiner before a pronoun picks some of them ("one of them")."""
+    return bool(determiner) and determiner.split()[0] not in ("all", "both", "each", "every")

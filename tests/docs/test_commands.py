@@ -1,0 +1,131 @@
+"""Every command that the documentation shows in a code block works as shown."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+FENCE = re.compile(r"^```[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+RUN_BY_CI = {
+    "demo": "CI runs it, and it would install the package once more",
+    "test": "it is what runs this test",
+    "lint": "CI runs it",
+    "format": "it would rewrite the sources that are being tested",
+    "bench": "it measures for minutes",
+    "check-tasks": "it simulates for minutes",
+    "schemas": "tests/reporting compares the schemas with the models",
+    "clean": "it would delete the environment of this test",
+}
+"""Targets of make that are not run here, and why; that they exist is checked."""
+ANSWERS = {"[PICK UP, pen] [PUT INTO, black_holder]": 1}
+"""Plans shown because they fail: exit code by plan; all other commands end with 0."""
+LEFT_OUT = ("--video", "--frames")
+"""Options that need OpenGL, which planning must do without; rendering has tests of its own."""
+REPORT = "results/plan/…/report.json"
+"""Stands for the report of the plan command shown before it."""
+
+
+def commands() -> list[tuple[str, str]]:
+    """Page and command, for all lines in code blocks that start with ``etot`` or ``make``."""
+    found = []
+    for page in PAGES:
+        for block in FENCE.findall(page.read_text(encoding="utf-8")):
+            for line in block.replace("\\\n", " ").splitlines():
+                words = line.strip().removeprefix("$ ")
+                if words.startswith(("etot ", "make ")):
+                    found.append((str(page.relative_to(ROOT)), " ".join(words.split())))
+    return list(dict.fromkeys(found))
+
+
+ALL = commands()
+ETOT = [item for item in ALL if item[1].startswith("etot ")]
+MAKE = [item for item in ALL if item[1].startswith("make ")]
+SYNOPSES = [item for item in ETOT if "[options]" in item[1]]
+EXAMPLES = [item for item in ETOT if "[options]" not in item[1]]
+
+
+def etot(arguments: list[str]) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "etot_cli.cli.app", *arguments],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        text=True,
+        capture_output=True,
+        timeout=300,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="session")
+def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of the plan that the README makes first."""
+    folder = tmp_path_factory.mktemp("planned")
+    done = etot(["plan", "tasks/task5.yaml", "--out", str(folder), "-q"])
+    assert done.returncode == 0, done.stderr
+    return folder / "report.json"
+
+
+def test_documentation_shows_commands() -> None:
+    pages = {page for page, _ in ALL}
+    assert {"README.md", "docs/plan.md", "docs/simulate.md"} <= pages
+    assert len(EXAMPLES) >= 3 and MAKE
+
+
+@pytest.mark.parametrize(("page", "command"), SYNOPSES, ids=[c for _, c in SYNOPSES])
+def test_synopsis_names_a_command(page: str, command: str) -> None:
+    """And every option in the page's tables is one of the command's."""
+    name = command.split()[1]
+    helped = etot([name, "--help"])
+    assert helped.returncode == 0, helped.stderr
+    for cell in re.findall(r"^\| `(-[^|]*)` \|", (ROOT / page).read_text("utf-8"), re.MULTILINE):
+        for option in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", cell):
+            assert option in helped.stdout, f"{page}: {name} has no {option}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("page", "command"), EXAMPLES, ids=[c for _, c in EXAMPLES])
+def test_example_works(page: str, command: str, tmp_path: Path, planned: Path) -> None:
+    words = shlex.split(command, comments=True)[1:]
+    words = [str(planned) if word == REPORT else word for word in words if word not in LEFT_OUT]
+    if "--out" in words:
+        del words[words.index("--out") : words.index("--out") + 2]
+    done = etot([*words, "--out", str(tmp_path / "out"), "-q"])
+    expected = next((code for plan, code in ANSWERS.items() if plan in words), 0)
+    assert done.returncode == expected, f"{page}: {done.stdout}{done.stderr}"
+    report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert report["status"] in (("feasible", "success") if expected == 0 else ("failure", "unsafe"))
+
+
+@pytest.mark.parametrize(("page", "command"), MAKE, ids=[c for _, c in MAKE])
+def test_make_target_exists(page: str, command: str) -> None:
+    target = shlex.split(command, comments=True)[1]
+    assert target in RUN_BY_CI, f"{page}: {command} is neither run by CI nor excused"
+    done = subprocess.run(
+        ["make", "--dry-run", target], cwd=ROOT, text=True, capture_output=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_every_make_target_is_accounted_for() -> None:
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    phony = re.search(r"^\.PHONY: (.*)$", text, re.MULTILINE)
+    assert phony is not None
+    assert set(phony[1].split()) == set(RUN_BY_CI)
+    for target in ("lint", "test", "demo"):
+        assert f"make {target}" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+
+
+def test_links_between_pages_lead_somewhere() -> None:
+    for page in PAGES:
+        for link in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / link).exists(), f"{page.name}: {link}"

@@ -1,0 +1,104 @@
+"""The rooms and who may import whom, as docs/design.md draws them; read from the sources."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "etot_cli"
+
+BELOW: dict[str, set[str]] = {
+    "specs": set(),
+    "world": {"specs"},
+    "skills": {"specs", "world"},
+    "reasoning": {"specs", "world", "skills"},
+    "planning": {"specs", "world", "skills", "reasoning"},
+    "reconstruction": {"specs", "world"},
+    "reporting": {"specs", "world", "skills", "reasoning", "planning"},
+    "commands": {"specs", "world", "skills", "reasoning", "planning", "reporting"},
+    "cli": {"planning", "reasoning", "reporting", "commands"},
+}
+"""Rooms that each room may import besides itself and ``errors``. Rooms still to come may stand on
+everything."""
+WITHOUT_MUJOCO = ("specs", "reasoning/builtin", "planning", "reporting", "commands", "cli")
+WITHOUT_HTTP = (
+    "specs", "world", "skills", "reasoning/builtin", "planning", "reporting", "reconstruction",
+)  # fmt: skip
+PLAIN_DATA = {"etot_cli.world": {"state", "colors"}, "etot_cli.skills": {"action", "simulated"}}
+"""The modules of lower rooms that carry data alone; physics is behind a protocol."""
+ON_PLAIN_DATA = ("planning", "reasoning/builtin")
+
+
+def rooms() -> list[str]:
+    return sorted(path.name for path in PACKAGE.iterdir() if (path / "__init__.py").is_file())
+
+
+def imports(path: Path) -> set[str]:
+    """Modules that a file imports anywhere, in functions and for type checking too."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative import"
+            assert node.module is not None
+            found.add(node.module)
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found
+
+
+def files(room: str) -> list[Path]:
+    return sorted((PACKAGE / room).rglob("*.py"))
+
+
+def test_every_room_is_drawn() -> None:
+    assert set(rooms()) <= set(BELOW) | {"execution", "benchmark"}
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    for room in rooms():
+        assert f"`{room}`" in text, f"docs/design.md does not say what {room} is"
+
+
+@pytest.mark.parametrize("room", sorted(BELOW))
+def test_a_room_imports_only_lower_ones(room: str) -> None:
+    allowed = {room, "errors"} | BELOW[room]
+    for path in files(room):
+        for module in imports(path):
+            parts = module.split(".")
+            if parts[0] == "etot_cli" and len(parts) > 1:
+                assert parts[1] in allowed, f"{path.relative_to(ROOT)} imports {module}"
+
+
+@pytest.mark.parametrize("room", ON_PLAIN_DATA)
+def test_planning_and_builtin_reasoning_see_plain_data_only(room: str) -> None:
+    assert files(room)
+    for path in files(room):
+        for module in imports(path):
+            for lower, modules in PLAIN_DATA.items():
+                if module.startswith(f"{lower}."):
+                    name = module.removeprefix(f"{lower}.").split(".")[0]
+                    assert name in modules, f"{path.relative_to(ROOT)} imports {module}"
+
+
+@pytest.mark.parametrize(
+    ("library", "without"), [("mujoco", WITHOUT_MUJOCO), ("httpx", WITHOUT_HTTP)]
+)
+def test_physics_and_network_stay_in_their_rooms(library: str, without: tuple[str, ...]) -> None:
+    for room in without:
+        for path in files(room):
+            used = {module.split(".")[0] for module in imports(path)}
+            assert library not in used, f"{path.relative_to(ROOT)} imports {library}"
+    everywhere = {m.split(".")[0] for room in rooms() for p in files(room) for m in imports(p)}
+    assert "mujoco" in everywhere, "the parser finds imports at all"
+
+
+def test_rules_have_no_circle() -> None:
+    order: list[str] = []
+    while len(order) < len(BELOW):
+        ready = [room for room in BELOW if room not in order and BELOW[room] <= set(order)]
+        assert ready, "rooms import each other in a circle"
+        order += ready
+    assert order.index("specs") < order.index("world") < order.index("skills")
+    assert order.index("reasoning") < order.index("planning") < order.index("commands")

@@ -1,0 +1,374 @@
+"""The controlled English: sentences and the branches that they lead to."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from etot_cli.errors import InstructionError
+from tests.reasoning import scenes
+from tests.reasoning.scenes import plans
+
+OPEN_DOOR = ["[OPEN, microwave]"]
+CLOSE = ["[CLOSE, drawer]"]
+PEN_BLACK = "[PICK UP, pen] [PUT INTO, black_holder]"
+PEN_WHITE = "[PICK UP, pen] [PUT INTO, white_holder]"
+EITHER = [PEN_BLACK, PEN_WHITE]
+SIDE, ABOVE = "[PICK UP, holder] (horizontal)", "[PICK UP, holder] (vertical)"
+BALLS = ["[PICK UP, tennis_ball_1]", "[PICK UP, tennis_ball_2]"]
+TOY_FIRST = ["[PICK UP, toy] [PUT ON, desk] [CLOSE, drawer]"]
+APPLE_IN = "[PICK UP, apple] [PUT INTO, holder]"
+HOLDER_ON = "[PICK UP, holder] [PUT ON, drawer]"
+
+
+def store(name: str) -> str:
+    return f"[OPEN, drawer] [PICK UP, {name}] [PUT INTO, drawer] [CLOSE, drawer]"
+
+
+BALL_IN = "[PICK UP, tennis_ball] [PUT INTO, holder]"
+ALLOCATIONS = [
+    f"{store('apple')} {store('tennis_ball')}",
+    f"{store('apple')} {BALL_IN}",
+    f"{APPLE_IN} {store('tennis_ball')}",
+    f"{APPLE_IN} {BALL_IN}",
+]
+ALLOCATIONS_CLOSED = [*ALLOCATIONS[:3], f"{ALLOCATIONS[3]} [CLOSE, drawer]"]
+
+PAPER = [
+    ("microwave", "Open the door of the microwave oven.", OPEN_DOOR),
+    ("pens", "Reorient a pen and place it into a holder.", EITHER),
+    ("holder_on_drawer", "Pick up the holder horizontally or vertically.", [SIDE, ABOVE]),
+    ("toy_in_drawer", "Close the drawer.", CLOSE),
+    ("two_balls", "Pick up a tennis ball.", BALLS),
+    ("pens_and_apple", "Reorient a pen and place it into a holder.", EITHER),
+    (
+        "apple_and_holder",
+        "Place the apple and the holder on the drawer, with the apple inside the holder.",
+        [f"{APPLE_IN} {HOLDER_ON}"],
+    ),
+    (
+        "ball_before_drawer",
+        "Put the apple and the tennis ball in either the drawer or the pen holder, together or "
+        "separately. Ensure the drawer is closed.",
+        ALLOCATIONS_CLOSED,
+    ),
+]
+
+REWORDED: dict[str, dict[str, list[str]]] = {
+    "microwave": {
+        "Open the microwave door": OPEN_DOOR,
+        "Please open the microwave.": OPEN_DOOR,
+        "Could you open the microwave's door?": OPEN_DOOR,
+        "Pull the door of the microwave open.": OPEN_DOOR,
+        "Make sure the microwave is open": OPEN_DOOR,
+        "The microwave door should be open.": OPEN_DOOR,
+        "Swing the microwave door open": OPEN_DOOR,
+        "Open the door of the silver microwave all the way": OPEN_DOOR,
+        "Open the microwave and pick up the ball": ["[OPEN, microwave] [PICK UP, tennis_ball]"],
+        "Take the ball and put it in the microwave, then close the door": [
+            "[OPEN, microwave] [PICK UP, tennis_ball] [PUT INTO, microwave] [CLOSE, microwave]"
+        ],
+    },
+    "pens": {
+        "Put the pen in a pen holder.": EITHER,
+        "Insert the pencil into one of the holders": EITHER,
+        "Turn the pen upright and insert it into either holder.": EITHER,
+        "Grab the pen. Put it into either the black or the white holder.": EITHER,
+        "Take the pen from the drawer and drop it into whichever holder": EITHER,
+        "Put the pen in a holder, standing upright": EITHER,
+        "The pen belongs in a holder.": EITHER,
+        "Re-orient a pen and place it into any of the cups.": EITHER,
+        "Stand the pen upright in the black cup": [PEN_BLACK],
+        "Reorient the pen and place it into the white holder": [PEN_WHITE],
+        "Put the pen that is lying on the drawer into the left holder": [PEN_WHITE],
+        "Put the pen in the holder on the right": [PEN_BLACK],
+        "Put the pen into the bigger holder": [PEN_WHITE],
+        "Place the pen in the white_holder": [PEN_WHITE],
+        "Fetch the pen off the chest and drop it into the black pen holder": [PEN_BLACK],
+        "Pick up the pen from above or from the side": [
+            "[PICK UP, pen] (vertical)",
+            "[PICK UP, pen] (horizontal)",
+        ],
+    },
+    "holder_on_drawer": {
+        "Pick up the holder from the side or from above.": [SIDE, ABOVE],
+        "Either horizontally or vertically, pick up the holder": [SIDE, ABOVE],
+        "Grasp the cup vertically or horizontally": [ABOVE, SIDE],
+        "Lift the holder by the rim": [ABOVE],
+        "Pick the holder up from the side": [SIDE],
+        "Pick up the one on the drawer": ["[PICK UP, holder]"],
+        "Take the holder off the drawer": ["[PICK UP, holder] [PUT ON, desk]"],
+        "Grasp the holder from above and put it on the desk": [f"{ABOVE} [PUT ON, desk]"],
+    },
+    "toy_in_drawer": {
+        "Shut the drawer": CLOSE,
+        "Push the drawer shut, please.": CLOSE,
+        "Ensure that the top drawer is closed": CLOSE,
+        "Close the upper drawer": CLOSE,
+        "Close the open drawer": CLOSE,
+        "Make sure the chest is shut": CLOSE,
+        "Take the toy out of the drawer and close it": TOY_FIRST,
+        "Close the drawer after removing the toy": TOY_FIRST,
+        "Before closing the drawer, take out the toy.": TOY_FIRST,
+        "Empty the drawer": ["[PICK UP, toy] [PUT ON, desk]"],
+        "Pick up the toy and close the drawer": [f"{TOY_FIRST[0]} [PICK UP, toy]"],
+        "Leave the drawer open": [],
+    },
+    "two_balls": {
+        "Grab one of the balls": BALLS,
+        "Take either tennis ball": BALLS,
+        "Lift any ball": BALLS,
+        "Pick up a tennis": BALLS,
+        "Pick up the left ball": BALLS[:1],
+        "Pick up the second ball": BALLS[1:],
+        "Pick up ball 2": BALLS[1:],
+        "Pick up tennis_ball_2": BALLS[1:],
+        "Pick up the first ball from the right": BALLS[1:],
+        "Pick up the ball closest to the holder": BALLS[:1],
+        "Put both balls in the holder": [
+            "[PICK UP, tennis_ball_1] [PUT INTO, holder] "
+            "[PICK UP, tennis_ball_2] [PUT INTO, holder]"
+        ],
+        "Put a ball into the cup, then pick up the other one.": [
+            "[PICK UP, tennis_ball_1] [PUT INTO, holder] [PICK UP, tennis_ball_2]",
+            "[PICK UP, tennis_ball_2] [PUT INTO, holder] [PICK UP, tennis_ball_1]",
+        ],
+    },
+    "apple_and_holder": {
+        "Put the holder and the apple on the drawer, with the apple in the holder": [
+            f"{HOLDER_ON} {APPLE_IN}"
+        ],
+        "Place the holder on the drawer with the apple inside": [f"{HOLDER_ON} {APPLE_IN}"],
+        "Put the holder on top of the chest. Then put the apple into it.": [
+            f"{HOLDER_ON} {APPLE_IN}"
+        ],
+        "Put the holder on the drawer and the apple in the holder.": [f"{HOLDER_ON} {APPLE_IN}"],
+        "Put the apple into the holder, then put it on the drawer": [f"{APPLE_IN} {HOLDER_ON}"],
+        "Make sure that the apple is in the cup and the cup is on the drawer": [
+            f"{APPLE_IN} {HOLDER_ON}"
+        ],
+        "Put the holder in the drawer and the apple in the holder": [
+            f"{store('holder')} [OPEN, drawer] {APPLE_IN} [CLOSE, drawer]"
+        ],
+        "Open the drawer and close it": ["[OPEN, drawer] [CLOSE, drawer]"],
+        "Move the apple to the drawer": [store("apple"), "[PICK UP, apple] [PUT ON, drawer]"],
+    },
+    "ball_before_drawer": {
+        "Put the apple and the ball either in the drawer or in the holder": ALLOCATIONS,
+        "The apple and the tennis ball should be in the drawer or the holder. Shut the drawer.": (
+            ALLOCATIONS_CLOSED
+        ),
+        "Store the apple and the ball in the drawer or the holder, separately": ALLOCATIONS[1:3],
+        "Put the apple and the tennis ball in the same container": [ALLOCATIONS[0], ALLOCATIONS[3]],
+        "Open the drawer, put the ball inside, and close it": [store("tennis_ball")],
+        "Open the drawer and put the ball inside": [store("tennis_ball")],
+        "Take the ball, open the drawer and put it inside.": [store("tennis_ball")],
+        "Open the drawer. Put the ball in it. Leave it open.": [
+            f"{store('tennis_ball')} [OPEN, drawer]"
+        ],
+        "Get the apple into the holder and the ball into the drawer": [ALLOCATIONS[2]],
+        "Put the apple into the holder or on the drawer": [
+            APPLE_IN,
+            "[PICK UP, apple] [PUT ON, drawer]",
+        ],
+    },
+    "kitchen": {
+        "Open the top drawer and put the left bowl inside": [
+            "[OPEN, chest.upper] [PICK UP, bowl_1] [PUT INTO, chest.upper] [CLOSE, chest.upper]"
+        ],
+        "Close the drawer": ["[CLOSE, chest.lower]"],
+        "Close all drawers": ["[CLOSE, chest.lower]"],
+        "Open the closed drawer": ["[OPEN, chest.upper]"],
+        "Pick up the mug in front of the box": ["[PICK UP, mug_c]"],
+        "Pick up the object between the box and the plate": ["[PICK UP, mug_b]"],
+        "Pick up the smaller of the bowls": ["[PICK UP, bowl_2]"],
+        "Pick up mug a": ["[PICK UP, mug_a]"],
+        "Place the red apple in the left bowl and the green apple in the right bowl": [
+            "[PICK UP, apple_1] [PUT INTO, bowl_1] [PICK UP, apple_2] [PUT INTO, bowl_2]"
+        ],
+        "Put the apples in different bowls": [
+            "[PICK UP, apple_1] [PUT INTO, bowl_1] [PICK UP, apple_2] [PUT INTO, bowl_2]",
+            "[PICK UP, apple_1] [PUT INTO, bowl_2] [PICK UP, apple_2] [PUT INTO, bowl_1]",
+        ],
+        "Pick up the mugs and stack them on the box": [
+            "[PICK UP, mug_a] [PUT ON, box] [PICK UP, mug_b] [PUT ON, box] "
+            "[PICK UP, mug_c] [PUT ON, box]"
+        ],
+    },
+}
+
+REFUSED: dict[str, dict[str, str]] = {
+    "kitchen": {
+        "Juggle the apples": "juggle the apples",
+        "Do not put the apple in the bowl": "do not put",
+        "Put the apple in the bowl without touching the plate": "without touching",
+        "If the drawer is open, close it": "if the drawer",
+        "Put the bottle next to the bowl": "into or onto what",
+        "Put the big bowl upside down on the plate": "upside down",
+        "Put the apple quickly into the bowl": "quickly into the bowl",
+        "Close the middle drawer": "no 'middle drawer'",
+        "Pick up the yellow mug": "no 'yellow mug'",
+        "Pick up the spoon": "nothing in the scene is called so",
+        "Pick up the shiny mug": "'shiny' does not tell which of mug_a, mug_b, mug_c",
+        "Pick up both apples": "holds one object at a time",
+        "Pick up the chest": "chest cannot be picked up",
+        "Put it in the bowl": "not clear what this refers to",
+        "Put four mugs on the box": "only 3 of them",
+        "Turn the bottle upright": "no skill of its own",
+        "Put the red apple on the green apple": "cannot be used as a surface",
+        "": "says nothing",
+        "Pick up the apple" + " and the apple" * 60: "over 80 words",
+        "x" * 3000: "more than 2000 characters",
+    },
+}
+
+CASES = [
+    *PAPER,
+    *((name, text, wanted) for name, texts in REWORDED.items() for text, wanted in texts.items()),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "wanted"), CASES, ids=[case[1][:60] for case in CASES])
+def test_branches(name: str, text: str, wanted: list[str]) -> None:
+    assert plans(text, getattr(scenes, name)()) == wanted
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "named"),
+    [(name, text, named) for name, texts in REFUSED.items() for text, named in texts.items()],
+    ids=lambda value: value[:40],
+)
+def test_refusals_say_what_and_how_to_go_on(name: str, text: str, named: str) -> None:
+    with pytest.raises(InstructionError) as raised:
+        plans(text, getattr(scenes, name)())
+    message = str(raised.value)
+    assert named in message
+    assert "understood" in message
+    assert "Pick up the red ball." in message  # an example
+    assert "goal:" in message
+    assert "--reasoner vlm" in message
+    assert raised.value.exit_code == 2
+
+
+def test_message_shows_what_was_understood() -> None:
+    with pytest.raises(InstructionError, match="up to there: open the top drawer\\. put the plate"):
+        plans("Open the top drawer. Put the plate without delay.", scenes.kitchen())
+
+
+EXAMPLE = re.compile(r"^\| ([A-Z][^|]*[.]) \| (`.*`) \|$", re.MULTILINE)
+DOCUMENT = Path(__file__).parents[2] / "docs" / "instructions.md"
+
+
+@pytest.mark.parametrize(("text", "branches"), EXAMPLE.findall(DOCUMENT.read_text("utf-8")))
+def test_documented_examples(text: str, branches: str) -> None:
+    assert plans(text, scenes.kitchen()) == branches.replace("`", "").split("<br>")
+
+
+def test_document_has_examples() -> None:
+    assert len(EXAMPLE.findall(DOCUMENT.read_text("utf-8"))) > 25
+
+
+# -- nothing knows a task --------------------------------------------------------------------------
+
+NEW_NAMES = {
+    "microwave": "zib", "tennis_ball": "round_quop", "black_holder": "black_flum",
+    "white_holder": "white_flum", "drawer": "trilk", "pen": "narp", "apple": "jorb",
+    "holder": "flum", "toy": "wug",
+    "tennis_ball_1": "quop_1", "tennis_ball_2": "quop_2",
+}  # fmt: skip
+NEW_WORDS = {
+    "microwave oven": "zib", "tennis ball": "quop", "pen holder": "flum", "holder": "flum",
+    "drawer": "trilk", "pen": "narp", "apple": "jorb",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "text", "wanted"), PAPER)
+def test_renaming_every_object_changes_nothing(name: str, text: str, wanted: list[str]) -> None:
+    state = getattr(scenes, name)()
+    names = {old: NEW_NAMES[old] for old in state.infos}
+    for old, new in NEW_WORDS.items():
+        text = re.sub(rf"\b{old}\b", new, text)
+    found = plans(text, scenes.renamed(state, names))
+    pattern = re.compile("|".join(sorted(names, key=len, reverse=True)))
+    assert found == [pattern.sub(lambda match: names[match[0]], plan) for plan in wanted]
+
+
+@pytest.mark.parametrize("word", ["left", "right"])
+def test_left_is_positive_y(word: str) -> None:
+    sign = 1 if word == "left" else -1
+    state = scenes.scene(
+        scenes.ball("one", (0.4, -0.2 * sign), label="ball"),
+        scenes.ball("two", (0.4, 0.2 * sign), label="ball"),
+    )
+    assert plans(f"Pick up the {word} ball", state) == ["[PICK UP, two]"]
+
+
+def test_what_holds_needs_no_steps() -> None:
+    state = scenes.scene(
+        scenes.cup("mug", (0.4, 0.1)),
+        scenes.ball("plum", (0.4, 0.1), on="mug", inside="mug"),
+        scenes.ball("pear", (0.4, -0.2)),
+    )
+    assert plans("Put the plum into the mug.", state) == []
+    assert plans("Put the plum and the pear into the mug.", state) == [
+        "[PICK UP, pear] [PUT INTO, mug]"
+    ]
+
+
+def test_full_hand_at_the_start() -> None:
+    state = scenes.scene(
+        scenes.cup("mug", (0.4, 0.1)),
+        scenes.ball("plum", (0.4, 0.3)),
+        scenes.drawers("chest", (0.6, -0.2), {"top": 0.0}),
+        holding="plum",
+    )
+    assert plans("Pick up the plum.", state) == []
+    assert plans("Put the plum into the mug.", state) == ["[PUT INTO, mug]"]
+    assert plans("Put the plum into the chest.", state) == [
+        "[PUT ON, desk] [OPEN, chest] [PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
+    ]
+    assert plans("Pick up the mug.", state) == ["[PUT ON, desk] [PICK UP, mug]"]
+
+
+def test_open_enough_and_ajar() -> None:
+    plum = scenes.ball("plum", (0.4, 0.3))
+    wide = scenes.scene(plum, scenes.drawers("chest", (0.6, -0.2), {"top": 0.7}))
+    ajar = scenes.scene(plum, scenes.drawers("chest", (0.6, -0.2), {"top": 0.2}))
+    cycle = "[PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
+    assert plans("Put the plum into the chest.", wide) == [cycle]
+    assert plans("Put the plum into the chest.", ajar) == [f"[OPEN, chest] {cycle}"]
+
+
+def test_what_lies_in_a_closed_drawer_is_uncovered() -> None:
+    state = scenes.scene(
+        scenes.drawers("chest", (0.6, -0.2), {"top": 0.0}),
+        scenes.ball("plum", (0.6, -0.2), on="chest", inside="chest"),
+    )
+    assert plans("Pick up the plum.", state) == ["[OPEN, chest] [PICK UP, plum]"]
+
+
+def test_boards_of_a_shelf() -> None:
+    state = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.3), boards=("low", "mid", "high")),
+        scenes.cup("mug", (0.4, 0.0)),
+    )
+    assert plans("Put the mug on the top shelf.", state) == ["[PICK UP, mug] [PUT ON, rack.high]"]
+    assert plans("Put the mug on the bottom board of the rack.", state) == [
+        "[PICK UP, mug] [PUT ON, rack.low]"
+    ]
+    assert plans("Put the mug on the rack.", state) == ["[PICK UP, mug] [PUT ON, rack]"]
+
+
+def test_too_many_branches_are_cut_and_it_is_said(caplog: pytest.LogCaptureFixture) -> None:
+    balls = [scenes.ball(f"ball_{i}", (0.3, 0.1 * i), label="ball") for i in range(5)]
+    cups = [scenes.cup(f"cup_{i}", (0.5, 0.1 * i), label="cup") for i in range(3)]
+    state = scenes.scene(*balls, *cups)
+    from etot_cli.reasoning.builtin import BuiltinReasoner
+    from etot_cli.reasoning.protocol import Assignment
+
+    branches = BuiltinReasoner().propose(Assignment("Put each ball in a cup."), state)
+    assert len(branches) == 64
+    assert "first 64" in branches[-1].reason
+    assert "too many choices" in caplog.text

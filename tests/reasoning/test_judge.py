@@ -1,0 +1,228 @@
+"""The judge on records made by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.protocol import Outcome, Verdict
+from etot_cli.skills.action import parse_plan
+from etot_cli.world.state import CauseKind, RolloutRecord
+from tests.reasoning import scenes
+from tests.reasoning.records import cause, changed, contact, held, record, released
+
+
+def judge(action: str, rollout: RolloutRecord) -> Verdict:
+    return BuiltinReasoner().judge(parse_plan(action)[0], rollout)
+
+
+APPLE_UP = (0.4, 0.3, 0.4)
+
+
+def test_pick_up() -> None:
+    before = scenes.apple_and_holder()
+    after = changed(before, apple={"in_hand": True, "on": (), "position": APPLE_UP})
+    verdict = judge("[PICK UP, apple]", record(before, after))
+    assert verdict == Verdict(Outcome.SUCCESS, None, ("apple",))
+
+
+def test_pick_up_that_left_it_on_the_desk() -> None:
+    before = scenes.apple_and_holder()
+    touched = record(before, contacts=(contact("apple", "gripper"),))
+    verdict = judge("[PICK UP, apple]", touched)
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause is not None
+    assert (verdict.cause.kind, verdict.cause.objects) == (CauseKind.SLIP, ("apple",))
+
+
+def test_the_skill_s_own_cause_comes_first() -> None:
+    before = scenes.apple_and_holder()
+    own = cause(CauseKind.NO_GRASP, "holder", "apple")
+    verdict = judge("[PICK UP, apple]", record(before, effect=False, cause=own))
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause == own
+
+
+def test_put_on_and_into() -> None:
+    before = held(scenes.apple_and_holder(), "apple")
+    on = released(before, apple={"on": ("drawer",)})
+    assert judge("[PUT ON, drawer]", record(before, on)).outcome is Outcome.SUCCESS
+    into = released(before, apple={"on": ("holder",), "inside": "holder"})
+    assert judge("[PUT INTO, holder]", record(before, into)).outcome is Outcome.SUCCESS
+    # In the drawer is not on the unit's top, although the unit bears it.
+    drawer = released(before, apple={"on": ("drawer",), "inside": "drawer"})
+    assert judge("[PUT ON, drawer]", record(before, drawer)).outcome is Outcome.FAILURE
+    assert judge("[PUT INTO, drawer]", record(before, drawer)).outcome is Outcome.SUCCESS
+
+
+def test_a_vessel_that_topples_is_to_blame() -> None:
+    before = held(scenes.pens(), "pen")
+    after = released(before, pen={"position": (0.4, -0.3, 0.14)}, black_holder={"toppled": True})
+    verdict = judge("[PUT INTO, black_holder]", record(before, after))
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.TOPPLED
+    assert verdict.cause.objects[0] == "black_holder"
+    inside = released(
+        before, pen={"inside": "black_holder", "on": ("black_holder",)},
+        black_holder={"toppled": True},
+    )  # fmt: skip
+    assert judge("[PUT INTO, black_holder]", record(before, inside)).outcome is Outcome.FAILURE
+
+
+@pytest.mark.parametrize("lost", [False, True])
+def test_what_it_rebounded_off_is_to_blame(lost: bool) -> None:
+    before = held(scenes.pens_and_apple(), "pen")
+    after = released(before, pen={"position": (0.5, 0.2, 0.14), "lost": lost})
+    contacts = (contact("apple", "pen", 0.3, 2.5), contact("drawer", "pen", 0.5, 2.9))
+    verdict = judge("[PUT INTO, white_holder]", record(before, after, contacts=contacts))
+    assert verdict.outcome is (Outcome.UNSAFE if lost else Outcome.FAILURE)
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.REBOUND
+    assert verdict.cause.objects[0] == "apple"
+    assert verdict.cause.time_s == 2.5
+    assert "pen rebounded off apple" in verdict.cause.text
+
+
+def test_a_lost_bystander_is_unsafe() -> None:
+    before = scenes.microwave()
+    after = changed(
+        before,
+        microwave={"openness": {"door": 1.0}, "opened": {"door": True}},
+        tennis_ball={"lost": True, "on": (), "position": (0.0, 0.3, -0.5)},
+    )
+    hit = contact("microwave", "tennis_ball", time_s=0.7)
+    verdict = judge("[OPEN, microwave]", record(before, after, contacts=(hit,)))
+    assert verdict.outcome is Outcome.UNSAFE
+    assert verdict.cause is not None
+    assert (verdict.cause.kind, verdict.cause.objects) == (CauseKind.LOST, ("tennis_ball",))
+    assert verdict.cause.time_s == 0.7
+    assert verdict.changes == ("microwave", "tennis_ball")
+
+
+def test_out_of_reach_is_unsafe() -> None:
+    before = scenes.microwave()
+    after = changed(
+        before,
+        microwave={"openness": {"door": 1.0}, "opened": {"door": True}},
+        tennis_ball={"reachable": False, "position": (0.9, 0.5, 0.17)},
+    )
+    verdict = judge("[OPEN, microwave]", record(before, after))
+    assert verdict.outcome is Outcome.UNSAFE
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.STRANDED
+
+
+@pytest.mark.parametrize(("shift", "outcome"), [(0.02, Outcome.SUCCESS), (0.05, Outcome.FAILURE)])
+def test_a_small_shove_is_a_change_and_no_failure(shift: float, outcome: Outcome) -> None:
+    before = scenes.microwave()
+    x, y, z = before.states["tennis_ball"].position
+    after = changed(
+        before,
+        microwave={"openness": {"door": 1.0}, "opened": {"door": True}},
+        tennis_ball={"position": (x + shift, y, z)},
+    )
+    verdict = judge("[OPEN, microwave]", record(before, after))
+    assert verdict.outcome is outcome
+    assert "tennis_ball" in verdict.changes
+    if verdict.cause is not None:
+        assert (verdict.cause.kind, verdict.cause.objects) == (
+            CauseKind.COLLISION,
+            ("tennis_ball",),
+        )
+
+
+@pytest.mark.parametrize(
+    ("openness", "closes", "opens"),
+    [(0.0, True, False), (0.05, True, False), (0.4, False, False), (0.8, False, True)],
+)
+def test_openness(openness: float, closes: bool, opens: bool) -> None:
+    before = scenes.toy_in_drawer()
+    after = changed(before, drawer={"openness": {"top": openness}})
+    for verb, wanted in (("CLOSE", closes), ("OPEN", opens)):
+        verdict = judge(f"[{verb}, drawer]", record(before, after))
+        assert (verdict.outcome is Outcome.SUCCESS) == wanted
+
+
+def test_what_blocks_a_drawer() -> None:
+    before = scenes.toy_in_drawer()
+    after = changed(before, drawer={"openness": {"top": 0.5}})
+    contacts = (contact("drawer", "toy", 3.0, 1.4), contact("gripper", "drawer", 9.0))
+    verdict = judge("[CLOSE, drawer]", record(before, after, contacts=contacts))
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.BLOCKED
+    assert verdict.cause.objects == ("toy", "drawer")
+
+
+def test_contents_ride_along() -> None:
+    before = scenes.toy_in_drawer()
+    after = changed(before, drawer={"openness": {"top": 0.0}}, toy={"position": (0.518, 0.10, 0.2)})
+    verdict = judge("[CLOSE, drawer]", record(before, after))
+    assert verdict.outcome is Outcome.SUCCESS
+    assert verdict.changes == ("drawer", "toy")
+
+
+def test_contents_must_stay_inside_what_is_carried() -> None:
+    plain = scenes.apple_and_holder()
+    before = changed(plain, apple={"inside": "holder", "on": ("holder",)})
+    up = {"in_hand": True, "on": (), "position": (0.4, -0.34, 0.4)}
+    kept = changed(before, holder=up, apple={"position": (0.4, -0.34, 0.42)})
+    assert judge("[PICK UP, holder]", record(before, kept)).outcome is Outcome.SUCCESS
+    spilled = changed(before, holder=up, apple={"inside": None, "on": ("desk",)})
+    verdict = judge("[PICK UP, holder]", record(before, spilled))
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause is not None
+    assert verdict.cause.objects == ("apple",)
+
+
+def test_what_is_put_in_may_push_what_was_there() -> None:
+    plain = scenes.ball_before_drawer()
+    inside = changed(
+        plain, tennis_ball={"inside": "drawer", "on": ("drawer",)},
+        drawer={"openness": {"top": 1.0}},
+    )  # fmt: skip
+    before = held(inside, "apple")
+    after = released(
+        before, apple={"inside": "drawer", "on": ("drawer",)},
+        tennis_ball={"position": (0.45, 0.08, 0.2)},
+    )  # fmt: skip
+    assert judge("[PUT INTO, drawer]", record(before, after)).outcome is Outcome.SUCCESS
+
+
+def test_a_pen_may_stand_or_lie() -> None:
+    before = held(scenes.pens(), "pen")
+    after = released(
+        before, pen={"inside": "white_holder", "on": ("white_holder",), "toppled": True}
+    )
+    assert judge("[PUT INTO, white_holder]", record(before, after)).outcome is Outcome.SUCCESS
+
+
+def test_a_toppled_bystander_is_a_failure() -> None:
+    before = scenes.pens()
+    after = changed(before, pen={"in_hand": True, "on": ()}, white_holder={"toppled": True})
+    verdict = judge("[PICK UP, pen]", record(before, after))
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause is not None
+    assert (verdict.cause.kind, verdict.cause.objects) == (CauseKind.TOPPLED, ("white_holder",))
+
+
+def test_falling_off_a_surface_is_a_failure() -> None:
+    before = scenes.pens()
+    after = changed(
+        before,
+        white_holder={"in_hand": True, "on": ()},
+        pen={"on": ("desk",), "position": (0.49, 0.02, 0.14)},
+    )
+    verdict = judge("[PICK UP, white_holder]", record(before, after))
+    assert verdict.outcome is Outcome.FAILURE
+    assert verdict.cause is not None
+    assert verdict.cause.objects == ("pen",)
+
+
+def test_a_put_with_an_empty_hand_makes_no_sense() -> None:
+    verdict = judge("[PUT ON, desk]", record(scenes.pens()))
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.PRECONDITION
+    verdict = judge("[OPEN, pen]", record(scenes.pens()))
+    assert verdict.cause is not None
+    assert verdict.cause.kind is CauseKind.PRECONDITION

@@ -1,0 +1,263 @@
+"""Reflective branching on the eight tasks' failures and on others like them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
+from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
+from etot_cli.world.state import CauseKind, Swept
+from tests.reasoning import scenes
+from tests.reasoning.records import cause, changed, failed, held, record, revision
+
+RELOCATE = "[PICK UP, {0}] [PUT ON, desk]"
+
+
+def test_what_a_door_sweeps_away_goes_first() -> None:
+    start = scenes.microwave()
+    after = changed(start, tennis_ball={"lost": True, "position": (0.0, 0.3, -0.5)})
+    step = failed(start, "[OPEN, microwave]", 0, cause(CauseKind.LOST, "tennis_ball"), after=after)
+    assert revision(step) == "[PICK UP, tennis_ball] [PUT ON, desk] [OPEN, microwave]"
+
+
+def test_a_safe_place_keeps_clear_of_what_moved_and_swept() -> None:
+    start = scenes.microwave()
+    after = changed(start, tennis_ball={"position": (0.15, 0.30, 0.17)})
+    rollout = record(
+        start, after, effect=False, cause=cause(CauseKind.COLLISION, "tennis_ball"),
+        swept=(Swept("microwave", 0.3, 0.2, 0.35),), displacement={"tennis_ball": 0.2},
+    )  # fmt: skip
+    actions = parse_plan("[OPEN, microwave]")
+    verdict = BuiltinReasoner().judge(actions[0], rollout)
+    revised = BuiltinReasoner().reflect(FailedStep(Branch(actions), 0, rollout, verdict, start))
+    assert revised is not None
+    put = revised.actions[1]
+    assert put.safe
+    discs = {(disc.x, disc.y, disc.radius) for disc in put.keepout}
+    assert {(0.3, 0.2, 0.35), (0.29, 0.14, 0.035), (0.15, 0.3, 0.035)} <= discs
+
+
+def test_a_vessel_that_topples_under_it_has_no_correction() -> None:
+    start = scenes.pens()
+    reason = cause(CauseKind.TOPPLED, "black_holder", "pen")
+    plan = "[PICK UP, pen] [PUT INTO, black_holder]"
+    assert revision(failed(start, plan, 1, reason, held(start, "pen"))) is None
+
+
+def test_what_it_rebounds_off_goes_first() -> None:
+    start = scenes.pens_and_apple()
+    reason = cause(CauseKind.REBOUND, "apple", "pen")
+    plan = "[PICK UP, pen] [PUT INTO, white_holder]"
+    step = failed(start, plan, 1, reason, held(start, "pen"))
+    assert revision(step) == f"[PICK UP, apple] [PUT ON, desk] {plan}"
+
+
+def test_an_asked_pose_is_not_replaced() -> None:
+    start = scenes.holder_on_drawer()
+    reason = cause(CauseKind.SLIP, "holder")
+    assert revision(failed(start, "[PICK UP, holder] (horizontal)", 0, reason)) is None
+    step = failed(start, "[PICK UP, holder]", 0, reason)
+    assert revision(step) == "[PICK UP, holder] (vertical)"
+
+
+def test_what_was_in_the_drawer_from_the_start_is_taken_out() -> None:
+    start = scenes.toy_in_drawer()
+    step = failed(start, "[CLOSE, drawer]", 0, cause(CauseKind.BLOCKED, "toy", "drawer"))
+    assert revision(step) == "[PICK UP, toy] [PUT ON, desk] [CLOSE, drawer]"
+
+
+def test_what_the_branch_put_there_is_not_taken_out_again() -> None:
+    start = scenes.ball_before_drawer()
+    before = changed(
+        start, apple={"inside": "drawer", "on": ("drawer",)}, drawer={"openness": {"top": 1.0}}
+    )
+    plan = "[OPEN, drawer] [PICK UP, apple] [PUT INTO, drawer] [CLOSE, drawer]"
+    reason = cause(CauseKind.BLOCKED, "apple", "drawer")
+    assert revision(failed(start, plan, 3, reason, before)) is None
+
+
+def test_what_blocks_a_cycle_from_the_start_is_taken_out_before_the_close() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.1), {"top": 1.0}),
+        scenes.item("vase", at=(0.5, 0.1), on="chest", inside="chest"),
+        scenes.ball("plum", (0.3, -0.2)),
+    )
+    plan = "[PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
+    before = changed(start, plum={"inside": "chest", "on": ("chest",)})
+    step = failed(start, plan, 2, cause(CauseKind.BLOCKED, "vase", "chest"), before)
+    assert revision(step) == (
+        "[PICK UP, plum] [PUT INTO, chest] [PICK UP, vase] [PUT ON, desk] [CLOSE, chest]"
+    )
+
+
+def test_no_room_beside_what_the_branch_put_there() -> None:
+    start = scenes.ball_before_drawer()
+    before = held(changed(start, apple={"inside": "holder", "on": ("holder",)}), "tennis_ball")
+    plan = "[PICK UP, apple] [PUT INTO, holder] [PICK UP, tennis_ball] [PUT INTO, holder]"
+    reason = cause(CauseKind.REBOUND, "apple", "tennis_ball")
+    assert revision(failed(start, plan, 3, reason, before)) is None
+
+
+def test_the_order_changes_where_an_earlier_step_is_in_the_way() -> None:
+    start = scenes.apple_and_holder()
+    before = changed(start, apple={"inside": "holder", "on": ("holder",)})
+    plan = "[PICK UP, apple] [PUT INTO, holder] [PICK UP, holder] [PUT ON, drawer]"
+    step = failed(start, plan, 2, cause(CauseKind.NO_GRASP, "apple", "holder"), before)
+    assert revision(step) == (
+        "[PICK UP, holder] [PUT ON, drawer] [PICK UP, apple] [PUT INTO, holder]"
+    )
+
+
+def test_a_drawer_is_opened_again_where_the_new_order_shuts_away_the_vessel() -> None:
+    start = scenes.apple_and_holder()
+    before = changed(
+        start, apple={"inside": "holder", "on": ("holder",)}, drawer={"openness": {"top": 1.0}}
+    )
+    plan = (
+        "[PICK UP, apple] [PUT INTO, holder] "
+        "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] [CLOSE, drawer]"
+    )
+    step = failed(start, plan, 3, cause(CauseKind.NO_GRASP, "apple", "holder"), before)
+    assert revision(step) == (
+        "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] [CLOSE, drawer] "
+        "[OPEN, drawer] [PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
+    )
+
+
+def test_what_an_open_drawer_covers_is_taken_before_it_opens() -> None:
+    start = scenes.ball_before_drawer()
+    before = changed(
+        start, apple={"inside": "holder", "on": ("holder",)}, drawer={"openness": {"top": 1.0}}
+    )
+    apple = "[PICK UP, apple] [PUT INTO, holder]"
+    cycle = "[OPEN, drawer] [PICK UP, tennis_ball] [PUT INTO, drawer] [CLOSE, drawer]"
+    wanted = f"{apple} [PICK UP, tennis_ball] [PUT ON, desk] {cycle}"
+    for reason in (
+        cause(CauseKind.NO_GRASP, "drawer", "tennis_ball"),
+        cause(CauseKind.UNREACHABLE, "tennis_ball"),
+    ):
+        step = failed(start, f"{apple} {cycle}", 3, reason, before)
+        assert revision(step) == wanted
+
+
+def test_a_relocation_that_is_covered_is_brought_forward() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.4, 0.0), {"top": 0.0}),
+        scenes.ball("plum", (0.4, 0.18)),
+        scenes.ball("pear", (0.3, -0.3)),
+    )
+    plan = (
+        "[OPEN, chest] [PICK UP, plum] [PUT ON, desk] [PICK UP, pear] [PUT INTO, chest] "
+        "[CLOSE, chest]"
+    )
+    step = failed(start, plan, 1, cause(CauseKind.NO_GRASP, "chest", "plum"),
+                  changed(start, chest={"openness": {"top": 1.0}}))  # fmt: skip
+    actions = list(step.branch.actions)
+    actions[2] = replace(actions[2], safe=True)
+    step = replace(step, branch=Branch(tuple(actions)))
+    assert revision(step) == (
+        "[PICK UP, plum] [PUT ON, desk] [OPEN, chest] [PICK UP, pear] [PUT INTO, chest] "
+        "[CLOSE, chest]"
+    )
+
+
+def test_what_stands_on_the_picked_object_goes_first() -> None:
+    start = scenes.scene(
+        scenes.item("crate", at=(0.4, 0.0)), scenes.ball("plum", (0.4, 0.0), on="crate")
+    )
+    step = failed(start, "[PICK UP, crate]", 0, cause(CauseKind.NO_GRASP, "plum", "crate"))
+    assert revision(step) == "[PICK UP, plum] [PUT ON, desk] [PICK UP, crate]"
+
+
+def test_what_bears_the_picked_object_is_not_relocated() -> None:
+    plain = scenes.two_balls()
+    start = changed(plain, tennis_ball_1={"inside": "holder", "on": ("holder",)})
+    reason = cause(CauseKind.NO_GRASP, "holder", "tennis_ball_1")
+    assert revision(failed(start, "[PICK UP, tennis_ball_1]", 0, reason)) is None
+
+
+def test_furniture_is_not_relocated() -> None:
+    start = scenes.pens()
+    reason = cause(CauseKind.BLOCKED, "drawer", "white_holder")
+    assert revision(failed(start, "[PICK UP, white_holder]", 0, reason)) is None
+
+
+def test_only_the_first_movable_blocker_moves_and_only_once() -> None:
+    start = scenes.kitchen()
+    reason = cause(CauseKind.NO_GRASP, "chest", "box", "plate", "bottle")
+    first = failed(start, "[PICK UP, bottle]", 0, reason)
+    assert revision(first) == "[PICK UP, box] [PUT ON, desk] [PICK UP, bottle]"
+    again = BuiltinReasoner().reflect(first)
+    assert again is not None
+    second = replace(first, branch=again, index=2)
+    assert revision(second) == (
+        "[PICK UP, box] [PUT ON, desk] [PICK UP, plate] [PUT ON, desk] [PICK UP, bottle]"
+    )
+
+
+def test_a_full_hand_at_the_root_is_emptied_first() -> None:
+    start = held(scenes.pens_and_apple(), "pen")
+    step = failed(start, "[PUT INTO, white_holder]", 0, cause(CauseKind.REBOUND, "apple", "pen"))
+    assert revision(step) == (
+        "[PUT ON, desk] [PICK UP, apple] [PUT ON, desk] [PICK UP, pen] [PUT INTO, white_holder]"
+    )
+
+
+def test_another_surface_for_a_safe_place() -> None:
+    start = scenes.toy_in_drawer()
+    actions = (
+        Action(Verb.PICK_UP, "toy"),
+        Action(Verb.PUT_ON, "desk", safe=True),
+        Action(Verb.CLOSE, "drawer"),
+    )
+    before = held(start, "toy")
+    rollout = record(before, effect=False, cause=cause(CauseKind.NO_ROOM, "toy"))
+    verdict = BuiltinReasoner().judge(actions[1], rollout)
+    revised = BuiltinReasoner().reflect(FailedStep(Branch(actions), 1, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions) == "[PICK UP, toy] [PUT ON, drawer] [CLOSE, drawer]"
+    assert revised.actions[1].safe
+
+
+@pytest.mark.parametrize("kind", list(CauseKind))
+def test_a_failure_between_the_action_s_own_objects_never_swaps_them(kind: CauseKind) -> None:
+    start = scenes.pens()
+    plan = "[PICK UP, pen] [PUT INTO, black_holder]"
+    step = failed(start, plan, 1, cause(kind, "black_holder", "pen"), held(start, "pen"))
+    revised = BuiltinReasoner().reflect(step)
+    if kind is CauseKind.SLIP:  # another grasp may hold better
+        assert revised is not None
+        assert revised.actions[0].pose is GraspPose.VERTICAL
+    else:
+        assert revised is None
+
+
+def test_what_the_goal_wants_in_place_comes_back() -> None:
+    plain = scenes.apple_and_holder()
+    start = changed(plain, apple={"inside": "holder", "on": ("holder",)})
+    reasoner = BuiltinReasoner()
+    text = "Place the apple and the holder on the drawer, with the apple inside the holder."
+    (branch,) = reasoner.propose(Assignment(text), start)
+    assert format_plan(branch.actions) == "[PICK UP, holder] [PUT ON, drawer]"
+    rollout = record(start, effect=False, cause=cause(CauseKind.NO_GRASP, "apple", "holder"))
+    verdict = reasoner.judge(branch.actions[0], rollout)
+    revised = reasoner.reflect(FailedStep(branch, 0, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions) == (
+        "[PICK UP, apple] [PUT ON, desk] [PICK UP, holder] [PUT ON, drawer] "
+        "[PICK UP, apple] [PUT INTO, holder]"
+    )
+
+
+def test_without_a_cause_nothing_is_revised() -> None:
+    start = scenes.pens()
+    step = failed(start, "[PICK UP, pen]", 0, cause(CauseKind.SLIP, "pen"))
+    bare = replace(
+        step,
+        record=replace(step.record, cause=None),
+        verdict=replace(step.verdict, cause=None),
+    )
+    assert revision(bare) is None

@@ -1,0 +1,96 @@
+"""Actions as they are written."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from etot_cli.errors import PlanSyntaxError
+from etot_cli.skills.action import (
+    MAX_PLAN_ACTIONS,
+    Action,
+    GraspPose,
+    Verb,
+    format_plan,
+    parse_plan,
+)
+
+names = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,12}(\.[A-Za-z][A-Za-z0-9_]{0,8})?", fullmatch=True)
+actions = st.builds(
+    Action, st.sampled_from(Verb), names, st.one_of(st.none(), st.sampled_from(GraspPose))
+)
+
+
+@given(st.lists(actions, min_size=1, max_size=8))
+@settings(deadline=None, max_examples=50)
+def test_reading_what_was_written_gives_the_same_plan(plan: list[Action]) -> None:
+    assert parse_plan(format_plan(plan)) == tuple(plan)
+
+
+@given(st.lists(actions, min_size=1, max_size=5), st.sampled_from([", ", "\n", ";", " ", ""]))
+@settings(deadline=None, max_examples=50)
+def test_separators_and_numbers_do_not_matter(plan: list[Action], separator: str) -> None:
+    written = separator.join(f"{i}. {action}" for i, action in enumerate(plan, 1))
+    assert parse_plan(written) == tuple(plan)
+
+
+@given(st.text(max_size=60))
+@settings(deadline=None, max_examples=50)
+def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
+    try:
+        plan = parse_plan(text)
+    except PlanSyntaxError as error:
+        assert len(str(error)) > 20
+    else:
+        assert parse_plan(format_plan(plan)) == tuple(
+            Action(a.verb, a.target, a.pose) for a in plan
+        )
+
+
+@pytest.mark.parametrize(
+    ("text", "action"),
+    [
+        ("[pick up, pen]", Action(Verb.PICK_UP, "pen")),
+        ("[PICK_UP,pen]", Action(Verb.PICK_UP, "pen")),
+        ("  [ Put  Into , unit.top ] ", Action(Verb.PUT_INTO, "unit.top")),
+        ("[PICK UP, cup] (Horizontally)", Action(Verb.PICK_UP, "cup", GraspPose.HORIZONTAL)),
+        ("[PICK UP, cup](vertical)", Action(Verb.PICK_UP, "cup", GraspPose.VERTICAL)),
+        ("[PUT ON, desk] (safe place)", Action(Verb.PUT_ON, "desk", safe=True)),
+    ],
+)
+def test_spellings(text: str, action: Action) -> None:
+    assert parse_plan(text) == (action,)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "the plan is empty; expected e.g."),
+        ("   \n", "the plan is empty"),
+        ("pick up the pen", "cannot read 'pick up the pen' as an action; expected e.g."),
+        ("[PICK UP, pen] and then", "cannot read 'and then'"),
+        ("[PICK UP pen]", "cannot read"),
+        ("[PICK UP, ]", "cannot read"),
+        ("[PICK UP, 7up]", "cannot read"),
+        ("[PICK UP, pen; rm -rf]", "cannot read"),
+        ("[THROW, pen]", "unknown action 'THROW'; expected one of PICK UP, PUT ON, PUT INTO, "),
+        ("[PICK UP, pen] (sideways)", r"unknown note \(sideways\) after \[PICK UP, pen\]"),
+        ("[PICK UP, pen] (vertical", "cannot read"),
+    ],
+)
+def test_nonsense_is_refused(text: str, message: str) -> None:
+    with pytest.raises(PlanSyntaxError, match=message):
+        parse_plan(text)
+
+
+def test_unknown_target_lists_what_the_scene_has() -> None:
+    assert parse_plan("[PICK UP, pen]", ["pen", "cup"])
+    with pytest.raises(PlanSyntaxError, match="the scene has no 'pan'; it has cup, pen"):
+        parse_plan("[PICK UP, pan]", ["pen", "cup"])
+
+
+def test_length_is_bounded() -> None:
+    assert len(parse_plan("[OPEN, a]" * MAX_PLAN_ACTIONS)) == MAX_PLAN_ACTIONS
+    with pytest.raises(PlanSyntaxError, match=f"at most {MAX_PLAN_ACTIONS} actions"):
+        parse_plan("[OPEN, a]" * (MAX_PLAN_ACTIONS + 1))

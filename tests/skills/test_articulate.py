@@ -1,0 +1,135 @@
+"""OPEN and CLOSE in physics, at several yaws of the furniture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
+from tests.skills.helpers import BALL, BOX, OVEN, UNIT, drawers, episode
+
+SEEDS = range(3)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("yaw", "at"),
+    [(0, [0.20, 0.40]), (45, [0.30, -0.25]), (-90, [0.45, 0.0]), (130, [0.35, -0.30])],
+)
+def test_drawer_with_a_handle(yaw: float, at: list[float], seed: int) -> None:
+    unit = UNIT | {"at": at, "yaw_deg": yaw, "drawers": drawers(handle={})}
+    run = episode(seed, unit=unit)
+    opened = run.must("[OPEN, unit]").states["unit"]
+    assert opened.openness["top"] >= OPEN_AT and opened.opened["top"]
+    closed = run.must("[CLOSE, unit]").states["unit"]
+    assert closed.openness["top"] <= CLOSED_AT and not closed.opened["top"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("yaw", "at"),
+    [(0, [0.30, 0.25]), (45, [0.30, -0.25]), (-90, [0.45, 0.0]), (130, [0.45, 0.0])],
+)
+def test_drawer_that_is_ajar(yaw: float, at: list[float], seed: int) -> None:
+    unit = UNIT | {"at": at, "yaw_deg": yaw, "drawers": drawers(open=0.03)}
+    run = episode(seed, unit=unit)
+    opened = run.must("[OPEN, unit]").states["unit"]
+    assert opened.openness["top"] >= OPEN_AT
+    closed = run.must("[CLOSE, unit]").states["unit"]
+    assert closed.openness["top"] <= CLOSED_AT
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("yaw", "at", "hinge"),
+    [
+        (0, [0.30, 0.25], "left"),
+        (45, [0.30, 0.25], "left"),
+        (-90, [0.45, 0.0], "left"),
+        (130, [0.35, -0.30], "left"),
+        (130, [0.35, -0.30], "right"),
+    ],
+)
+def test_door_that_is_ajar(yaw: float, at: list[float], hinge: str, seed: int) -> None:
+    oven = OVEN | {"at": at, "yaw_deg": yaw, "door": {"open_deg": 20, "hinge": hinge}}
+    run = episode(seed, oven=oven)
+    opened = run.must("[OPEN, oven]").states["oven"]
+    assert opened.openness["door"] >= OPEN_AT
+    closed = run.must("[CLOSE, oven]").states["oven"]
+    assert closed.openness["door"] <= CLOSED_AT
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_drawer_named_by_its_part(seed: int) -> None:
+    two = [{"name": "top", "open": 0.10}, {"name": "low", "open": 0.0}]
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": two}
+    after = episode(seed, unit=unit).must("[CLOSE, unit.top]").states["unit"]
+    assert after.openness["top"] <= CLOSED_AT
+    assert after.openness["low"] <= CLOSED_AT
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_stands_too_tall_in_a_drawer_blocks_it_and_is_named(seed: int) -> None:
+    tall = BOX | {"size": [0.05, 0.05, 0.09], "at": [0.45, -0.19], "inside": "unit", "mass": 0.1}
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers(open=0.13)}
+    run = episode(seed, unit=unit, tall=tall)
+    record = run.do("[CLOSE, unit]").record
+    assert not record.effect
+    assert record.after.states["unit"].openness["top"] > CLOSED_AT
+    assert record.cause is not None
+    assert record.cause.kind is CauseKind.BLOCKED
+    assert record.cause.objects[0] == "tall"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_lies_low_in_a_drawer_does_not_block_it(seed: int) -> None:
+    low = BOX | {"size": [0.04, 0.04, 0.03], "at": [0.45, -0.17], "inside": "unit", "mass": 0.05}
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers(open=0.13)}
+    after = episode(seed, unit=unit, low=low).must("[CLOSE, unit]")
+    assert after.states["unit"].openness["top"] <= CLOSED_AT
+    assert after.states["low"].inside == "unit"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_heavy_block_before_a_drawer_keeps_it_shut_and_is_named(seed: int) -> None:
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers(open=0.03)}
+    block = {"kind": "box", "size": [0.25, 0.24, 0.13], "mass": 40.0, "at": [0.45, -0.31]}
+    record = episode(seed, unit=unit, block=block).do("[OPEN, unit]").record
+    assert not record.effect
+    assert record.after.states["unit"].openness["top"] < OPEN_AT
+    assert record.cause is not None and "block" in record.cause.objects
+
+
+@pytest.mark.parametrize("verb", ["OPEN", "CLOSE"])
+def test_nothing_to_do_is_done(verb: str) -> None:
+    opening = {"OPEN": 0.14, "CLOSE": 0.0}[verb]
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers(open=opening)}
+    run = episode(unit=unit)
+    before = run.state.states["unit"].openness["top"]
+    after = run.must(f"[{verb}, unit]").states["unit"].openness["top"]
+    assert after == pytest.approx(before, abs=0.01)
+
+
+def test_out_of_reach_is_said() -> None:
+    unit = UNIT | {"at": [0.62, 0.45], "yaw_deg": 40, "drawers": drawers()}
+    record = episode(unit=unit).do("[OPEN, unit]").record
+    assert not record.effect
+    assert record.cause is not None and record.cause.kind is CauseKind.UNREACHABLE
+    assert record.cause.objects == ("unit",)
+
+
+def mirrored(thing: dict[str, Any]) -> dict[str, Any]:
+    x, y = thing["at"]
+    return thing | {"at": [x, -y], "yaw_deg": -thing.get("yaw_deg", 0.0)}
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+def test_furniture_may_stand_on_either_side(mirror: bool) -> None:
+    unit = UNIT | {"at": [0.40, 0.25], "yaw_deg": -90, "drawers": drawers(open=0.03)}
+    ball = BALL | {"at": [0.35, -0.25]}
+    things = [mirrored(item) if mirror else item for item in (unit, ball)]
+    run = episode(unit=things[0], ball=things[1])
+    after = run.must("[OPEN, unit]", "[CLOSE, unit]")
+    assert after.states["ball"].on == ("desk",)
+    assert run.done[0].record.displacement["ball"] < 0.01

@@ -1,0 +1,182 @@
+"""Inverse kinematics against forward kinematics."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from etot_cli.skills import kinematics
+from etot_cli.skills.kinematics import Arm, Pose, rotation_from_axes, straight, turn_about
+from etot_cli.world.robot import load_robot
+
+ARM = Arm(load_robot("xarm6"))
+DOWN = np.array([0.0, 0.0, -1.0])
+seeds = st.integers(0, 2**32 - 1)
+
+
+def angle_between(a: np.ndarray, b: np.ndarray) -> float:
+    return float(np.arccos(np.clip((np.trace(a.T @ b) - 1) / 2, -1.0, 1.0)))
+
+
+def working_joints(rng: np.random.Generator) -> np.ndarray:
+    """Joint values spread around home, as the arm uses them on a table."""
+    spread = np.array([1.5, 0.5, 0.5, 0.8, 0.8, 1.5])
+    joints: np.ndarray = ARM.home + rng.uniform(-spread, spread)
+    return np.clip(joints, ARM.lower + 0.05, ARM.upper - 0.05)
+
+
+@given(seeds)
+@settings(max_examples=60, deadline=None)
+def test_solution_near_a_known_one_is_found(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    joints = working_joints(rng)
+    target = ARM.forward(joints)
+    found = ARM.solve(target, joints + rng.uniform(-0.1, 0.1, 6))
+    reached = ARM.forward(found.joints)
+    assert found.reached
+    assert np.linalg.norm(reached.position - target.position) < 2 * kinematics.POSITION_TOLERANCE
+    assert angle_between(reached.rotation, target.rotation) < 2 * kinematics.ANGLE_TOLERANCE
+    assert np.all(found.joints >= ARM.lower) and np.all(found.joints <= ARM.upper)
+
+
+def test_most_poses_above_the_desk_are_reached_from_anywhere() -> None:
+    """Top-down poses within 0.25 … 0.5 m of the base, at any spin that the wrist allows."""
+    rng = np.random.default_rng(1)
+    reached = 0
+    for _ in range(60):
+        angle, radius = rng.uniform(-1.3, 1.3), rng.uniform(0.28, 0.5)
+        position = [radius * np.cos(angle), radius * np.sin(angle), rng.uniform(0.15, 0.3)]
+        spin = rng.uniform(-np.pi, np.pi)
+        rotation = rotation_from_axes(
+            np.array([0.0, 0.0, -1.0]), np.array([np.cos(spin), np.sin(spin), 0.0])
+        )
+        found = ARM.reach(Pose(np.array(position), rotation), ARM.home)
+        if found.reached:
+            reached += 1
+            actual = ARM.forward(found.joints)
+            assert actual.position == pytest.approx(position, abs=1e-3)
+            assert angle_between(actual.rotation, rotation) < 0.01
+    assert reached >= 57
+
+
+@given(seeds)
+@settings(max_examples=20, deadline=None)
+def test_every_solution_offered_is_one_and_they_differ(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    target = ARM.forward(working_joints(rng))
+    offered = list(ARM.solutions(target, ARM.home))
+    for joints in offered:
+        assert ARM.forward(joints).position == pytest.approx(target.position, abs=1e-3)
+    for i, one in enumerate(offered):
+        for other in offered[:i]:
+            assert np.abs(one - other).max() > kinematics.DISTINCT
+
+
+@pytest.mark.parametrize("position", [[1.5, 0.0, 0.3], [0.4, 0.0, 1.6], [-0.9, -0.9, 0.2]])
+def test_out_of_reach_is_a_result_with_its_error(position: list[float]) -> None:
+    target = Pose(np.array(position), np.diag([1.0, -1.0, -1.0]))
+    found = ARM.reach(target, ARM.home)
+    assert not found.reached
+    actual = ARM.forward(found.joints)
+    error = float(np.linalg.norm(actual.position - target.position))
+    assert error > 0.1
+    assert found.position_error > 0.1
+    assert np.all(np.isfinite(found.joints))
+    assert np.all(found.joints >= ARM.lower) and np.all(found.joints <= ARM.upper)
+
+
+def test_free_spin_leaves_only_the_spin_free() -> None:
+    target = ARM.forward(ARM.home)
+    turned = Pose(target.position, target.rotation @ turn_about(np.array([0.0, 0, 1.0]), 1.2))
+    found = ARM.solve(turned, ARM.home, free_spin=True)
+    assert found.reached
+    assert found.joints == pytest.approx(ARM.home, abs=0.02), "there already"
+    assert np.abs(ARM.solve(turned, ARM.home).joints - ARM.home).max() > 0.5
+
+
+def test_answers_do_not_depend_on_what_was_asked_before() -> None:
+    rng = np.random.default_rng(5)
+    target = ARM.forward(working_joints(rng))
+    first = ARM.reach(target, ARM.home).joints
+    for _ in range(5):
+        ARM.reach(ARM.forward(working_joints(rng)), ARM.home)
+    np.testing.assert_array_equal(ARM.reach(target, ARM.home).joints, first)
+    np.testing.assert_array_equal(Arm(load_robot("xarm6")).reach(target, ARM.home).joints, first)
+
+
+@given(seeds)
+@settings(max_examples=20, deadline=None)
+def test_line_stays_on_its_branch_and_on_the_line(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    angle, radius = rng.uniform(-1.0, 1.0), rng.uniform(0.3, 0.45)
+    start = Pose(
+        np.array([radius * np.cos(angle), radius * np.sin(angle), 0.3]),
+        rotation_from_axes(DOWN, np.array([-np.sin(angle), np.cos(angle), 0.0])),
+    )
+    end = start.moved(rng.uniform(-0.08, 0.08, 3))
+    before = ARM.reach(start, ARM.home)
+    assert before.reached
+    poses = straight(start, end)
+    path, count = ARM.line(poses, before.joints)
+    assert count == len(path) == len(poses)
+    whole = np.vstack([before.joints[None], path])
+    assert np.abs(np.diff(whole, axis=0)).max() <= kinematics.JUMP
+    way = (end.position - start.position) / np.linalg.norm(end.position - start.position)
+    for a, b in pairwise(whole):
+        for share in (0.0, 0.5, 1.0):
+            offset = ARM.forward(a + share * (b - a)).position - start.position
+            assert np.linalg.norm(offset - way * float(offset @ way)) < 2.5e-3
+
+
+def test_line_ends_where_the_arm_cannot_follow() -> None:
+    start = ARM.forward(ARM.home)
+    path, count = ARM.line(straight(start, start.moved(np.array([0.8, 0.0, 0.0]))), ARM.home)
+    assert 0 < count == len(path) < len(straight(start, start.moved(np.array([0.8, 0.0, 0.0]))))
+    assert np.linalg.norm(ARM.forward(path[-1]).position - start.position) > 0.1
+
+
+def test_straight_ends_at_the_end_in_small_steps() -> None:
+    start = ARM.forward(ARM.home)
+    end = Pose(start.position + np.array([0.1, -0.05, 0.02]),
+               start.rotation @ turn_about(np.array([0.0, 0.6, 0.8]), 0.9))  # fmt: skip
+    poses = [start, *straight(start, end)]
+    assert poses[-1].position == pytest.approx(end.position)
+    assert poses[-1].rotation == pytest.approx(end.rotation, abs=1e-6)
+    for a, b in pairwise(poses):
+        assert np.linalg.norm(b.position - a.position) <= kinematics.LINE_STEP + 1e-9
+        assert angle_between(a.rotation, b.rotation) <= 0.125
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=50)
+def test_poses_form_a_group(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+
+    def random_pose() -> Pose:
+        axis = rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        return Pose(rng.normal(size=3), turn_about(axis, rng.uniform(-3, 3)))
+
+    a, b, c = (random_pose() for _ in range(3))
+    one, two = (a @ b) @ c, a @ (b @ c)
+    assert one.position == pytest.approx(two.position)
+    assert one.rotation == pytest.approx(two.rotation, abs=1e-9)
+    unit = a @ a.inverse()
+    assert unit.position == pytest.approx(np.zeros(3), abs=1e-9)
+    assert unit.rotation == pytest.approx(np.eye(3), abs=1e-9)
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=50)
+def test_rotation_from_axes_is_a_rotation(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    approach, closing = rng.normal(size=3), rng.normal(size=3)
+    rotation = rotation_from_axes(approach, closing)
+    assert rotation.T @ rotation == pytest.approx(np.eye(3), abs=1e-9)
+    assert np.linalg.det(rotation) == pytest.approx(1.0)
+    assert rotation[:, 2] @ approach == pytest.approx(np.linalg.norm(approach))
+    assert rotation[:, 1] @ closing > 0

@@ -1,0 +1,146 @@
+"""PICK UP in physics: what can be held is held, what cannot slips or is refused."""
+
+from __future__ import annotations
+
+import pytest
+
+from etot_cli.world.state import CauseKind
+from tests.skills.helpers import BALL, BOX, CUP, PEN, UNIT, drawers, episode, make_pilot
+
+SEEDS = range(3)
+THINGS = {
+    "ball": BALL,
+    "apple": BALL | {"diameter": 0.08, "mass": 0.15},
+    "box": BOX,
+    "turned box": BOX | {"yaw_deg": 30},
+    "cup": CUP,
+    "small cup": CUP | {"diameter": 0.06},
+    "bowl": {"kind": "bowl", "diameter": 0.14, "height": 0.05, "mass": 0.2, "at": [0.42, 0.1]},
+    "pen": PEN,
+    "turned pen": PEN | {"yaw_deg": 80},
+}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", THINGS)
+def test_things_are_picked_up(name: str, seed: int) -> None:
+    run = episode(seed, thing=THINGS[name])
+    start = run.state.states["thing"].position[2]
+    after = run.must("[PICK UP, thing]")
+    held = after.states["thing"]
+    assert after.holding == "thing"
+    assert held.in_hand and held.on == () and not held.lost
+    assert held.position[2] > start + 0.05
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_wide_cup_is_held_by_its_rim_from_above(seed: int) -> None:
+    run = episode(seed, cup=CUP | {"friction": 0.3, "slippery": True})
+    after = run.must("[PICK UP, cup] (vertical)")
+    assert after.holding == "cup"
+    pilot = make_pilot(run.workshop, run.snapshot)
+    assert pilot.tool().rotation[2, 2] < -0.6
+    assert pilot.opening < 0.02
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("diameter", [0.095, 0.105])
+def test_too_wide_slippery_cup_slips_from_the_side(seed: int, diameter: float) -> None:
+    run = episode(seed, cup=CUP | {"diameter": diameter, "friction": 0.2, "slippery": True})
+    record = run.do("[PICK UP, cup] (horizontal)").record
+    assert not record.effect
+    assert record.after.holding is None
+    assert record.cause is not None
+    assert record.cause.kind in (CauseKind.SLIP, CauseKind.NO_GRASP)
+    assert record.cause.objects[0] == "cup"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_thing_on_furniture_is_picked_up(seed: int) -> None:
+    unit = UNIT | {"yaw_deg": -90, "drawers": drawers()}
+    run = episode(seed, unit=unit, pen=PEN | {"on": "unit", "at": [0.45, 0.0]})
+    assert run.must("[PICK UP, pen]").holding == "pen"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_thing_in_an_open_drawer_is_picked_up(seed: int) -> None:
+    unit = UNIT | {"yaw_deg": -90, "drawers": drawers(open=0.13)}
+    box = BOX | {"inside": "unit", "size": [0.03, 0.03, 0.04], "at": [0.45, -0.17]}
+    run = episode(seed, unit=unit, box=box)
+    assert run.state.states["box"].inside == "unit"
+    after = run.must("[PICK UP, box]")
+    assert after.states["box"].inside is None
+
+
+def test_thing_in_a_closed_drawer_is_not() -> None:
+    unit = UNIT | {"yaw_deg": -90, "drawers": drawers()}
+    box = {"kind": "box", "inside": "unit", "size": [0.03, 0.03, 0.04], "mass": 0.03}
+    record = episode(unit=unit, box=box).do("[PICK UP, box]").record
+    assert not record.effect and record.cause is not None
+    assert "unit" in record.cause.objects
+    assert record.displacement["box"] < 0.01
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_covered_cup_is_blamed_on_what_covers_it(seed: int) -> None:
+    """A ball as wide as the mouth blocks every grasp of the rim."""
+    apple = BALL | {"diameter": 0.1, "on": "cup", "mass": 0.2}
+    apple.pop("at")
+    cup = CUP | {"diameter": 0.105, "slippery": True, "friction": 0.2}
+    record = episode(seed, cup=cup, apple=apple).do("[PICK UP, cup]").record
+    if record.effect:
+        pytest.fail("the rim was grasped in spite of the ball on it")
+    assert record.cause is not None
+    assert "apple" in record.cause.objects or record.cause.kind is CauseKind.SLIP
+
+
+@pytest.mark.parametrize(
+    ("thing", "kind"),
+    [
+        (BALL | {"diameter": 0.3, "mass": 0.3}, {CauseKind.NO_GRASP, CauseKind.UNREACHABLE}),
+        (BOX | {"size": [0.15, 0.15, 0.15]}, {CauseKind.NO_GRASP}),
+        (BALL | {"at": [0.80, 0.35]}, {CauseKind.UNREACHABLE}),
+    ],
+)
+def test_what_cannot_be_grasped_is_a_result(thing: dict[str, object], kind: set[CauseKind]) -> None:
+    record = episode(thing=thing).do("[PICK UP, thing]").record
+    assert not record.effect
+    assert record.cause is not None and record.cause.kind in kind
+    assert record.cause.objects == ("thing",)
+
+
+@pytest.mark.parametrize(
+    ("plan", "text"),
+    [
+        (["[PICK UP, ball]", "[PICK UP, box]"], "the hand already holds ball"),
+        (["[PICK UP, unit]"], "unit cannot be picked up"),
+        (["[PICK UP, desk]"], "desk cannot be picked up"),
+        (["[PUT ON, desk]"], "nothing is in the hand"),
+        (["[PUT INTO, unit]"], "nothing is in the hand"),
+        (["[PICK UP, ball]", "[OPEN, unit]"], "the hand still holds ball"),
+        (["[PICK UP, ball]", "[PUT INTO, box]"], "box is no container"),
+        (["[OPEN, box]"], "box has no movable part"),
+    ],
+)
+def test_preconditions(plan: list[str], text: str) -> None:
+    run = episode(ball=BALL | {"at": [0.4, 0.25]}, box=BOX | {"at": [0.35, -0.3]}, unit=UNIT | {
+        "at": [0.45, -0.05], "yaw_deg": -90, "drawers": drawers()})  # fmt: skip
+    run.must(*plan[:-1])
+    record = run.do(plan[-1]).record
+    assert not record.effect and record.steps == 0
+    assert record.cause is not None
+    assert record.cause.kind is CauseKind.PRECONDITION and record.cause.text == text
+
+
+def test_part_must_be_named_where_there_are_several() -> None:
+    unit = UNIT | {"yaw_deg": -90, "drawers": [{"name": "top"}, {"name": "low"}]}
+    record = episode(unit=unit).do("[OPEN, unit]").record
+    assert record.cause is not None
+    assert record.cause.text == "unit has several movable parts: unit.top, unit.low"
+
+
+def test_bystanders_stay_where_they_are() -> None:
+    near = BALL | {"at": [0.40, 0.0], "diameter": 0.05}
+    run = episode(ball=BALL | {"at": [0.40, 0.09]}, near=near)
+    run.must("[PICK UP, ball]")
+    assert run.done[-1].record.displacement["near"] < 0.03

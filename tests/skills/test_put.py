@@ -1,0 +1,142 @@
+"""PUT ON and PUT INTO in physics."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import pytest
+
+from etot_cli.skills.action import Action, Keepout, Verb
+from etot_cli.world.state import CauseKind, ObjectState
+from tests.skills.helpers import BALL, BOX, CUP, PEN, UNIT, drawers, episode
+
+SEEDS = range(3)
+
+
+def long_axis(state: ObjectState) -> np.ndarray:
+    """Where a rod's point is, (3,)."""
+    matrix = np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, np.array(state.quaternion))
+    return matrix.reshape(3, 3)[:, 0]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("thing", [BALL, BOX, PEN, CUP], ids=lambda item: str(item["kind"]))
+def test_put_on_the_desk(thing: dict[str, object], seed: int) -> None:
+    run = episode(seed, thing=thing)
+    after = run.must("[PICK UP, thing]", "[PUT ON, desk]").states["thing"]
+    assert after.on == ("desk",)
+    assert not after.in_hand and not after.toppled and not after.lost and after.reachable
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("thing", [BOX, PEN, CUP], ids=lambda item: str(item["kind"]))
+def test_put_on_furniture(thing: dict[str, object], seed: int) -> None:
+    unit = UNIT | {"at": [0.44, 0.0], "yaw_deg": -90, "drawers": drawers()}
+    run = episode(seed, unit=unit, thing=thing | {"at": [0.38, 0.27]})
+    after = run.must("[PICK UP, thing]", "[PUT ON, unit]").states["thing"]
+    assert after.on == ("unit",)
+    assert not after.toppled
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("side", [1, -1])
+def test_ball_into_a_cup(seed: int, side: int) -> None:
+    run = episode(
+        seed,
+        ball=BALL | {"at": [0.38, 0.15 * side], "diameter": 0.06},
+        cup=CUP | {"at": [0.42, -0.2 * side]},
+    )
+    after = run.must("[PICK UP, ball]", "[PUT INTO, cup]")
+    assert after.states["ball"].inside == "cup"
+    assert not after.states["cup"].toppled
+    # Fingers that open inside a cup must not take it along.
+    assert after.holding is None
+    assert after.states["cup"].on == ("desk",)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("yaw", [0, 80])
+def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
+    """It lies on the desk, and goes in point down."""
+    cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.2, "at": [0.42, -0.15]}
+    run = episode(seed, pen=PEN | {"at": [0.36, 0.2], "yaw_deg": yaw}, cup=cup)
+    after = run.must("[PICK UP, pen]", "[PUT INTO, cup]")
+    assert after.states["pen"].inside == "cup"
+    assert not after.states["cup"].toppled
+    assert long_axis(after.states["pen"])[2] < -0.6
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("thing", [BOX | {"size": [0.04, 0.04, 0.04]}, BALL | {"diameter": 0.05}],
+                         ids=lambda item: str(item["kind"]))  # fmt: skip
+def test_put_into_an_open_drawer(thing: dict[str, object], seed: int) -> None:
+    unit = UNIT | {"at": [0.45, 0.05], "yaw_deg": -90, "drawers": drawers(open=0.13)}
+    run = episode(seed, unit=unit, thing=thing | {"at": [0.35, -0.3]})
+    after = run.must("[PICK UP, thing]", "[PUT INTO, unit]")
+    assert after.states["thing"].inside == "unit"
+    assert after.states["unit"].openness["top"] > 0.5
+
+
+def test_closed_drawer_takes_nothing() -> None:
+    unit = UNIT | {"at": [0.45, 0.05], "yaw_deg": -90, "drawers": drawers()}
+    run = episode(unit=unit, box=BOX | {"size": [0.04, 0.04, 0.04], "at": [0.35, -0.25]})
+    run.must("[PICK UP, box]")
+    record = run.do("[PUT INTO, unit]").record
+    assert record.after.states["box"].inside is None
+    assert record.after.states["unit"].openness["top"] < 0.1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_ball_on_the_mouth_keeps_the_pen_out(seed: int) -> None:
+    """The apple as wide as the mouth stays; the pen does not get in."""
+    cup = CUP | {"diameter": 0.092, "wall": 0.008, "height": 0.079, "at": [0.42, -0.2]}
+    apple = {"kind": "sphere", "diameter": 0.085, "mass": 0.15, "on": "cup"}
+    run = episode(seed, cup=cup, apple=apple, pen=PEN | {"at": [0.36, 0.2]})
+    run.must("[PICK UP, pen]")
+    record = run.do("[PUT INTO, cup]").record
+    assert record.after.states["pen"].inside is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_light_cup_with_a_narrow_foot_topples_under_the_pen(seed: int) -> None:
+    cup = CUP | {"diameter": 0.044, "height": 0.075, "mass": 0.012, "wall": 0.002,
+                 "floor": 0.002, "foot_diameter": 0.031, "at": [0.42, -0.2]}  # fmt: skip
+    run = episode(seed, cup=cup, pen=PEN | {"mass": 0.025, "at": [0.36, 0.2], "length": 0.175})
+    run.must("[PICK UP, pen]")
+    record = run.do("[PUT INTO, cup]").record
+    assert record.after.states["cup"].toppled
+    assert record.after.states["pen"].inside is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_safe_place_keeps_clear_of_the_discs(seed: int) -> None:
+    run = episode(seed, ball=BALL)
+    run.must("[PICK UP, ball]")
+    plain = run.workshop.perform(run.snapshot, Action(Verb.PUT_ON, "desk"))
+    x, y, _ = plain.record.after.states["ball"].position
+    disc = Keepout(x, y, 0.15)
+    action = Action(Verb.PUT_ON, "desk", safe=True, keepout=(disc,))
+    record = run.workshop.perform(run.snapshot, action).record
+    assert record.effect
+    u, v, _ = record.after.states["ball"].position
+    assert np.hypot(u - x, v - y) > disc.radius + 0.03
+
+
+def test_full_surface_has_no_room() -> None:
+    unit = UNIT | {"at": [0.44, 0.0], "yaw_deg": -90, "drawers": drawers()}
+    lid = {"kind": "box", "on": "unit", "size": [0.17, 0.21, 0.02], "mass": 0.3}
+    run = episode(unit=unit, lid=lid, box=BOX | {"at": [0.35, 0.3]})
+    run.must("[PICK UP, box]")
+    record = run.do("[PUT ON, unit]").record
+    assert not record.effect
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM
+    assert record.after.holding == "box", "a refused put leaves the hand as it was"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_two_things_end_up_apart(seed: int) -> None:
+    run = episode(seed, one=BOX, two=BALL)
+    after = run.must("[PICK UP, one]", "[PUT ON, desk]", "[PICK UP, two]", "[PUT ON, desk]")
+    one, two = (np.array(after.states[name].position[:2]) for name in ("one", "two"))
+    assert np.linalg.norm(one - two) > 0.06

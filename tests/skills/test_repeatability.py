@@ -1,0 +1,187 @@
+"""Same inputs, same bytes; and nothing happens but by contact."""
+
+from __future__ import annotations
+
+import pickle
+from contextlib import closing
+
+import numpy as np
+import pytest
+
+from etot_cli.skills.action import parse_plan
+from etot_cli.skills.perform import Workshop
+from etot_cli.skills.simulator import known_targets, open_simulator
+from etot_cli.specs.scene import Scene
+from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
+from etot_cli.world.snapshot import Snapshot
+from tests.skills.helpers import BALL, CUP, PEN, UNIT, drawers, episode, make_pilot
+from tests.world.helpers import make_scene
+
+PLAN = parse_plan(
+    "[PICK UP, ball] [PUT ON, desk] [OPEN, unit] [PICK UP, pen] [PUT INTO, cup] [CLOSE, unit]"
+)
+FASTEST = 1.5
+"""Neither the arm (1.6 rad/s at 0.6 m) nor a fall of a hand's breadth is faster [m/s]."""
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return make_scene(
+        ball=BALL | {"at": [0.32, 0.22], "diameter": 0.06},
+        cup=CUP | {"at": [0.36, 0.38], "diameter": 0.12},
+        unit=UNIT | {"at": [0.45, 0.02], "yaw_deg": -90, "drawers": drawers(open=0.03)},
+        pen=PEN | {"at": [0.30, -0.30]},
+    )
+
+
+def walk(workshop: Workshop) -> list[Snapshot]:
+    snapshot, _ = workshop.start()
+    ends = [snapshot]
+    for action in PLAN:
+        ends.append(workshop.perform(ends[-1], action).end)
+    return ends
+
+
+@pytest.fixture(scope="module")
+def ends(scene: Scene) -> list[Snapshot]:
+    return walk(Workshop(scene, 3, keep_frames=False))
+
+
+def test_another_workshop_does_exactly_the_same(scene: Scene, ends: list[Snapshot]) -> None:
+    assert [end.physics for end in walk(Workshop(scene, 3, keep_frames=True))] == [
+        end.physics for end in ends
+    ]
+    assert len({end.physics for end in ends}) == len(ends), "every action changed something"
+
+
+def test_an_action_depends_on_its_start_alone(scene: Scene, ends: list[Snapshot]) -> None:
+    """Actions repeated in another order, from stored states, end in the same bytes."""
+    workshop = Workshop(scene, 3, keep_frames=False)
+    for index in (4, 1, 3, 0):
+        start = pickle.loads(pickle.dumps(ends[index]))
+        assert workshop.perform(start, PLAN[index]).end.physics == ends[index + 1].physics
+
+
+def test_number_of_jobs_changes_nothing(scene: Scene, ends: list[Snapshot]) -> None:
+    """Two jobs at the same time, from two states, in one and in several worlds."""
+    found = {}
+    for jobs in (1, 2):
+        with closing(open_simulator(scene, seed=3, jobs=jobs, worlds=2, record=False)) as simulator:
+            assert simulator.world_count == 2
+            start, _ = simulator.start()
+            first = simulator.submit(start, PLAN[0])
+            other = simulator.submit(start, PLAN[2])
+            second = simulator.submit(first.result().end, PLAN[1])
+            results = [item.result() for item in (first, other, second)]
+            found[jobs] = [
+                (pickle.loads(item.end), [o.record for o in item.outcomes]) for item in results
+            ]
+    assert found[1] == found[2], "states to the byte, and all that is on record"
+    worlds, _ = found[1][0]
+    assert worlds[0].physics == ends[1].physics
+    assert worlds[1].physics != worlds[0].physics
+
+
+def test_a_defect_reaches_whoever_asks_for_the_result(scene: Scene) -> None:
+    for jobs in (1, 2):
+        with closing(open_simulator(scene, seed=0, jobs=jobs, worlds=1, record=False)) as simulator:
+            start, _ = simulator.start()
+            broken = pickle.dumps([Snapshot(b"12345678", pickle.loads(start)[0].memory)])
+            with pytest.raises(Exception, match="does not belong to this world"):
+                simulator.submit(broken, PLAN[0]).result(timeout=60)
+
+
+def test_known_targets_are_what_actions_may_name(scene: Scene) -> None:
+    with closing(open_simulator(scene, seed=0, jobs=1, worlds=1, record=False)) as simulator:
+        _, state = simulator.start()
+    assert set(known_targets(state)) >= {"desk", "ball", "cup", "unit", "pen", "unit.top"}
+    simulator.close()
+
+
+def test_seed_changes_the_random_choices_only(scene: Scene, ends: list[Snapshot]) -> None:
+    """The start has no random choice in it."""
+    assert Workshop(scene, 4, keep_frames=False).start()[0].physics == ends[0].physics
+
+
+# -- no teleporting --------------------------------------------------------------------------------
+
+
+def largest_step(workshop: Workshop, trajectory: Trajectory, name: str) -> float:
+    """Largest displacement of an object between two stored frames [m]."""
+    address = int(workshop.world.model.joint(name).qposadr[0])
+    places = trajectory.qpos[:, address : address + 3]
+    return float(np.linalg.norm(np.diff(places, axis=0), axis=1).max())
+
+
+def test_objects_move_in_small_steps(scene: Scene) -> None:
+    workshop = Workshop(scene, 3, keep_frames=True)
+    snapshot, _ = workshop.start()
+    moved = set()
+    for action in PLAN:
+        performed = workshop.perform(snapshot, action)
+        trajectory = performed.trajectory
+        assert trajectory is not None
+        assert np.diff(trajectory.times).max() < 1.5 * FRAME_PERIOD
+        for name, entry in workshop.world.entries.items():
+            if not entry.free:
+                continue
+            step = largest_step(workshop, trajectory, name)
+            assert step < FASTEST * 1.5 * FRAME_PERIOD, (str(action), name)
+            if step > 0.005:
+                moved.add(name)
+        snapshot = performed.end
+    assert moved == {"ball", "pen"}, "only what was carried moved far"
+
+
+def test_frames_lead_from_start_to_end(scene: Scene) -> None:
+    workshop = Workshop(scene, 3, keep_frames=True)
+    snapshot, _ = workshop.start()
+    performed = workshop.perform(snapshot, PLAN[0])
+    assert performed.trajectory is not None
+    qpos = performed.trajectory.qpos
+    states = workshop.world.model.nq
+    first = np.frombuffer(snapshot.physics)[1 : 1 + states]
+    last = np.frombuffer(performed.end.physics)[1 : 1 + states]
+    assert qpos[0] == pytest.approx(first, abs=1e-5)
+    assert qpos[-1] == pytest.approx(last, abs=0.05)
+
+
+def test_arm_stays_within_its_limits_and_speed(scene: Scene) -> None:
+    workshop = Workshop(scene, 3, keep_frames=True)
+    robot = workshop.world.robot
+    snapshot, _ = workshop.start()
+    for action in PLAN:
+        performed = workshop.perform(snapshot, action)
+        assert performed.trajectory is not None
+        joints = performed.trajectory.qpos[:, robot.qpos]
+        assert np.all(joints >= robot.lower - 0.02) and np.all(joints <= robot.upper + 0.02)
+        times = np.diff(performed.trajectory.times)[:, None]
+        assert np.abs(np.diff(joints, axis=0) / times).max() < 3.14
+        snapshot = performed.end
+
+
+def test_held_object_falls_when_the_fingers_let_go() -> None:
+    """Nothing but the fingers holds it: opened by hand, without a skill, they drop it."""
+    run = episode(ball=BALL)
+    run.must("[PICK UP, ball]")
+    workshop = run.workshop
+    pilot = make_pilot(workshop, run.snapshot)
+    height = float(workshop.data.body("ball").xpos[2])
+    pilot.wait(0.5)
+    assert workshop.data.body("ball").xpos[2] == pytest.approx(height, abs=0.003)
+    pilot.release(workshop.world.robot.spec.gripper.opening)
+    pilot.wait(0.5)
+    assert workshop.data.body("ball").xpos[2] < height - 0.05
+    assert pilot.held() is None
+
+
+def test_record_counts_its_physics(scene: Scene) -> None:
+    workshop = Workshop(scene, 0, keep_frames=False)
+    snapshot, _ = workshop.start()
+    record = workshop.perform(snapshot, PLAN[0]).record
+    assert record.steps > 500
+    assert record.simulated_s == pytest.approx(record.steps * workshop.world.model.opt.timestep)
+    names = {event.first for event in record.contacts} | {e.second for e in record.contacts}
+    assert {"gripper", "ball"} <= names
+    assert record.displacement["ball"] > 0.05
+    assert record.displacement["pen"] < 0.001

@@ -1,0 +1,146 @@
+"""Measures what docs/physics.md claims: ``python -m tests.world.measure_settings``.
+
+Picks five things up in three varied worlds under changed physics settings, holds them for three
+seconds and says how often they stayed, how far they crept in the fingers, and what a step costs.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import mujoco
+import numpy as np
+
+from etot_cli.errors import WorldError
+from etot_cli.skills import pilot as pilot_module
+from etot_cli.skills.action import parse_plan
+from etot_cli.skills.perform import Workshop
+from etot_cli.specs.load import load_task
+from etot_cli.specs.vary import vary
+from etot_cli.world.recorder import Recorder
+from etot_cli.world.snapshot import restore, save
+from tests.skills.helpers import BALL, BOX, CUP, PEN, make_pilot
+from tests.world.helpers import make_scene
+
+THINGS = {
+    "ball": BALL,
+    "apple": BALL | {"diameter": 0.085 - 0.005, "mass": 0.15},
+    "box": BOX,
+    "pen": PEN,
+    "cup rim": CUP | {"slippery": True, "friction": 0.4},
+}
+SEEDS = range(3)
+Change = Callable[[mujoco.MjModel], None]
+
+
+def _set(**options: object) -> Change:
+    def change(model: mujoco.MjModel) -> None:
+        for name, value in options.items():
+            setattr(model.opt, name, value)
+
+    return change
+
+
+def _soft(model: mujoco.MjModel) -> None:
+    model.geom_solref[:] = [0.02, 1.0]
+    model.geom_solimp[:, :3] = [0.9, 0.95, 0.001]
+
+
+SETTINGS: dict[str, Change] = {
+    "as shipped": _set(),
+    "contacts as soft as MuJoCo's default": _soft,
+    "pyramidal cone": _set(cone=mujoco.mjtCone.mjCONE_PYRAMIDAL),
+    "impratio 1": _set(impratio=1.0),
+    "impratio 100": _set(impratio=100.0),
+    "Euler": _set(integrator=mujoco.mjtIntegrator.mjINT_EULER),
+    "step 5 ms": _set(timestep=0.005),
+}
+
+
+@contextmanager
+def _steps_per_control(count: int) -> Iterator[None]:
+    kept = pilot_module.STEPS_PER_CONTROL
+    pilot_module.STEPS_PER_CONTROL = count
+    try:
+        yield
+    finally:
+        pilot_module.STEPS_PER_CONTROL = kept
+
+
+def _hold(name: str, seed: int, change: Change) -> float | None:
+    """Creep in the fingers [m] over three seconds, None when it was not held."""
+    scene = make_scene(thing=THINGS[name])
+    workshop = Workshop(vary(scene, seed) if seed else scene, seed, keep_frames=False)
+    change(workshop.world.model)
+    period = pilot_module.CONTROL_PERIOD
+    with _steps_per_control(round(period / workshop.world.model.opt.timestep)):
+        try:
+            start, _ = workshop.start()
+            (action,) = parse_plan("[PICK UP, thing]")
+            done = workshop.perform(start, action)
+            if not done.record.effect:
+                return None
+            pilot = make_pilot(workshop, done.end)
+            before = pilot.attach("thing").in_tool.position
+            pilot.wait(3.0)
+            if pilot.held() != "thing":
+                return None
+            return float(np.linalg.norm(pilot.attach("thing").in_tool.position - before))
+        except WorldError:
+            return None
+
+
+def _speed() -> None:
+    workshop = Workshop(load_task("tasks/task7.yaml").scene, 0, keep_frames=False)
+    start, _ = workshop.start()
+    model, data = workshop.world.model, workshop.data
+    bare, driven, steps = [], [], 10_000
+    for _ in range(5):
+        restore(workshop.world, data, start)
+        begun = time.process_time()
+        mujoco.mj_step(model, data, steps)
+        bare.append(time.process_time() - begun)
+        restore(workshop.world, data, start)
+        pilot = make_pilot(workshop, start)
+        pilot.recorder = Recorder(workshop.world, data, keep_frames=False)
+        targets = np.repeat(pilot.commanded[None], steps // pilot_module.STEPS_PER_CONTROL, axis=0)
+        begun = time.process_time()
+        pilot.follow(targets)
+        driven.append((time.process_time() - begun) * steps / pilot.steps)
+    each = min(bare) / steps
+    print(f"{model.nv} degrees of freedom, {model.ngeom} geoms: {each * 1e6:.1f} µs a step, "
+          f"{model.opt.timestep / each:.0f} simulated seconds a second")  # fmt: skip
+    print(
+        f"with targets, guards and recorder from Python: {min(driven) / min(bare):.2f} times that"
+    )
+    begun = time.process_time()
+    for _ in range(2000):
+        stored = save(workshop.world, data, start.memory)
+    saved = (time.process_time() - begun) / 2000
+    begun = time.process_time()
+    for _ in range(2000):
+        restore(workshop.world, data, stored)
+    restored = (time.process_time() - begun) / 2000
+    print(f"save {saved * 1e6:.1f} µs, restore {restored * 1e6:.1f} µs")
+
+
+def main() -> None:
+    """Prints the tables."""
+    print(f"| setting | {' | '.join(THINGS)} | median creep in 3 s |")
+    print("|---" * (len(THINGS) + 2) + "|")
+    for label, change in SETTINGS.items():
+        cells, creep = [], []
+        for name in THINGS:
+            found = [_hold(name, seed, change) for seed in SEEDS]
+            kept = [value for value in found if value is not None]
+            creep += kept
+            cells.append(f"{len(kept)}/{len(found)}")
+        middle = f"{np.median(creep) * 1000:.2f} mm" if creep else "–"
+        print(f"| {label} | {' | '.join(cells)} | {middle} |", flush=True)
+    _speed()
+
+
+if __name__ == "__main__":
+    main()

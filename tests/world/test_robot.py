@@ -1,0 +1,263 @@
+"""The built-in robot against the maker's table, and robots described by YAML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from etot_cli.errors import SpecError, WorldError
+from etot_cli.specs.scene import Scene
+from etot_cli.world.model import build_world
+from etot_cli.world.robot import BUILTIN_ROBOTS, load_robot
+from tests.world.helpers import BALL, make_scene, set_up
+
+HALF_PI = np.pi / 2
+# Joint frames in their parents: x y z [m] and the turn about x [rad]; limits [rad]; effort [N m].
+TABLE = [
+    ((0.0, 0.0, 0.267), 0.0, (-6.283, 6.283), 200),
+    ((0.0, 0.0, 0.0), -HALF_PI, (-2.059, 2.0944), 150),
+    ((0.0535, -0.2845, 0.0), 0.0, (-3.8, 0.19198), 150),
+    ((0.0775, 0.3425, 0.0), -HALF_PI, (-6.283, 6.283), 120),
+    ((0.0, 0.0, 0.0), HALF_PI, (-1.69297, 3.14159), 100),
+    ((0.076, 0.097, 0.0), -HALF_PI, (-6.283, 6.283), 120),
+]
+TOOL = 0.172
+# Mass [kg], centre of mass [m], inertia about it xx yy zz xy xz yz [kg m²].
+LINKS = [
+    (2.3814, (0.00022, 0.02951, -0.0124),
+     (0.0058562, 0.0050316, 0.003536652, -1.79e-5, 3.55e-6, -0.000888336)),
+    (2.2675, (0.03881, -0.22783, 0.03496),
+     (0.028315776, 0.0058, 0.0273447, 0.005, 0.00066546, -0.0045741)),
+    (1.875, (0.07041, 0.11631, 0.0107),
+     (0.0063483, 0.00379758, 0.00595768, -0.0015397, 0.00096858, 0.00186567)),
+    (1.3192, (-0.00018, 0.01798, -0.02291),
+     (0.004896, 0.00445694, 0.00134332, -6.925e-6, -1.418e-5, -0.00023186)),
+    (1.33854, (0.0651, 0.03096, 0.00315),
+     (0.00146378, 0.00184192, 0.002333524, -0.000450624, 0.000284306, 0.000130866)),
+    (0.17, (0.0, -0.00677, -0.01098), (9.3e-5, 5.87e-5, 0.000132, 0.0, 0.0, -3.6e-6)),
+]  # fmt: skip
+ROBOT = load_robot("xarm6")
+
+
+def forward(joints: np.ndarray) -> np.ndarray:
+    """Tool pose (4, 4) by the table alone."""
+    pose = np.eye(4)
+    for (origin, roll, _, _), angle in zip(TABLE, joints, strict=True):
+        fixed, turn = np.eye(4), np.eye(4)
+        c, s = np.cos(roll), np.sin(roll)
+        fixed[:3, :3] = [[1, 0, 0], [0, c, -s], [0, s, c]]
+        fixed[:3, 3] = origin
+        c, s = np.cos(angle), np.sin(angle)
+        turn[:2, :2] = [[c, -s], [s, c]]
+        pose = pose @ fixed @ turn
+    tool = np.eye(4)
+    tool[2, 3] = TOOL
+    return pose @ tool
+
+
+@pytest.fixture(scope="module")
+def robot_model() -> mujoco.MjModel:
+    return build_world(make_scene()).model
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=50, deadline=None)
+def test_kinematics_are_those_of_the_table(robot_model: mujoco.MjModel, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    joints = np.array([rng.uniform(*limits) for _, _, limits, _ in TABLE])
+    data = mujoco.MjData(robot_model)
+    for name, value in zip(ROBOT.joints, joints, strict=True):
+        data.joint(f"robot/{name}").qpos[0] = value
+    mujoco.mj_kinematics(robot_model, data)
+    expected = forward(joints)
+    site = data.site(f"robot/{ROBOT.tool_site}")
+    assert site.xpos == pytest.approx(expected[:3, 3], abs=1e-4)
+    assert site.xmat.reshape(3, 3) == pytest.approx(expected[:3, :3], abs=1e-4)
+
+
+def test_limits_are_those_of_the_table(robot_model: mujoco.MjModel) -> None:
+    for name, (_, _, limits, effort) in zip(ROBOT.joints, TABLE, strict=True):
+        joint = robot_model.joint(f"robot/{name}")
+        assert joint.range == pytest.approx(limits)
+        assert robot_model.jnt_limited[joint.id]
+        actuator = robot_model.actuator(f"robot/{name}")
+        assert actuator.ctrlrange == pytest.approx(limits)
+        assert -effort <= actuator.forcerange[0] < 0 < actuator.forcerange[1] <= effort
+
+
+@pytest.mark.parametrize("index", range(6))
+def test_masses_and_inertias_are_those_of_the_table(
+    robot_model: mujoco.MjModel, index: int
+) -> None:
+    mass, center, (xx, yy, zz, xy, xz, yz) = LINKS[index]
+    link = robot_model.body(f"robot/link{index + 1}")
+    assert link.mass[0] == pytest.approx(mass)
+    assert link.ipos == pytest.approx(center, abs=1e-6)
+    axes = np.zeros(9)
+    mujoco.mju_quat2Mat(axes, link.iquat)
+    rotation = axes.reshape(3, 3)
+    expected = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    assert rotation @ np.diag(link.inertia) @ rotation.T == pytest.approx(expected, abs=1e-6)
+
+
+def test_total_mass(robot_model: mujoco.MjModel) -> None:
+    """Links by the table, and a gripper of well below a kilogram."""
+    links = sum(mass for mass, _, _ in LINKS)
+    moving = robot_model.body("robot/link1").subtreemass[0]
+    assert links == pytest.approx(9.35164)
+    assert 0.4 < moving - links < 1.0
+
+
+def test_arm_holds_its_home_against_gravity() -> None:
+    stage = set_up(make_scene(), settle=2.0)
+    robot = stage.world.robot
+    assert stage.data.qpos[robot.qpos] == pytest.approx(robot.spec.home, abs=0.01)
+
+
+def test_speed_of_the_arm_stays_below_the_makers() -> None:
+    assert ROBOT.speed <= 3.14
+
+
+def test_gripper_opens_and_closes_by_its_command() -> None:
+    stage = set_up(make_scene())
+    robot, gripper = stage.world.robot, stage.world.robot.spec.gripper
+    pads = [stage.world.model.geom_size[pad][1] for pad in robot.pads]
+    for command, opening in ((gripper.command_open, gripper.opening), (0.03, 0.03), (0.0, 0.0)):
+        stage.data.ctrl[robot.gripper_ctrl] = command
+        stage.step(1.0)
+        assert stage.data.qpos[robot.finger_qpos].sum() == pytest.approx(opening, abs=0.002)
+        left, right = (stage.data.geom_xpos[pad] for pad in robot.pads)
+        assert np.linalg.norm(left - right) - sum(pads) == pytest.approx(opening, abs=0.002)
+
+
+def test_gripper_never_opens_beyond_its_stops() -> None:
+    stage = set_up(make_scene())
+    robot = stage.world.robot
+    stage.data.qfrc_applied[:] = 0.0
+    for body in robot.finger_bodies:
+        stage.data.joint(int(stage.world.model.body_jntadr[body])).qfrc_applied[0] = 20.0
+    stage.step(0.5)
+    assert stage.data.qpos[robot.finger_qpos].sum() < robot.spec.gripper.opening + 0.002
+
+
+def test_gripper_force_is_limited() -> None:
+    model = build_world(make_scene()).model
+    limit = model.actuator("robot/gripper").forcerange
+    assert limit == pytest.approx([-ROBOT.gripper.force, ROBOT.gripper.force])
+
+
+def test_no_collision_at_home_and_with_the_arm_stretched() -> None:
+    stage = set_up(make_scene(ball=BALL | {"at": [0.4, 0.4]}), settle=0.0)
+    robot = stage.world.robot
+    for joints in (robot.spec.home, (0, -0.3, -0.9, 0, 1.2, 0), (1.5, -0.5, -1.2, 1.0, 1.2, 2.0)):
+        stage.data.qpos[robot.qpos] = joints
+        mujoco.mj_forward(stage.world.model, stage.data)
+        touching = {frozenset(stage.world.geom_object[g] for g in pair)
+                    for pair in stage.data.contact.geom}  # fmt: skip
+        assert not any("robot" in pair or "gripper" in pair for pair in touching), joints
+
+
+# -- robots by YAML --------------------------------------------------------------------------------
+
+MODEL = """<mujoco><worldbody><body name="b"><joint name="a"/><geom size="0.01"/>
+<body name="c"><joint name="d"/><geom size="0.01"/><body name="e"><joint name="f"/>
+<geom size="0.01"/><site name="tip"/>
+<body name="l"><joint name="l" type="slide" axis="0 1 0" range="0 0.02"/>
+<geom name="lp" size="0.005"/></body>
+<body name="r"><joint name="r" type="slide" axis="0 -1 0" range="0 0.02"/>
+<geom name="rp" size="0.005"/></body></body></body></body></worldbody>
+<actuator><position name="a" joint="a"/><position name="d" joint="d"/><position name="f" joint="f"/>
+<position name="g" joint="l"/></actuator></mujoco>"""
+YAML = """name: tiny
+model: tiny.xml
+joints: [a, d, f]
+actuators: [a, d, f]
+tool_site: tip
+home: [0.0, 0.0, 0.0]
+gripper: {actuator: g, fingers: [l, r], pads: [lp, rp], opening: 0.04, command_open: 0.02}
+"""
+
+
+def robot_folder(tmp_path: Path, *replace: tuple[str, str]) -> Path:
+    text = YAML
+    for old, new in replace:
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "tiny.yaml").write_text(text)
+    (tmp_path / "tiny.xml").write_text(MODEL)
+    return tmp_path
+
+
+def test_robot_of_ones_own(tmp_path: Path) -> None:
+    folder = robot_folder(tmp_path)
+    assert load_robot("tiny.yaml", folder).model_path == folder / "tiny.xml"
+    world = build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+    assert len(world.robot.qpos) == 3
+    assert world.robot.spec.gripper.opening == 0.04
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("joints: [a, d, f]", "joints: [a, d]", "tiny.yaml: joints: .*at least 3"),
+        ("home: [0.0, 0.0, 0.0]", "home: [0.0, 0.0]", r"joints \(3\), actuators \(3\) and home"),
+        ("home: [0.0, 0.0, 0.0]", "home: [0.0, .nan, 0.0]", "tiny.yaml: home.1: "),
+        ("opening: 0.04", "opening: 40", "tiny.yaml: gripper.opening: "),
+        ("opening: 0.04", "opening: wide", "tiny.yaml: gripper.opening: "),
+        ("name: tiny", "name: tiny\ncolour: red", "tiny.yaml: colour: "),
+        ("tool_site: tip\n", "", "tiny.yaml: tool_site: "),
+        ("model: tiny.xml", "model: gone.xml", "tiny.yaml: model: missing file 'gone.xml'"),
+        ("name: tiny", "name: [tiny", "tiny.yaml: not readable as YAML"),
+    ],
+)
+def test_unusable_robot_yaml(tmp_path: Path, old: str, new: str, message: str) -> None:
+    with pytest.raises(SpecError, match=message):
+        load_robot("tiny.yaml", robot_folder(tmp_path, (old, new)))
+
+
+@pytest.mark.parametrize("text", ["", "- a\n- b\n", "just words"])
+def test_robot_yaml_must_be_a_mapping(tmp_path: Path, text: str) -> None:
+    (tmp_path / "tiny.yaml").write_text(text)
+    with pytest.raises(SpecError, match="expected a mapping"):
+        load_robot("tiny.yaml", tmp_path)
+
+
+@pytest.mark.parametrize("robot", ["panda", "gone.yaml", "../xarm6", ""])
+def test_unknown_robot_lists_the_known_ones(tmp_path: Path, robot: str) -> None:
+    with pytest.raises(SpecError, match="expected one of xarm6"):
+        load_robot(robot, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("joints: [a, d, f]", "joints: [a, d, elbow]"),
+        ("actuators: [a, d, f]", "actuators: [a, d, elbow]"),
+        ("tool_site: tip", "tool_site: nose"),
+        ("pads: [lp, rp]", "pads: [lp, thumb]"),
+        ("fingers: [l, r]", "fingers: [l, thumb]"),
+    ],
+)
+def test_names_that_the_model_lacks(tmp_path: Path, old: str, new: str) -> None:
+    folder = robot_folder(tmp_path, (old, new))
+    with pytest.raises(WorldError, match=r"robot tiny: its YAML names .* that tiny\.xml lacks"):
+        build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+
+
+def test_model_that_is_none(tmp_path: Path) -> None:
+    folder = robot_folder(tmp_path)
+    (folder / "tiny.xml").write_text("<mujoco><nonsense/></mujoco>")
+    with pytest.raises(WorldError, match=r"tiny\.xml: not a valid MJCF model"):
+        build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+
+
+@pytest.mark.parametrize("folder", sorted(p.parent for p in BUILTIN_ROBOTS.glob("*/robot.yaml")))
+def test_every_built_in_robot_builds(folder: Path) -> None:
+    world = build_world(Scene.model_validate({"robot": folder.name}))
+    spec = world.robot.spec
+    assert np.all(world.robot.lower <= spec.home) and np.all(spec.home <= world.robot.upper)
