@@ -1,0 +1,141 @@
+"""Moving a door or drawer with the fingers closed on its handle or on an edge."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.grasps import FINGER_ROOM
+from etot_cli.skills.kinematics import JUMP, Pose, rotation_from_axes, turn_about
+from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.part_motion import (
+    BACK_OUT_STEPS,
+    STANDOFF,
+    PartFrame,
+    PreparedMove,
+    approaches,
+    is_free,
+    joint_values,
+    travel_length,
+    way_back,
+)
+from etot_cli.skills.pilot import Pilot
+from etot_cli.skills.push_part import PENETRATION
+from etot_cli.world.index import Graspable, Part
+
+Vector = NDArray[np.float64]
+
+GRIP_TILTS = (0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0)
+"""Leans of the hand about the closing direction when it grips [rad]."""
+AJAR = 0.05
+"""Way of a handle that leaves room for a finger behind the part [m] ..."""
+
+
+def grip_moves(
+    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, lenient: bool
+) -> Iterator[PreparedMove]:
+    """Moves with the fingers closed on the part, upright hands first."""
+    for grasp in part.grasps:
+        for tilt in GRIP_TILTS:
+            move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, lenient)
+            if move is not None:
+                yield move
+
+
+def _grip_move(
+    pilot: Pilot,
+    part: Part,
+    grasp: Graspable,
+    value: float,
+    target: float,
+    tilt: float,
+    blockers: Blockers,
+    lenient: bool,
+) -> PreparedMove | None:
+    frame = PartFrame(pilot, part)
+    now = frame.at(value)
+    center = np.array(grasp.center)
+    radius = float(np.linalg.norm(center[:2]))
+    ajar = abs(value - part.lower)
+    gap = grasp.behind + (ajar * radius if part.info.joint_type == "hinge" else ajar)
+    if gap < FINGER_ROOM:
+        return None
+    largest = pilot.world.robot.spec.gripper.opening
+    opening = min(largest, grasp.thickness + 2 * min(FINGER_ROOM, gap - 0.002))
+    closing = np.array(grasp.closing)
+    for approach in grasp.approaches:
+        local = turn_about(closing, tilt) @ np.array(approach) if tilt else np.array(approach)
+        base = rotation_from_axes(local, closing)
+        for spin in (1.0, -1.0):
+            in_part = Pose(center, base @ np.diag([spin, spin, 1.0]))
+            move = _follow_part(
+                pilot, part, frame, now, in_part, value, target, opening, True, blockers, lenient
+            )
+            if move is not None:
+                return move
+    return None
+
+
+def _follow_part(
+    pilot: Pilot,
+    part: Part,
+    frame: PartFrame,
+    now: Pose,
+    in_part: Pose,
+    value: float,
+    target: float,
+    opening: float,
+    grip: bool,
+    blockers: Blockers,
+    lenient: bool,
+) -> PreparedMove | None:
+    """A tool pose fixed to the part, followed along the part's path."""
+    arm = pilot.arm
+    tool = now @ in_part
+    pilot.checker.set_joint(part.joint, value)
+    pilot.checker.set_fingers(opening)
+    start = tool.moved(-STANDOFF * tool.rotation[:, 2])
+    reachable = approach_of(pilot, start, tool, False, blockers, lenient)
+    if reachable is None:
+        return None
+    before, approach = reachable
+    radius = float(np.linalg.norm(in_part.position[:2]))
+    values = joint_values(part, value, target, radius)
+    along: list[Vector] = []
+    joints = approach[-1]
+    reached = value
+    for step in values[1:]:
+        pose = frame.at(float(step)) @ in_part
+        result = arm.solve(pose, joints)
+        if not result.reached or np.abs(result.joints - joints).max() > JUMP:
+            break
+        pilot.checker.set_joint(part.joint, float(step))
+        if not is_free(pilot, result.joints, blockers, lenient, PENETRATION):
+            break
+        joints = result.joints
+        along.append(joints)
+    pilot.checker.set_joint(part.joint, value)
+    retreat = None
+    while along and retreat is None:
+        reached = float(values[len(along)])
+        retreat = way_back(pilot, along[-1])
+        if retreat is None:
+            # A folded arm cannot back out; a little earlier it can.
+            del along[-BACK_OUT_STEPS:]
+    if retreat is None:
+        return None
+    length = travel_length(part, value, reached, radius)
+    return PreparedMove(before, approach, np.array(along), length, grip, opening, reached, retreat)
+
+
+def approach_of(
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+) -> tuple[Vector, Vector] | None:
+    """Joint values at the standoff and along the straight approach, for the first arm branch
+    that is free.
+    """
+    for before, approach in approaches(pilot, start, tool, free_spin, blockers, lenient):
+        return before, approach
+    return None

@@ -1,0 +1,119 @@
+"""What gripping and pushing a door or drawer share: the part's path, and ways to and from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.pilot import Pilot
+from etot_cli.world.index import Part
+
+Vector = NDArray[np.float64]
+
+STANDOFF = 0.09
+PATH_STEP = 0.012
+"""Spacing of tool poses along the part's path [m]."""
+BACK_OUT_STEPS = 2
+
+
+@dataclass(frozen=True)
+class PreparedMove:
+    """Joint values before the contact, up to it, along the part's path, and away from it.
+
+    ``grip``: the gripper closes on the part (and opens again after); ``opening`` [m] before.
+    ``reached``: joint value of the part at the path's end.
+    """
+
+    before: Vector
+    approach: Vector
+    along: Vector
+    length: float
+    grip: bool
+    opening: float
+    reached: float
+    retreat: Vector
+
+
+class PartFrame:
+    """Poses of a part's frame at joint values, from the present pose of its parent."""
+
+    def __init__(self, pilot: Pilot, part: Part) -> None:
+        self._world, self._part = pilot.world, part
+        self._data = pilot.scratch
+        self._data.qpos[:] = pilot.data.qpos
+
+    def at(self, value: float) -> Pose:
+        """Pose of the part at a joint value [m or rad]."""
+        self._data.joint(self._part.joint).qpos[0] = value
+        mujoco.mj_kinematics(self._world.model, self._data)
+        body = self._data.body(self._part.body)
+        return Pose(body.xpos.copy(), body.xmat.reshape(3, 3).copy())
+
+
+def fraction_open(part: Part, value: float) -> float:
+    """Share of the travel that a joint value stands for."""
+    return (value - part.lower) / (part.upper - part.lower)
+
+
+def joint_values(part: Part, value: float, target: float, radius: float) -> Vector:
+    """Joint values from ``value`` to ``target``, spaced along the contact's path."""
+    travel = abs(target - value) * (radius if part.info.joint_type == "hinge" else 1.0)
+    count = max(int(np.ceil(travel / PATH_STEP)), 2)
+    return np.linspace(value, target, count + 1)
+
+
+def travel_length(part: Part, value: float, reached: float, radius: float) -> float:
+    """Length of the contact's way between two joint values [m]."""
+    return abs(reached - value) * (radius if part.info.joint_type == "hinge" else 1.0)
+
+
+def approaches(
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+) -> Iterator[tuple[Vector, Vector]]:
+    """Joint values at the standoff and along the straight approach, for every free arm branch."""
+    arm = pilot.arm
+    for before in arm.solutions(start, pilot.commanded, free_spin=free_spin):
+        # With a free spin the first solution fixes it for the rest of the way.
+        rotation = arm.forward(before).rotation if free_spin else tool.rotation
+        goal = Pose(tool.position, rotation)
+        path = straight(Pose(start.position, rotation), goal)
+        approach, count = arm.line(path, before, free_spin=free_spin)
+        if count < len(path):
+            continue
+        if all(
+            is_free(pilot, joints, blockers, lenient, 0.0005)
+            for joints in (before, approach[-1], approach[count // 2])
+        ):
+            yield before, approach
+
+
+def way_back(pilot: Pilot, joints: Vector) -> Vector | None:
+    """Joint values straight back from the part; None where the arm cannot."""
+    tool = pilot.arm.forward(joints)
+    away = tool.moved(-STANDOFF * tool.rotation[:, 2])
+    path, count = pilot.arm.line(straight(tool, away), joints)
+    return path if count >= 2 else None
+
+
+def is_free(
+    pilot: Pilot, joints: Vector, blockers: Blockers, lenient: bool, clearance: float
+) -> bool:
+    """Whether the arm is free; lenient, movable objects in the way do not count."""
+    hits = pilot.checker.hits(joints, clearance=clearance)
+    if not hits:
+        return True
+    blockers.add(hits)
+    if not lenient:
+        return False
+    return all(_is_movable(pilot, hit) for hit in hits)
+
+
+def _is_movable(pilot: Pilot, address: str) -> bool:
+    entry = pilot.world.entries.get(address.split(".")[0])
+    return entry is not None and entry.info.movable
