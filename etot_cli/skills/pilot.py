@@ -20,7 +20,8 @@ from etot_cli.skills.kinematics import Arm, Pose
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.skills.paths import plan_transit
 from etot_cli.skills.trajectory import CONTROL_PERIOD, time_path, tool_speed_to_joint_speed
-from etot_cli.world.model import TIMESTEP, World
+from etot_cli.world.build.surroundings import TIMESTEP
+from etot_cli.world.model import World
 from etot_cli.world.recorder import Recorder
 
 Vector = NDArray[np.float64]

@@ -22,7 +22,7 @@ from etot_cli.skills.part_motion import (
 )
 from etot_cli.skills.pilot import Pilot
 from etot_cli.world.index import Face, Part
-from etot_cli.world.model import RobotIndex
+from etot_cli.world.robot_index import RobotIndex
 
 Vector = NDArray[np.float64]
 UP = np.array([0.0, 0.0, 1.0])

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import ServiceError, SpecError
 from etot_cli.specs.scene import Camera, Scene
-from etot_cli.world.model import World, build_world, camera_rotation
+from etot_cli.world.build.surroundings import camera_rotation
+from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import object_bounds, place_objects
 
 DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
@@ -243,7 +244,7 @@ def add_noise(picture: Picture, noise: Noise, rng: np.random.Generator) -> Pictu
     matrix = np.array([[1.0, 0.0, right], [0.0, 1.0, down]])
     height, width = depth.shape
     # Nearest: blending a reading with "none" would invent depths.
-    depth = cv2.warpAffine(depth, matrix, (width, height), flags=cv2.INTER_NEAREST)
+    depth = np.asarray(cv2.warpAffine(depth, matrix, (width, height), flags=cv2.INTER_NEAREST))
     color = picture.color.astype(np.float64) + rng.normal(0.0, noise.color, picture.color.shape)
     return Picture(
         picture.camera,

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.world.build.objects import resting_quaternion
 from etot_cli.world.index import ObjectEntry, Region
-from etot_cli.world.model import World, resting_quaternion
+from etot_cli.world.model import World
 from etot_cli.world.state import DESK
 
 GAP = 0.0005

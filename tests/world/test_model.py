@@ -11,7 +11,8 @@ import pytest
 
 from etot_cli.errors import WorldError
 from etot_cli.specs.load import load_task
-from etot_cli.world.model import TIMESTEP, World, build_world
+from etot_cli.world.build.surroundings import TIMESTEP
+from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import object_bounds
 from tests.world.helpers import BALL, BOX, CUP, UNIT, make_scene, set_up
 

@@ -1,0 +1,104 @@
+"""Addresses of the robot's joints, actuators and geoms in a compiled model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.errors import WorldError
+from etot_cli.world.robot import RobotSpec
+
+ROBOT_PREFIX = "robot/"
+TIP_MARGIN, FINGER_MARGIN = 0.0005, 0.0015
+"""Added to the measured length and thickness of the fingers [m]."""
+
+
+@dataclass(frozen=True)
+class RobotIndex:
+    """Addresses of the robot's joints, actuators and geoms in the model."""
+
+    spec: RobotSpec
+    qpos: NDArray[np.int64]
+    """Joint positions in qpos, (n,)."""
+    dof: NDArray[np.int64]
+    ctrl: NDArray[np.int64]
+    """Arm actuators in ctrl, (n,)."""
+    gripper_ctrl: int
+    finger_qpos: NDArray[np.int64]
+    tool_site: int
+    pads: tuple[int, int]
+    finger_bodies: tuple[int, int]
+    lower: NDArray[np.float64]
+    """Joint limits [rad], (n,)."""
+    upper: NDArray[np.float64]
+    tip: float
+    """How far the fingertips reach beyond the tool point [m]."""
+    finger_half: float
+    """Half thickness of the closed fingers, across the approach [m]."""
+
+
+def add_robot(mj: mujoco.MjSpec, robot: RobotSpec) -> None:
+    """Attaches the robot's own model, all names prefixed."""
+    try:
+        child = mujoco.MjSpec.from_file(str(robot.model_path))
+    except ValueError as error:
+        raise WorldError(f"{robot.model_path.name}: not a valid MJCF model ({error})") from error
+    mj.attach(child, prefix=ROBOT_PREFIX, frame=mj.worldbody.add_frame())
+
+
+def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
+    """Finds everything that the robot's YAML names in the compiled model."""
+
+    def name(item: str) -> str:
+        return ROBOT_PREFIX + item
+
+    try:
+        joints = [model.joint(name(item)) for item in spec.joints]
+        actuators = [model.actuator(name(item)) for item in spec.actuators]
+        fingers = [model.body(name(item)) for item in spec.gripper.fingers]
+        pads = [model.geom(name(item)).id for item in spec.gripper.pads]
+        gripper = model.actuator(name(spec.gripper.actuator)).id
+        site = model.site(name(spec.tool_site)).id
+    except KeyError as error:
+        raise WorldError(
+            f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
+        ) from error
+    finger_joints = [
+        int(model.jnt_qposadr[int(body.jntadr[0])]) for body in fingers if body.jntnum[0]
+    ]
+    lower, upper = np.array([joint.range for joint in joints]).T
+    tip, finger_half = _fingertips(model, int(site), [int(pad) for pad in pads])
+    return RobotIndex(
+        spec=spec,
+        qpos=np.array([int(joint.qposadr[0]) for joint in joints]),
+        dof=np.array([int(joint.dofadr[0]) for joint in joints]),
+        ctrl=np.array([int(actuator.id) for actuator in actuators]),
+        gripper_ctrl=int(gripper),
+        finger_qpos=np.array(finger_joints),
+        tool_site=int(site),
+        pads=(int(pads[0]), int(pads[1])),
+        finger_bodies=(int(fingers[0].id), int(fingers[1].id)),
+        lower=lower,
+        upper=upper,
+        tip=tip,
+        finger_half=finger_half,
+    )
+
+
+def _fingertips(model: mujoco.MjModel, site: int, pads: list[int]) -> tuple[float, float]:
+    """Reach of the pads beyond the tool point, and their half thickness when closed [m]."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    rotation, point = data.site_xmat[site].reshape(3, 3), data.site_xpos[site]
+    corners = []
+    for pad in pads:
+        box = model.geom_aabb[pad]
+        for signs in product((-1, 1), repeat=3):
+            local = data.geom_xmat[pad].reshape(3, 3) @ (box[:3] + np.array(signs) * box[3:])
+            corners.append(rotation.T @ (data.geom_xpos[pad] + local - point))
+    across, tip = np.abs(corners)[:, :2].max(), np.array(corners)[:, 2].max()
+    return round(float(tip), 6) + TIP_MARGIN, round(float(across), 6) + FINGER_MARGIN
