@@ -32,3 +32,31 @@ Vary = Annotated[
         "--vary", help="Draw poses and parameters from the scene's variation by the seed."
     ),
 ]
+VlmUrl = Annotated[
+    str | None,
+    typer.Option(
+        "--vlm-url",
+        metavar="URL",
+        help="API base of an OpenAI-compatible server. [env: ETOT_VLM_URL, OPENAI_BASE_URL]",
+    ),
+]
+VlmModelName = Annotated[
+    str | None,
+    typer.Option("--model", metavar="NAME", help="The server's model. [env: ETOT_VLM_MODEL]"),
+]
+VlmRecord = Annotated[
+    Path | None,
+    typer.Option("--record", metavar="DIR", help="Write every exchange with the model there."),
+]
+VlmReplay = Annotated[
+    Path | None,
+    typer.Option("--replay", metavar="DIR", help="Take the model's answers from such a folder."),
+]
+VlmMaxCalls = Annotated[
+    int | None,
+    typer.Option("--max-calls", min=0, metavar="N", help="Requests to the model at most."),
+]
+VlmMaxCost = Annotated[
+    float | None,
+    typer.Option("--max-cost", min=0.0, metavar="X", help="US dollars for the model at most."),
+]

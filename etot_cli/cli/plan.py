@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 import os
+import sys
 from enum import StrEnum
 from math import isnan
 from typing import Annotated
 
 import typer
 
-from etot_cli.cli.options import Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.exits import MISSING, NO
+from etot_cli.cli.options import (
+    Json,
+    Out,
+    Quiet,
+    Seed,
+    TaskFile,
+    Vary,
+    Verbose,
+    VlmMaxCalls,
+    VlmMaxCost,
+    VlmModelName,
+    VlmRecord,
+    VlmReplay,
+    VlmUrl,
+)
 from etot_cli.cli.session import Session
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 
@@ -22,6 +38,15 @@ class ReasonerName(StrEnum):
     """Who proposes, judges and reflects."""
 
     BUILTIN = "builtin"
+    VLM = "vlm"
+
+
+class JudgeName(StrEnum):
+    """Who decides whether an action succeeded."""
+
+    STATE = "state"
+    VLM = "vlm"
+    BOTH = "both"
 
 
 def _a_number(value: float | None) -> float | None:
@@ -76,6 +101,19 @@ def plan(
             help="Varied worlds that each action is tried in; the plan that holds in more wins.",
         ),
     ] = 1,
+    vlm_url: VlmUrl = None,
+    model: VlmModelName = None,
+    judge: Annotated[
+        JudgeName | None,
+        typer.Option(
+            "--judge",
+            help="With --reasoner vlm: who decides whether an action succeeded. [default: both]",
+        ),
+    ] = None,
+    record: VlmRecord = None,
+    replay: VlmReplay = None,
+    max_calls: VlmMaxCalls = None,
+    max_cost: VlmMaxCost = None,
     out: Out = None,
     seed: Seed = 0,
     json: Json = False,
@@ -84,7 +122,8 @@ def plan(
 ) -> int:
     """Find a plan that works in the simulator, and say why others do not.
 
-    Exit code 0: a feasible plan; 1: none found; 2: unusable input; 130: interrupted.
+    Exit code 0: a feasible plan; 1: none found; 2: unusable input; 3: the model's endpoint cannot
+    be used; 130: interrupted.
     """
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose)
     from etot_cli.commands.plan import PlanOptions, run_plan
@@ -98,11 +137,24 @@ def plan(
         worlds=worlds,
         without=frozenset(without or ()),
         limits=Limits(max_nodes=max_nodes, time_limit_s=time_limit),
+        vlm={
+            "url": vlm_url,
+            "model": model,
+            "judge": None if judge is None else judge.value,
+            "record": record,
+            "replay": replay,
+            "max_calls": max_calls,
+            "max_cost": max_cost,
+        },
     )
     with session.search_observer() as observer:
         report = run_plan(options, observer)
     path = session.save(report)
-    return session.conclude(report, path, lambda summary: summary.plan(report, path))
+    code = session.conclude(report, path, lambda summary: summary.plan(report, path))
+    if code == NO and report.statistics.limit == "service":
+        print(f"error: {report.stopped}", file=sys.stderr)
+        return MISSING
+    return code
 
 
 def _cores() -> int:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from etot_cli.commands import rooms as doors
 from etot_cli.planning.options import Ablation, Limits
@@ -17,6 +19,7 @@ from etot_cli.planning.result import (
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import PlanTree
 from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reporting.models import TaskModel
 from etot_cli.reporting.plan_report import (
     PlanOptionsModel,
@@ -25,9 +28,13 @@ from etot_cli.reporting.plan_report import (
     survival_model,
     tree_model,
     understood_model,
+    vlm_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.specs.task import Task
+
+MODEL = "vlm"
+"""Name of the reasoner that asks a vision-language model."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +49,8 @@ class PlanOptions:
     worlds: int = 1
     without: frozenset[Ablation] = frozenset()
     limits: Limits = field(default_factory=Limits)
+    vlm: Mapping[str, Any] = field(default_factory=dict)
+    """Settings of the reasoner ``vlm`` that the command line gives; the rest is environment."""
 
 
 def run_plan(
@@ -64,6 +73,7 @@ def run_plan(
     watch = Stopwatch()
     task: Task | None = None
     result: SearchResult | None = None
+    session: doors.ModelSession | None = None
     interrupted = False
     try:
         rooms = rooms or doors.default_rooms()
@@ -71,14 +81,22 @@ def run_plan(
             task = rooms.load_task(options.task)
             scene = rooms.vary(task.scene, options.seed) if options.vary else task.scene
         with watch.phase("world"):
-            reasoner = rooms.reasoners[options.reasoner]()
+            if options.reasoner == MODEL:
+                session = rooms.open_model(
+                    options.vlm, scene, seed=options.seed, state=rooms.reasoners["builtin"]()
+                )
+            reasoner = session.reasoner if session else rooms.reasoners[options.reasoner]()
             simulator = rooms.open_simulator(
-                scene, seed=options.seed, jobs=options.jobs, worlds=options.worlds, record=False
+                scene,
+                seed=options.seed,
+                jobs=options.jobs,
+                worlds=options.worlds,
+                record=session is not None and session.needs_trajectories,
             )
         with closing(simulator), watch.phase("search"):
             result = search(
                 Assignment(task.instruction, task.goal),
-                simulator,
+                session.watch(simulator) if session else simulator,
                 reasoner,
                 limits=options.limits,
                 without=options.without,
@@ -86,7 +104,11 @@ def run_plan(
             )
     except KeyboardInterrupt:
         interrupted = True
-    return _report(options, task, result or _nothing(), interrupted, watch)
+    finally:
+        if session is not None:
+            session.close()
+    account = session.account() if session is not None else None
+    return _report(options, task, result or _nothing(), interrupted, watch, account)
 
 
 def _nothing() -> SearchResult:
@@ -106,6 +128,7 @@ def _report(
     result: SearchResult,
     interrupted: bool,
     watch: Stopwatch,
+    account: VlmAccount | None,
 ) -> PlanReport:
     status = SearchStatus.INTERRUPTED if interrupted else result.status
     return PlanReport(
@@ -131,6 +154,8 @@ def _report(
         understood=understood_model(result.goal_holds, result.branches),
         tree=tree_model(result),
         statistics=statistics_model(result),
+        stopped=result.stopped,
+        vlm=vlm_model(account),
     )
 
 

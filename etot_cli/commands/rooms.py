@@ -6,13 +6,14 @@ stays quick and tests can put other rooms in their place.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from etot_cli.reasoning.protocol import Reasoner
+    from etot_cli.reasoning.vlm.accounts import VlmAccount
     from etot_cli.skills.simulated import Simulator
     from etot_cli.specs.scene import Scene
     from etot_cli.specs.task import Task
@@ -29,6 +30,48 @@ class OpenSimulator(Protocol):
         ...
 
 
+class ModelSession(Protocol):
+    """A vision-language model as the reasoner in one scene."""
+
+    reasoner: Reasoner
+
+    @property
+    def needs_trajectories(self) -> bool:
+        """Whether the simulator has to record."""
+        ...
+
+    def watch(self, simulator: Simulator) -> Simulator:
+        """The simulator to search with, so that the model sees what it does."""
+        ...
+
+    def account(self) -> VlmAccount:
+        """What has been asked so far, and what it cost."""
+        ...
+
+    def close(self) -> None:
+        """Ends connections; idempotent."""
+        ...
+
+
+class OpenModel(Protocol):
+    """Opens a vision-language model for a scene."""
+
+    def __call__(
+        self, flags: Mapping[str, Any], scene: Scene, *, seed: int, state: Reasoner | None
+    ) -> ModelSession:
+        """``flags``: settings from the command line; ``state``: judges by the world's state."""
+        ...
+
+
+def _open_model(
+    flags: Mapping[str, Any], scene: Scene, *, seed: int, state: Reasoner | None
+) -> ModelSession:
+    # The HTTP client and OpenGL are imported only where a model is asked for.
+    from etot_cli.reasoning.vlm.session import open_vlm
+
+    return open_vlm(flags, scene, seed=seed, state=state)
+
+
 @dataclass(frozen=True, slots=True)
 class Rooms:
     """What the commands need of the rooms below."""
@@ -41,10 +84,15 @@ class Rooms:
     """What actions may name in a scene."""
     reasoners: dict[str, Callable[[], Reasoner]]
     """Reasoner name → how to make it."""
+    open_model: OpenModel = _open_model
+    """For the reasoner ``vlm``, which needs the scene."""
 
 
 def default_rooms() -> Rooms:
     """The rooms of this package."""
+    from etot_cli.world.engine import import_mujoco
+
+    import_mujoco()
     from etot_cli.reasoning.builtin import BuiltinReasoner
     from etot_cli.skills.simulator import known_targets, open_simulator
     from etot_cli.specs.load import load_task

@@ -32,6 +32,12 @@ class LimitKind(StrEnum):
 
     MAX_NODES = "max_nodes"
     TIME = "time_limit"
+    MAX_CALLS = "max_calls"
+    """The reasoner's limit on requests to its model."""
+    MAX_COST = "max_cost"
+    """The reasoner's limit on what its model costs."""
+    SERVICE = "service"
+    """A service that the reasoner needs is not there."""
 
 
 @dataclass(slots=True)
@@ -65,6 +71,8 @@ class SearchResult:
     """In how many varied worlds the plan holds; None without a plan."""
     limit: LimitKind | None = None
     """The bound that was reached, even when a plan had been found before."""
+    stopped: str = ""
+    """Why the reasoner could not go on, in a sentence; empty when it could."""
     rollouts: Mapping[int, WorldOutcome] = field(default_factory=dict)
     """Per evaluated node id, what the nominal world did."""
 

@@ -22,7 +22,14 @@ from etot_cli.planning.result import (
 )
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Reasoner
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    FailedStep,
+    Reasoner,
+    ReasonerStopped,
+    StopReason,
+)
 from etot_cli.skills.action import Action
 from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.world.state import RolloutRecord, SceneState
@@ -39,7 +46,8 @@ def search(
 ) -> SearchResult:
     """Looks for a plan that works in the simulator from its first action to its last.
 
-    Ctrl-C (KeyboardInterrupt) does not escape: it ends the search with status ``interrupted``.
+    Ctrl-C (KeyboardInterrupt) does not escape: it ends the search with status ``interrupted``. Nor
+    does a reasoner that cannot go on: the result says why it stopped.
 
     Args:
         assignment: what is asked for.
@@ -93,6 +101,7 @@ class _Search:
         self._best: PlanNode | None = None
         self._goal_holds = False
         self._limit: LimitKind | None = None
+        self._stopped = ""
 
     def result(self) -> SearchResult:
         """Runs the search to its end, whatever that is."""
@@ -101,6 +110,11 @@ class _Search:
             self._run()
         except KeyboardInterrupt:
             interrupted = True
+        except ReasonerStopped as stop:
+            self._stopped = str(stop)
+            # A reasoner without an answer has given up; any other reason is a limit.
+            if stop.reason is not StopReason.NO_ANSWER:
+                self._limit = LimitKind(stop.reason.value)
         finally:
             self._lookahead.cancel()
         self._statistics.wall_s = time.monotonic() - self._started
@@ -114,6 +128,7 @@ class _Search:
             survival=self._survival(),
             limit=self._limit,
             rollouts=self._rollouts,
+            stopped=self._stopped,
         )
         self._observer.finished(result)
         return result

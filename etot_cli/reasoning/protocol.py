@@ -35,6 +35,8 @@ class Branch:
 
 
 class Outcome(StrEnum):
+    """How an action went."""
+
     SUCCESS = "success"
     FAILURE = "failure"
     UNSAFE = "unsafe"

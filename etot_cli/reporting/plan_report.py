@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from dataclasses import asdict
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -10,6 +11,8 @@ from etot_cli.planning.result import SearchResult
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode
 from etot_cli.reasoning.protocol import Branch
+from etot_cli.reasoning.vlm.accounts import VlmAccount
+from etot_cli.reasoning.vlm.notes import NoteKind
 from etot_cli.reporting.models import (
     ActionModel,
     CauseModel,
@@ -111,8 +114,52 @@ class StatisticsModel(Model):
     wall_s: Seconds
     steps: Count
     """Physics steps, all worlds together."""
-    limit: Literal["max_nodes", "time_limit"] | None
-    """The bound that stopped the search."""
+    limit: Literal["max_nodes", "time_limit", "max_calls", "max_cost", "service"] | None
+    """The bound that stopped the search; service: what the reasoner needs is not there."""
+
+
+class VlmRoleModel(Model):
+    """What was asked of the model in one role, or in all."""
+
+    requests: Count
+    """Requests over the network, retries included."""
+    failed: Count
+    """Requests that brought no usable response."""
+    cached: Count
+    """Questions answered from a cassette or the cache."""
+    input_tokens: Count
+    output_tokens: Count
+    estimated: Count
+    """Requests whose tokens the server did not state."""
+    cost: Annotated[float, Field(ge=0.0)] | None
+    """US dollars; null when no price is known."""
+
+
+class VlmNoteModel(Model):
+    """Something that happened between the planner and the model."""
+
+    kind: NoteKind
+    role: str
+    """The prompt concerned."""
+    action: str
+    """The action concerned, or empty."""
+    text: str
+
+
+class VlmModel(Model):
+    """The vision-language model that reasoned."""
+
+    url: str
+    model: str
+    judge: Literal["state", "vlm", "both"]
+    replayed: bool
+    """Its answers came from a cassette."""
+    prompts: dict[str, str]
+    """Version of each prompt."""
+    total: VlmRoleModel
+    roles: dict[str, VlmRoleModel]
+    notes: list[VlmNoteModel]
+    """Repairs, dropped branches, diagnoses, disagreements and what settled them, in order."""
 
 
 class PlanReport(Report):
@@ -130,6 +177,10 @@ class PlanReport(Report):
     understood: UnderstoodModel
     tree: TreeModel
     statistics: StatisticsModel
+    stopped: str
+    """Why the reasoner could not go on, in a sentence; empty when it could."""
+    vlm: VlmModel | None
+    """Null unless a vision-language model reasoned."""
 
 
 def understood_model(goal_holds: bool, branches: tuple[Branch, ...]) -> UnderstoodModel:
@@ -187,6 +238,24 @@ def node_model(node: PlanNode) -> NodeModel:
 def tree_model(result: SearchResult) -> TreeModel:
     """The planning tree as it stands in reports."""
     return TreeModel(nodes=[node_model(node) for node in result.tree])
+
+
+def vlm_model(account: VlmAccount | None) -> VlmModel | None:
+    """What a model was asked, as it stands in reports."""
+    if account is None:
+        return None
+    return VlmModel.model_validate(
+        {
+            "url": account.url,
+            "model": account.model,
+            "judge": account.judge,
+            "replayed": account.replayed,
+            "prompts": dict(account.prompts),
+            "total": asdict(account.total),
+            "roles": {role: asdict(part) for role, part in account.roles.items()},
+            "notes": [asdict(note) for note in account.notes],
+        }
+    )
 
 
 def statistics_model(result: SearchResult) -> StatisticsModel:

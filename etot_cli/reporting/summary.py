@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from etot_cli.reporting.models import CauseModel
-from etot_cli.reporting.plan_report import NodeModel, PlanReport
+from etot_cli.reporting.plan_report import NodeModel, PlanReport, VlmModel
 from etot_cli.reporting.simulate_report import SimulateReport
 from etot_cli.reporting.style import LOOKS, Verbosity, badge, speaks_unicode
 
@@ -48,6 +48,8 @@ class Summary:
         by_id = {node.id: node for node in report.tree.nodes}
         self._steps([by_id[number] for number in report.plan_nodes])
         self._failures(report)
+        if report.stopped:
+            self._plain(f"  {report.stopped}")
         self._numbers(report)
         self._files(path, report.files)
 
@@ -138,8 +140,11 @@ class Summary:
             f"{cost.simulated_s:.1f} s simulated in {cost.wall_s:.1f} s"
         )
         if cost.limit is not None:
-            line += f"; stopped by --{cost.limit.replace('_', '-')}"
+            named = f"--{cost.limit.replace('_', '-')}"
+            line += f"; stopped by {'the service' if cost.limit == 'service' else named}"
         self._console.print(Text(line, style="dim"))
+        if report.vlm is not None:
+            self._model(report.vlm)
         survival = report.survival
         if survival is not None and survival.worlds > 1:
             low, high = survival.ci95
@@ -147,6 +152,16 @@ class Summary:
                 f"  holds in {survival.alive} of {survival.worlds} varied worlds: "
                 f"{survival.probability:.0%} (95 % interval {low:.0%} to {high:.0%})"
             )
+
+    def _model(self, vlm: VlmModel) -> None:
+        total = vlm.total
+        line = (
+            f"  {vlm.model}: {total.requests} requests, {total.cached} cached, "
+            f"{total.input_tokens} + {total.output_tokens} tokens"
+        )
+        if total.cost is not None and total.requests:
+            line += f", ${total.cost:.4f}"
+        self._console.print(Text(line, style="dim"))
 
     def _files(self, path: Path, files: dict[str, str]) -> None:
         for purpose, name in files.items():

@@ -11,9 +11,9 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, format_plan, parse_plan
+from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.world.state import (
     Cause,
     CauseKind,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.protocol import ReasonerStopped, StopReason
 from etot_cli.reasoning.vlm.chat import Usage
+from etot_cli.reasoning.vlm.notes import Note
 
 MILLION = 1e6
 
@@ -124,3 +125,17 @@ class Accounts:
                 cost,
             )
         return total
+
+
+@dataclass(frozen=True, slots=True)
+class VlmAccount:
+    """What a run asked a model, and what it cost. Free of secrets."""
+
+    url: str
+    model: str
+    judge: str
+    replayed: bool
+    prompts: Mapping[str, str]
+    total: RoleAccount
+    roles: Mapping[str, RoleAccount]
+    notes: tuple[Note, ...] = ()

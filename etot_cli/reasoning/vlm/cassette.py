@@ -71,9 +71,7 @@ class Cassette:
                 {
                     "speaker": turn.speaker,
                     "text": turn.text,
-                    "pictures": [
-                        {"caption": p.caption, "digest": p.digest} for p in turn.pictures
-                    ],
+                    "pictures": [{"caption": p.caption, "digest": p.digest} for p in turn.pictures],
                 }
                 for turn in question.turns
             ],
@@ -156,5 +154,5 @@ def _write(path: Path, content: bytes) -> None:
         os.replace(name, path)
     except BaseException:
         with contextlib.suppress(OSError):
-            os.unlink(name)
+            Path(name).unlink()
         raise

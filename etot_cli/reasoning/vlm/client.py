@@ -7,23 +7,22 @@ booked, cached and recorded. What no retry can mend becomes a :class:`ServiceErr
 from __future__ import annotations
 
 import json
+import os
 import random
 import threading
 import time
 from collections.abc import Callable
-from enum import IntEnum
 from pathlib import Path
-from typing import Any
 from urllib.parse import urlsplit, urlunsplit
 
 from etot_cli.errors import EtotError, ServiceError
 from etot_cli.reasoning.vlm.accounts import Accounts
 from etot_cli.reasoning.vlm.cassette import Cassette
-from etot_cli.reasoning.vlm.chat import Answer, Picture, Question, Trouble, Usage
+from etot_cli.reasoning.vlm.chat import Answer, Question, Usage
 from etot_cli.reasoning.vlm.envelope import Problem, Remedy, read_response
-from etot_cli.reasoning.vlm.images import SHRINK, SMALLEST_SIDE, data_url, encode, fit
 from etot_cli.reasoning.vlm.redact import Redactor, public_url
-from etot_cli.reasoning.vlm.settings import VlmSettings
+from etot_cli.reasoning.vlm.settings import DEFAULT_URL, VlmSettings
+from etot_cli.reasoning.vlm.terms import Rung, Terms
 from etot_cli.reasoning.vlm.wire import Wire, WireError
 
 MAX_BACKOFF_S = 30.0
@@ -32,14 +31,6 @@ MAX_ADAPTATIONS = 12
 CHARACTERS_PER_TOKEN = 4
 TOKENS_PER_PICTURE = 800
 """For estimates where the server states no usage; about a 768 px frame of GPT-4o."""
-
-
-class Rung(IntEnum):
-    """How a server is told the form of an answer, from the strictest on."""
-
-    SCHEMA = 0
-    JSON = 1
-    TEXT = 2
 
 
 class ChatClient:
@@ -52,6 +43,7 @@ class ChatClient:
 
     Raises:
         EtotError: the cassette to replay cannot be used.
+        ServiceError: the default endpoint is to be asked and there is no key.
     """
 
     def __init__(
@@ -70,12 +62,15 @@ class ChatClient:
         self._jitter = jitter or random.Random()
         self._wire: Wire | None = None
         self._lock = threading.Lock()
-        self._rung = Rung.SCHEMA
-        self._without: set[str] = set()
-        self._longest = settings.image_width
+        self._terms = Terms(settings)
         self._tape = self._cassette(settings.record)
         self._replay = self._cassette(settings.replay)
         self._cache = self._open_cache()
+        if self._replay is None and settings.key is None and settings.url == DEFAULT_URL:
+            raise ServiceError(
+                "there is no key: set OPENAI_API_KEY (or ETOT_VLM_KEY), or name a server of your "
+                "own with --vlm-url"
+            )
         if self._replay is not None and "model" not in settings.model_fields_set:
             models = self._replay.models()
             self.model = models[0] if len(models) == 1 else self.model
@@ -126,12 +121,14 @@ class ChatClient:
         give_up = time.monotonic() + self.settings.patience_s
         retries = adaptations = 0
         while True:
-            rung = self._rung
+            rung = self._terms.rung
             try:
                 answer = self._send(question, rung, give_up - time.monotonic())
             except Problem as problem:
                 self.accounts.failed(question.role)
-                if adaptations < MAX_ADAPTATIONS and self._adapt(problem, question, rung, retries):
+                if adaptations < MAX_ADAPTATIONS and self._terms.adapt(
+                    problem, question, rung, retries
+                ):
                     adaptations += 1
                     continue
                 wait = self._wait_before(problem, retries)
@@ -148,7 +145,9 @@ class ChatClient:
             return answer
 
     def _send(self, question: Question, rung: Rung, left_s: float) -> Answer:
-        body = json.dumps(self._payload(question, rung), ensure_ascii=False).encode()
+        body = json.dumps(
+            self._terms.payload(question, self.model, rung), ensure_ascii=False
+        ).encode()
         self.accounts.begin(question.role)
         # Tells requests apart in the server's log, and lets a server that plays a cassette find
         # the recorded answer.
@@ -168,37 +167,18 @@ class ChatClient:
                 settings = self.settings
                 headers = {"Content-Type": "application/json", "Accept": "application/json",
                            "User-Agent": "etot"}  # fmt: skip
+                url = self.url
                 if settings.key is not None:
                     key = settings.key.get_secret_value()
                     bearer = settings.key_header.lower() == "authorization"
                     headers[settings.key_header] = f"Bearer {key}" if bearer else key
+                    if bearer:
+                        url = _without_user(url)  # which would take the key's place
                 self._wire = Wire(
-                    self.url, headers, connect_s=settings.connect_timeout_s,
+                    url, headers, connect_s=settings.connect_timeout_s,
                     read_s=settings.read_timeout_s, concurrency=settings.concurrency,
                 )  # fmt: skip
             return self._wire
-
-    def _adapt(self, problem: Problem, question: Question, rung: Rung, retries: int) -> bool:
-        """Changes what is sent so that the server may take it; False when nothing is left."""
-        if problem.remedy is Remedy.SMALLER:
-            if not any(turn.pictures for turn in question.turns):
-                return False
-            self._longest = int(self._longest * SHRINK)
-            return self._longest >= SMALLEST_SIDE
-        if problem.remedy is Remedy.WITHOUT:
-            if problem.parameter == "response_format":
-                return self._step_down(question, rung)
-            fresh = problem.parameter not in self._without
-            self._without.add(problem.parameter)
-            return fresh
-        # Some servers fail on a schema instead of refusing it: try without before giving up.
-        return problem.status == 500 and retries >= 1 and self._step_down(question, rung)
-
-    def _step_down(self, question: Question, rung: Rung) -> bool:
-        if question.schema is None or rung is Rung.TEXT:
-            return False
-        self._rung = max(self._rung, Rung(rung + 1))
-        return True
 
     def _wait_before(self, problem: Problem, retries: int) -> float:
         if problem.wait_s is not None:
@@ -214,40 +194,6 @@ class ChatClient:
             text += f"; OPENAI_API_KEY (or ETOT_VLM_KEY) {state}"
         tries = f" after {retries + 1} attempts" if retries else ""
         return ServiceError(f"{where}: {text}{tries}{f', {why}' if why else ''}")
-
-    # -- what is sent --------------------------------------------------------------------------
-
-    def _payload(self, question: Question, rung: Rung) -> dict[str, Any]:
-        messages = []
-        for number, turn in enumerate(question.turns, 1):
-            text = turn.text
-            if number == len(question.turns) and rung is Rung.TEXT and question.schema is not None:
-                form = json.dumps(question.schema, ensure_ascii=False)
-                text += f"\n\nAnswer with one JSON object that follows this JSON Schema:\n{form}"
-            content: Any = text
-            if turn.pictures:
-                content = [{"type": "text", "text": text}]
-                for picture in turn.pictures:
-                    content.append({"type": "text", "text": picture.caption})
-                    content.append({"type": "image_url", "image_url": {"url": self._url(picture)}})
-            messages.append({"role": turn.speaker, "content": content})
-        payload: dict[str, Any] = {"model": self.model, "messages": messages}
-        if "max_tokens" not in self._without:
-            payload["max_tokens"] = self.settings.max_tokens
-        elif "max_completion_tokens" not in self._without:
-            payload["max_completion_tokens"] = self.settings.max_tokens
-        if self.settings.temperature is not None and "temperature" not in self._without:
-            payload["temperature"] = self.settings.temperature
-        if "seed" not in self._without:
-            payload["seed"] = question.seed
-        if question.schema is not None and rung is not Rung.TEXT:
-            payload["response_format"] = response_format(question, rung)
-        return payload
-
-    def _url(self, picture: Picture) -> str:
-        kind = self.settings.image_format
-        small = fit(picture.pixels, self._longest)
-        return data_url(encode(small, kind, self.settings.image_bytes), kind)
 
     def _estimate(self, question: Question, answer: Answer) -> Usage:
         sent = sum(
@@ -296,24 +242,12 @@ def completions_url(base: str) -> str:
     return urlunsplit((parts.scheme, parts.netloc, path, parts.query, ""))
 
 
-def response_format(question: Question, rung: Rung) -> dict[str, Any]:
-    """The request's field of that name."""
-    if rung is Rung.SCHEMA:
-        return {
-            "type": "json_schema",
-            "json_schema": {"name": question.role, "strict": True, "schema": question.schema},
-        }
-    return {"type": "json_object", "schema": question.schema}
+def _without_user(url: str) -> str:
+    parts = urlsplit(url)
+    return urlunsplit(parts._replace(netloc=parts.netloc.rpartition("@")[2]))
 
 
 def default_cache() -> Path:
     """The user's folder for cached answers."""
-    import os
-
     base = os.environ.get("XDG_CACHE_HOME", "")
     return (Path(base) if base else Path.home() / ".cache") / "etot" / "vlm"
-
-
-def needs_another_try(answer: Answer) -> bool:
-    """Whether asking again may bring a usable reply."""
-    return answer.trouble in (Trouble.CUT, Trouble.EMPTY, Trouble.REFUSAL)

@@ -160,10 +160,10 @@ def _usage(data: object) -> Usage:
         for value in counts
     )
     cost = data.get("cost")
-    usable = isinstance(cost, int | float) and not isinstance(cost, bool) and 0 <= cost < 1e6
     if sent is None and received is None:
         return Usage()
-    return Usage(sent or 0, received or 0, float(cost) if usable else None, stated=True)
+    known = isinstance(cost, int | float) and not isinstance(cost, bool) and 0 <= cost < 1e6
+    return Usage(sent or 0, received or 0, float(str(cost)) if known else None, stated=True)
 
 
 def _problem(response: Response, data: object, redact: Redactor) -> Problem:

@@ -11,8 +11,11 @@ from urllib.parse import quote, urlsplit, urlunsplit
 MASK = "[redacted]"
 SHORTEST_SECRET = 4
 """Shorter strings occur by chance; masking them would destroy ordinary text."""
-_BEARER = re.compile(r"(?i)\b(bearer|api-key|authorization)(\s*[:=]?\s+)([A-Za-z0-9._~+/=-]{8,})")
-_KEY_SHAPED = re.compile(r"\b(?:sk|key|pk)-[A-Za-z0-9_*.-]{8,}")
+# Keys have digits; words that merely follow "authorization" do not.
+_BEARER = re.compile(
+    r"(?i)\b(bearer|api-key|authorization)(\s*[:=]?\s+)(?=\S*\d)([A-Za-z0-9._~+/=-]{8,})"
+)
+_KEY_SHAPED = re.compile(r"\b(?:sk|key|pk)-(?=\S*\d)[A-Za-z0-9_*.-]{8,}")
 
 
 class Redactor:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
-from urllib.parse import urlsplit
+from urllib.parse import unquote, urlsplit
 
 from pydantic import AliasChoices, Field, SecretStr, ValidationError, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
@@ -145,7 +145,9 @@ class VlmSettings(BaseSettings):
         found = [] if self.key is None else [self.key.get_secret_value()]
         parts = urlsplit(self.url)
         if parts.password:
-            found.append(parts.password)
+            password = unquote(parts.password)
+            # The pair too: in base64 it stands in the header that is made of it.
+            found += [parts.password, password, f"{unquote(parts.username or '')}:{password}"]
         return tuple(found)
 
     def prices(self) -> tuple[float, float] | None:

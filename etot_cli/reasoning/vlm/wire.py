@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import concurrent.futures
+import contextlib
 import threading
 from collections.abc import Coroutine, Mapping
 from dataclasses import dataclass
@@ -100,10 +101,8 @@ class Wire:
         """Ends everything that is under way; idempotent."""
         if self._loop.is_closed():
             return
-        try:
+        with contextlib.suppress(Exception):  # it is being thrown away
             self._run(self._client.aclose(), GRACE_S)
-        except Exception:  # noqa: S110 - it is being thrown away
-            pass
         self._stop()
 
     def _run(self, work: Coroutine[Any, Any, Result], limit_s: float) -> Result:

@@ -1,0 +1,105 @@
+"""The command ``etot reconstruct``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from etot_cli.cli.exits import NO, OK
+from etot_cli.cli.options import Json, Out, Quiet, Seed, Verbose
+
+
+def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
+    """``NAME=VALUE`` options as a mapping."""
+    found = {}
+    for item in items or []:
+        name, separator, value = item.partition("=")
+        if not separator or not name or not value:
+            raise typer.BadParameter(f"{flag} {item!r}: expected NAME=VALUE")
+        found[name] = value
+    return found
+
+
+def reconstruct(
+    capture: Annotated[Path, typer.Argument(metavar="CAPTURE_DIR", help="The capture folder.")],
+    instruction: Annotated[
+        str | None,
+        typer.Option("--instruction", metavar="TEXT", help="Names the objects; writes a task."),
+    ] = None,
+    auto_masks: Annotated[
+        bool, typer.Option("--auto-masks", help="Find masks even where the capture has some.")
+    ] = False,
+    second: Annotated[
+        Path | None,
+        typer.Option("--second", metavar="DIR", help="The scene with another joint state."),
+    ] = None,
+    mesh: Annotated[
+        list[str] | None, typer.Option("--mesh", metavar="NAME=FILE", help="A known mesh.")
+    ] = None,
+    material: Annotated[
+        list[str] | None,
+        typer.Option("--material", metavar="NAME=MATERIAL", help="What an object is made of."),
+    ] = None,
+    masks_url: Annotated[str | None, typer.Option("--masks-url", metavar="URL")] = None,
+    mesh_url: Annotated[str | None, typer.Option("--mesh-url", metavar="URL")] = None,
+    pose_url: Annotated[str | None, typer.Option("--pose-url", metavar="URL")] = None,
+    articulation_url: Annotated[
+        str | None, typer.Option("--articulation-url", metavar="URL")
+    ] = None,
+    out: Out = None,
+    seed: Seed = 0,
+    json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> int:
+    """Turn one RGB-D frame into a scene that etot plan uses.
+
+    Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
+    unusable; 3: a server is not there.
+    """
+    from etot_cli.commands.reconstruct import run_reconstruct
+    from etot_cli.reconstruction.pipeline import Options
+    from etot_cli.reporting.files import REPORT_NAME, output_folder, write_atomically
+
+    if quiet and verbose:
+        raise typer.BadParameter("-q and -v exclude each other")
+    folder = output_folder("reconstruct", capture.resolve().name, out)
+    options = Options(
+        capture=capture, instruction=instruction, auto=auto_masks, second=second,
+        materials=_pairs(material, "--material"),
+        meshes={name: Path(file) for name, file in _pairs(mesh, "--mesh").items()},
+        masks_url=masks_url, mesh_url=mesh_url, pose_url=pose_url,
+        articulation_url=articulation_url, seed=seed,
+    )  # fmt: skip
+    report = run_reconstruct(options, folder)
+    text = report.model_dump_json(indent=2) + "\n"
+    write_atomically(folder / REPORT_NAME, text)
+    if json:
+        sys.stdout.buffer.write(text.encode())
+        sys.stdout.buffer.flush()
+    else:
+        _show(report, folder, quiet=quiet, verbose=verbose)
+    return OK if report.status == "success" else NO
+
+
+def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
+    from etot_cli.reporting.reconstruct_report import ReconstructReport
+
+    assert isinstance(report, ReconstructReport)  # imported late: --help stays quick
+    print(f"{report.status}: {len(report.objects)} objects, {folder / (report.scene or '')}")
+    if quiet:
+        return
+    for item in report.objects:
+        x, y, _ = item.position
+        size = " × ".join(f"{1000 * side:.0f}" for side in item.size)
+        print(f"  {item.name}: {item.kind}, {size} mm, at ({x:.3f}, {y:.3f}) on {item.support}; "
+              f"{100 * item.fit.explained:.0f} % explained")  # fmt: skip
+        for warning in item.warnings if verbose else item.warnings[:2]:
+            print(f"    note: {warning}")
+    for warning in report.warnings:
+        print(f"  note: {warning}")
+    if report.task:
+        print(f"  etot plan {folder / report.task}")

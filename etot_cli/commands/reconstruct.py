@@ -1,0 +1,173 @@
+"""``etot reconstruct``: a capture becomes a scene, a task, meshes, MJCF, an overlay, a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import cv2
+import mujoco
+import numpy as np
+import yaml
+
+from etot_cli.errors import EtotError, SpecError
+from etot_cli.reconstruction import assembly
+from etot_cli.reconstruction.exports import free_form_mesh, object_mesh, write_mjcf
+from etot_cli.reconstruction.naming import color_of
+from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.overlay import draw_overlay
+from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct, settle_twin
+from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.reporting.reconstruct_report import (
+    FitModel,
+    JointModel,
+    PiecesModel,
+    ReconstructedObjectModel,
+    ReconstructReport,
+)
+from etot_cli.specs.load import load_scene
+from etot_cli.world.build.imported import convex_pieces
+from etot_cli.world.model import build_world
+from etot_cli.world.placing import place_objects
+
+SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
+
+
+def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
+    """Reconstructs a capture and writes everything but the report into ``folder``.
+
+    Raises:
+        EtotError: the capture is unusable, a server is missing, or the folder cannot be written.
+    """
+    watch = Stopwatch()
+    with watch.phase("reconstruct"):
+        twin = reconstruct(options)
+    with watch.phase("write"):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            files, pieces = _write(twin, options, folder)
+        except OSError as error:
+            raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
+    usable = SCENE if "scene" in files else None
+    still = all(
+        rest.moved * 1000 <= assembly.SETTLE_MM and rest.turned <= assembly.SETTLE_DEG
+        for rest in twin.settled.values()
+    )
+    whole = usable is not None and bool(twin.settled) and still
+    return ReconstructReport.model_validate(
+        {
+            "status": "success" if whole else "partial",
+            "seed": options.seed,
+            "interrupted": False,
+            "versions": versions(),
+            "timing": watch.timing(),
+            "capture": str(options.capture),
+            "instruction": options.instruction,
+            "desk_top": twin.seen.desk_top,
+            "tilt_deg": twin.seen.tilt_deg,
+            "depth_shift_px": twin.seen.shift,
+            "objects": [_object(twin, solid) for solid in twin.solids],
+            "joints": [
+                JointModel(
+                    object=joint.owner, type="slide" if joint.type == "slide" else "hinge",
+                    axis=_three(joint.axis), anchor=_three(joint.anchor), values=joint.values,
+                )
+                for joint in twin.joints
+            ],
+            "pieces": pieces,
+            "scene": usable,
+            "task": files.get("task"),
+            "warnings": twin.warnings,
+            "files": files,
+            "stages": {name: round(max(value, 0.0), 4) for name, value in twin.timing.items()},
+        }
+    )  # fmt: skip
+
+
+def _three(values: Any) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
+    half = solid.yaw / 2 if solid.kind not in assembly.ROUND else 0.0
+    rest = twin.settled.get(solid.name)
+    return ReconstructedObjectModel(
+        name=solid.name,
+        kind=solid.kind,
+        position=_three(solid.center),
+        quaternion=(float(np.cos(half)), 0.0, 0.0, float(np.sin(half))),
+        size=solid.size,
+        support=solid.support,
+        fit=FitModel(
+            residual_m=solid.fit.depth_rms,
+            silhouette_px=solid.fit.edge_rms,
+            explained=solid.fit.explained,
+        ),
+        settle_m=None if rest is None else rest.moved,
+        settle_deg=None if rest is None else rest.turned,
+        warnings=list(solid.warnings),
+    )
+
+
+def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], list[PiecesModel]]:
+    """Writes the files; returns them by purpose, and the collision pieces of free forms."""
+    files: dict[str, str] = {}
+    meshes = folder / MESHES
+    meshes.mkdir(exist_ok=True)
+    pieces = []
+    color = twin.seen.capture.color
+    for solid in twin.solids:
+        if solid.kind != "mesh":
+            continue
+        mesh = free_form_mesh(solid, color_of(color, solid.segment.mask))
+        mesh.export(meshes / f"{solid.name}.obj")
+        twin.document["objects"][solid.name].update(file=f"{MESHES}/{solid.name}.obj", scale=1.0)
+        vertices = np.asarray(mesh.vertices)
+        middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+        parts = convex_pieces(vertices - middle, np.asarray(mesh.faces))
+        import trimesh
+
+        volume = sum(trimesh.convex.convex_hull(part).volume for part in parts)
+        error = volume / max(float(mesh.volume), 1e-12) - 1
+        pieces.append(PiecesModel(object=solid.name, count=len(parts), volume_error=error))
+    notes = twin.warnings + [f"{s.name}: {text}" for s in twin.solids for text in s.warnings]
+    write_atomically(folder / SCENE, assembly.scene_text(twin.document, notes))
+    files["scene"] = SCENE
+    try:
+        load_scene(folder / SCENE)
+    except SpecError as error:
+        twin.warnings.append(f"etot plan will not take this scene as it is: {error}")
+    if options.settle and not twin.settled:
+        settle_twin(twin, folder)
+    if options.instruction:
+        write_atomically(folder / TASK, _task_text(twin, options.instruction))
+        files["task"] = TASK
+    if not cv2.imwrite(str(folder / OVERLAY), draw_overlay(color, twin.solids, twin.seen.view)):
+        raise EtotError(f"cannot write {folder / OVERLAY}")
+    files["overlay"] = OVERLAY
+    if twin.scene is not None:
+        world = build_world(twin.scene.model_copy(update={"directory": str(folder.resolve())}))
+        data = mujoco.MjData(world.model)
+        place_objects(world, data)
+        for solid in twin.solids:
+            mesh = object_mesh(world, data, solid.name, color_of(color, solid.segment.mask))
+            mesh.export(meshes / f"{solid.name}.glb")
+        write_mjcf(world, data, folder / MJCF)
+        files["mjcf"], files["meshes"] = MJCF, MESHES
+    return files, pieces
+
+
+def _task_text(twin: Twin, instruction: str) -> str:
+    """A task file: the instruction and the scene. Success is not known; nothing may be lost."""
+    document = {
+        "instruction": instruction,
+        "scene": SCENE,
+        "success": [
+            {"present": name} for name, entry in twin.document["objects"].items()
+            if entry["kind"] not in assembly.FURNITURE
+        ] or [{"present": next(iter(twin.document["objects"]))}],
+    }  # fmt: skip
+    head = "# Made by etot reconstruct. 'success' only says that nothing may be lost: add yours.\n"
+    return head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True)

@@ -1,0 +1,129 @@
+"""A scene and what happened in it, in words for a model. Coarse numbers only: they enter keys."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from etot_cli.skills.action import Action
+from etot_cli.world.state import DESK, ObjectInfo, RolloutRecord, SceneState
+
+MAX_EVENTS = 8
+NOTABLE_FORCE = 0.1
+"""Contacts with less force tell nothing [N]."""
+AT_START_S = 0.05
+"""What touches earlier has touched since before the action [s]."""
+NOTABLE_WAY = 0.02
+"""Objects displaced by less have stayed [m]."""
+
+
+def object_list(scene: SceneState) -> str:
+    """All names that actions may use, in one line."""
+    names = []
+    for info in scene.infos.values():
+        names.append(info.name)
+        if len(info.parts) > 1:
+            names += [part.address for part in info.parts]
+    return ", ".join([*names, DESK])
+
+
+def catalogue(scene: SceneState) -> str:
+    """One line per object: name, what people call it, size, what it affords."""
+    lines = [f"- {_entry(info)}" for info in scene.infos.values()]
+    return "\n".join([*lines, f"- {DESK}: the table top, a surface"])
+
+
+def _entry(info: ObjectInfo) -> str:
+    facts = []
+    plain = info.name.replace("_", " ").lower()
+    if info.label != plain:
+        facts.append(info.label)
+    if info.color is not None and info.color not in plain and info.color not in info.label:
+        facts.append(info.color)
+    sides = " × ".join(f"{side * 100:.0f}" for side in info.size)
+    facts.append(f"{sides} cm")
+    if not info.movable:
+        facts.append("fixed")
+    if info.container:
+        facts.append("a container")
+    if info.surface and not info.movable:
+        facts.append("its top is a surface")
+    for part in info.parts:
+        what = "drawer" if part.joint_type == "slide" else "door"
+        facts.append(f"has a {what} ({part.address})")
+    return f"{info.name}: {', '.join(facts)}"
+
+
+def states(scene: SceneState, name: str) -> str:
+    """One object's state, such as ``on desk`` or ``inside cup, toppled``."""
+    state, info = scene.states[name], scene.infos[name]
+    found = []
+    if state.lost:
+        found.append("lost")
+    elif state.in_hand:
+        found.append("in hand")
+    elif state.inside is not None:
+        found.append(f"inside {state.inside}")
+    elif state.on:
+        found.append(f"on {' and '.join(state.on)}")
+    if state.toppled:
+        found.append("toppled")
+    if not state.reachable and not state.lost and info.movable:
+        found.append("out of reach")
+    for part in info.parts:
+        share = scene.openness(part)
+        if state.opened.get(part.name):
+            word = "open"
+        else:
+            word = "closed" if share <= 0.06 else "ajar" if share < 0.4 else "half open"
+        found.append(word if len(info.parts) == 1 else f"{part.name} {word}")
+    return ", ".join(found) or "nowhere in particular"
+
+
+def relations(scene: SceneState) -> str:
+    """One line per object with its state."""
+    lines = [f"- {name}: {states(scene, name)}" for name in scene.states]
+    lines.append(f"- the hand: {'holds ' + scene.holding if scene.holding else 'empty'}")
+    return "\n".join(lines)
+
+
+def changes(record: RolloutRecord) -> str:
+    """What is different after an action, one line per object."""
+    lines = []
+    for name in record.before.states:
+        before, after = states(record.before, name), states(record.after, name)
+        if before != after:
+            lines.append(f"- {name}: {before} → {after}")
+        elif record.displacement.get(name, 0.0) > NOTABLE_WAY:
+            lines.append(f"- {name}: moved by {record.displacement[name] * 100:.0f} cm, {after}")
+    return "\n".join(lines) or "- nothing"
+
+
+def events(record: RolloutRecord) -> str:
+    """The contacts that matter, in order of time; empty without any."""
+    lines = [
+        f"- {event.time_s:.1f} s: {event.first} touches {event.second}"
+        for event in record.contacts
+        if event.time_s >= AT_START_S
+        and event.peak_force >= NOTABLE_FORCE
+        and {event.first, event.second} - {DESK, "robot"}
+    ]
+    if not lines:
+        return ""
+    return "What touched what:\n" + "\n".join(lines[:MAX_EVENTS])
+
+
+def numbered(actions: Sequence[Action]) -> str:
+    """A plan, one step per line."""
+    return "\n".join(f"{i}. {written(action)}" for i, action in enumerate(actions, 1))
+
+
+def written(action: Action) -> str:
+    """An action with its note."""
+    return f"{action} (safe place)" if action.safe else str(action)
+
+
+def marks_line(marks: Mapping[int, str]) -> str:
+    """What the numbered marks in the picture stand for; empty without marks."""
+    if not marks:
+        return ""
+    return "Marks in the picture: " + ", ".join(f"{n} = {name}" for n, name in marks.items())

@@ -1,0 +1,242 @@
+"""The paper's roles, played by a vision-language model.
+
+The model proposes, compares and diagnoses; code reads, resolves and checks everything it says. In
+simulation the world's exact state has the last word on success and harm unless asked otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    FailedStep,
+    Reasoner,
+    ReasonerStopped,
+    StopReason,
+    Verdict,
+)
+from etot_cli.reasoning.vlm import describe, schemas
+from etot_cli.reasoning.vlm.asking import Asker, Reading
+from etot_cli.reasoning.vlm.chat import Picture
+from etot_cli.reasoning.vlm.comparing import settle, verdict_of
+from etot_cli.reasoning.vlm.frames import FrameSource
+from etot_cli.reasoning.vlm.grounding import ground
+from etot_cli.reasoning.vlm.notes import NoteKind
+from etot_cli.reasoning.vlm.probe import check_sight
+from etot_cli.reasoning.vlm.reading.names import Names
+from etot_cli.reasoning.vlm.reading.plans import read_plans
+from etot_cli.reasoning.vlm.reading.states import ReadComparison, read_comparison, read_scene
+from etot_cli.reasoning.vlm.reflecting import Reflection
+from etot_cli.reasoning.vlm.settings import Judge
+from etot_cli.skills.action import Action
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import RolloutRecord, SceneState
+
+MAX_BRANCHES = 16
+"""More proposals than this are not branching but guessing; the first ones are kept."""
+
+
+class VlmReasoner:
+    """Implements :class:`~etot_cli.reasoning.protocol.Reasoner`.
+
+    Args:
+        asker: puts questions to the model.
+        frames: pictures; None plans from words alone.
+        judge: who decides whether an action succeeded.
+        state: judges by the world's exact state; None where there is none, as on a real robot, and
+            then the model judges alone.
+        marks: number the objects in the first picture.
+        probe: before the first question, find out whether the model sees pictures at all.
+    """
+
+    def __init__(
+        self,
+        asker: Asker,
+        *,
+        frames: FrameSource | None,
+        judge: Judge = "both",
+        state: Reasoner | None = None,
+        marks: bool = False,
+        probe: bool = False,
+    ) -> None:
+        self._asker = asker
+        self._frames = frames if asker.pictures else None
+        self._judge: Judge = judge if state is not None else "vlm"
+        self._state = state
+        self._marks = marks
+        self._probe = probe and self._frames is not None
+        self._instruction = ""
+        self._reflection = Reflection(asker, self._frames)
+
+    # -- priori branching ----------------------------------------------------------------------
+
+    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
+        """Scene parsing, task understanding, and all candidate branches that are well formed.
+
+        Raises:
+            ReasonerStopped: no usable branch came, a limit was reached, or the service is gone.
+        """
+        self._instruction = instruction_of(assignment)
+        if self._probe:
+            check_sight(self._asker)
+            self._probe = False
+        marks = {}
+        pictures = []
+        if self._frames is not None:
+            marks = dict(self._frames.marks(scene)) if self._marks else {}
+            pictures = list(self._frames.view(scene, marks=self._marks))
+        names = Names.of_scene(scene, marks)
+        values = {
+            "instruction": self._instruction,
+            "objects": describe.object_list(scene),
+            "catalogue": describe.catalogue(scene),
+            "relations": describe.relations(scene),
+            "marks": describe.marks_line(marks),
+        }
+
+        def read_parse(reply: str) -> Reading[str]:
+            seen = read_scene(reply, names)
+            return Reading(seen.understanding or None)
+
+        understanding = self._asker.ask("scene", values, pictures, schemas.SCENE, read_parse)
+        values["understanding"] = understanding or "(nothing was said)"
+        proposals = _Proposals(scene, names)
+        self._asker.ask("branches", values, pictures, schemas.BRANCHES, proposals.read,
+                        objects=values["objects"])  # fmt: skip
+        if proposals.branches:
+            return list(proposals.branches.values())[:MAX_BRANCHES]
+        if proposals.goal_holds:
+            return []
+        raise ReasonerStopped(
+            StopReason.NO_ANSWER, "the model proposed no plan that is well formed in this scene"
+        )
+
+    # -- judging -------------------------------------------------------------------------------
+
+    def judge(self, action: Action, record: RolloutRecord) -> Verdict:
+        """Compares all objects before and after, by state, by picture, or by both.
+
+        In varied worlds, of which there are no pictures, the state decides alone.
+
+        Raises:
+            ReasonerStopped: a limit was reached, or the service is gone.
+        """
+        by_state = None if self._state is None else self._state.judge(action, record)
+        if self._judge == "state" and by_state is not None:
+            return by_state
+        pictures = [] if self._frames is None else list(self._frames.rollout(record, 2))
+        if not pictures and self._frames is not None and by_state is not None:
+            return by_state
+        seen = self._compare(action, record, pictures)
+        if by_state is None:
+            return verdict_of(seen, action, record)
+        seen, settled = settle(seen, record, by_state)
+        for text in settled:
+            self._asker.notes.add(NoteKind.SETTLED, "compare", text, action)
+        by_model = verdict_of(seen, action, record)
+        if by_model.outcome is not by_state.outcome:
+            cause = "" if by_state.cause is None else f" ({by_state.cause.text})"
+            self._asker.notes.add(
+                NoteKind.DISAGREEMENT,
+                "compare",
+                f"the world's state says {by_state.outcome.value}{cause}, the model says "
+                f"{by_model.outcome.value}: {seen.explanation or 'without a reason'}",
+                action,
+            )
+        return by_model if self._judge == "vlm" else by_state
+
+    def _compare(
+        self, action: Action, record: RolloutRecord, pictures: Sequence[Picture]
+    ) -> ReadComparison:
+        names = Names.of_scene(record.after)
+        values = {
+            "action": describe.written(action),
+            "instruction": self._instruction,
+            "objects": describe.object_list(record.after),
+            # Without pictures, words have to do.
+            "events": "" if pictures else (
+                f"What changed:\n{describe.changes(record)}\n{describe.events(record)}"
+            ),
+        }  # fmt: skip
+
+        def read(reply: str) -> Reading[ReadComparison]:
+            seen = read_comparison(reply, names)
+            if seen.outcome is None and not seen.after:
+                return Reading(None, ("it does not say how the objects are after the action",))
+            return Reading(seen)
+
+        found = self._asker.ask("compare", values, pictures, schemas.COMPARISON, read,
+                                action=action, objects=values["objects"])  # fmt: skip
+        return found or ReadComparison({}, {})
+
+    # -- reflective branching ------------------------------------------------------------------
+
+    def reflect(self, failed: FailedStep) -> Branch | None:
+        """The model's revision, when it is well formed, keeps the purpose and leans on no trick.
+
+        Raises:
+            ReasonerStopped: a limit was reached, or the service is gone.
+        """
+        return self._reflection.revise(failed, self._instruction)
+
+
+class _Proposals:
+    """Collects well-formed branches over several replies."""
+
+    def __init__(self, scene: SceneState, names: Names) -> None:
+        self._scene = scene
+        self._names = names
+        self._claimed = False
+        self.branches: dict[tuple[Action, ...], Branch] = {}
+        self.goal_holds = False
+
+    def read(self, reply: str) -> Reading[int]:
+        """Takes what is usable of a reply; its value is how many branches there are."""
+        found = read_plans(reply)
+        reasons = list(found.problems)
+        for number, plan in enumerate(found.plans, 1):
+            grounded = ground(plan, self._scene, self._names)
+            if grounded.actions:
+                self.branches.setdefault(
+                    grounded.actions, Branch(grounded.actions, plan.reason[:200])
+                )
+            reasons += [f"branch {number}: {reason}" for reason in grounded.reasons]
+        if found.goal_holds and not found.plans and not self.branches:
+            # Doing nothing is the one plan that no simulation can refute: it is asked twice.
+            self.goal_holds, self._claimed = self._claimed, True
+            if not self.goal_holds:
+                reasons.append(
+                    "you say that nothing is to be done; check the arrangement again and, if so, "
+                    "give the same answer once more"
+                )
+        elif not self.branches and not reasons:
+            reasons.append("there are no branches in it")
+        return Reading(len(self.branches) or None, tuple(reasons))
+
+
+def instruction_of(assignment: Assignment) -> str:
+    """The task in words; a formal goal is written out."""
+    if assignment.goal is None:
+        return assignment.instruction
+    return "Reach this state: " + "; ".join(_condition(item) for item in assignment.goal)
+
+
+def _condition(condition: Condition) -> str:
+    """A condition in words."""
+    if condition.any is not None:
+        return " or ".join(f"({_condition(part)})" for part in condition.any)
+    if condition.all is not None:
+        return " and ".join(f"({_condition(part)})" for part in condition.all)
+    if condition.not_ is not None:
+        return f"not ({_condition(condition.not_)})"
+    for relation in ("on", "inside"):
+        pair = getattr(condition, relation)
+        if pair is not None:
+            return f"{pair[0]} {relation} {pair[1]}"
+    for state in ("in_hand", "open", "closed", "upright", "present"):
+        name = getattr(condition, state)
+        if name is not None:
+            return f"{name} {state.replace('_', ' ')}"
+    return "anything"

@@ -1,0 +1,171 @@
+"""Frames of the planner's own world, rendered from what the simulator recorded."""
+
+from __future__ import annotations
+
+import hashlib
+from concurrent.futures import Future
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.reasoning.vlm.chat import KEY_LENGTH, Picture
+from etot_cli.reasoning.vlm.frames import SMALLEST_MARKED, draw_marks, moments
+from etot_cli.skills.action import Action
+from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
+from etot_cli.specs.scene import Scene
+from etot_cli.world.model import build_world
+from etot_cli.world.recorder import Trajectory
+from etot_cli.world.render import WorldRenderer, first_camera
+from etot_cli.world.state import RolloutRecord, SceneState
+
+DIGEST_DECIMALS = 2
+"""Configurations that differ by less show the same picture [m or rad]."""
+
+
+class RenderedFrames:
+    """Implements :class:`~etot_cli.reasoning.vlm.frames.FrameSource` for the nominal world.
+
+    Args:
+        scene: the scene that is planned in.
+        width: longest side of a picture [px].
+        camera: of the scene; None for its first.
+
+    Raises:
+        ServiceError: there is no OpenGL.
+        WorldError: the scene cannot be built or has no such camera.
+    """
+
+    def __init__(self, scene: Scene, width: int, camera: str | None = None) -> None:
+        self._scene = scene
+        self._world = build_world(scene)
+        self._camera = camera or first_camera(scene)
+        self._renderer = WorldRenderer(self._world, self._camera, width, width)
+        self._outcomes: dict[int, WorldOutcome] = {}
+        look = scene.model_dump_json(exclude={"directory", "name", "description"})
+        self._base = hashlib.sha256(f"{self._camera}/{width}/{look}".encode()).digest()
+
+    def close(self) -> None:
+        """Frees the graphics context; idempotent."""
+        self._renderer.close()
+
+    def watch(self, simulator: Simulator) -> Simulator:
+        """The same simulator; what it simulates can be looked at afterwards."""
+        return _Watched(simulator, self)
+
+    def remember(self, outcome: WorldOutcome) -> None:
+        """Makes an action of the nominal world available to :meth:`rollout`."""
+        # By identity: records hold mappings, and equal records show the same thing anyway. The
+        # outcome is kept, so that its id stays its own.
+        self._outcomes[id(outcome.record)] = outcome
+
+    def view(self, scene: SceneState, *, marks: bool = False) -> list[Picture]:
+        """The desk in a scene state, the arm at rest."""
+        qpos = self._configuration(scene)
+        pixels = self._renderer.frame(qpos)
+        if marks:
+            numbers = {name: number for number, name in self.marks(scene).items()}
+            pixels = draw_marks(pixels, self._renderer.visible_pixels(qpos), numbers)
+        caption = "The desk now" + (", with numbered marks" if marks else "")
+        return [Picture(f"{caption}:", pixels, self._digest(qpos, "marks" if marks else ""))]
+
+    def marks(self, scene: SceneState) -> dict[int, str]:
+        """Numbers from 1 for the objects that can be seen, in scene order."""
+        masks = self._renderer.visible_pixels(self._configuration(scene))
+        seen = [name for name in scene.states if name in masks
+                and int(masks[name].sum()) >= SMALLEST_MARKED]  # fmt: skip
+        return dict(enumerate(seen, 1))
+
+    def rollout(self, record: RolloutRecord, count: int) -> list[Picture]:
+        """Before, key moments, after; empty for an action of another world."""
+        outcome = self._outcomes.get(id(record))
+        if outcome is None or count <= 0:
+            return []
+        trajectory = outcome.trajectory
+        if not isinstance(trajectory, Trajectory) or not len(trajectory.times):
+            return [self.view(record.before)[0]]
+        times = trajectory.times - trajectory.times[0]
+        rows = [(0, "Before the action")]
+        inner = moments(record, trajectory.key_times, float(times[-1]), max(count - 2, 0))
+        for time, what in inner:
+            rows.append((int(np.argmin(np.abs(times - time))), f"After {time:.1f} s, {what}"))
+        if len(times) > 1 and count > 1:
+            rows.append((len(times) - 1, "After the action"))
+        return [
+            Picture(f"{what}:", self._renderer.frame(trajectory.qpos[row]),
+                    self._digest(trajectory.qpos[row], ""))
+            for row, what in rows
+        ]  # fmt: skip
+
+    def _digest(self, qpos: NDArray[np.floating], extra: str) -> str:
+        rounded = np.round(np.asarray(qpos, dtype=np.float64), DIGEST_DECIMALS) + 0.0
+        content = self._base + rounded.tobytes() + extra.encode()
+        return hashlib.sha256(content).hexdigest()[:KEY_LENGTH]
+
+    def _configuration(self, scene: SceneState) -> NDArray[np.float64]:
+        """The configuration (nq,) of a scene state, the arm at rest and the hand open."""
+        world = self._world
+        data = mujoco.MjData(world.model)
+        data.qpos[world.robot.qpos] = world.robot.spec.home
+        data.qpos[world.robot.finger_qpos] = world.robot.spec.gripper.opening / 2
+        for name, state in scene.states.items():
+            entry = world.entries[name]
+            if entry.free:
+                data.joint(name).qpos[:] = [*state.position, *state.quaternion]
+            for part in entry.parts:
+                share = state.openness[part.info.name]
+                data.joint(part.joint).qpos[0] = part.lower + share * (part.upper - part.lower)
+        return np.array(data.qpos)
+
+
+class _Watched:
+    """A simulator that shows every nominal outcome to a renderer."""
+
+    def __init__(self, simulator: Simulator, frames: RenderedFrames) -> None:
+        self._simulator = simulator
+        self._frames = frames
+
+    @property
+    def jobs(self) -> int:
+        """As the simulator's."""
+        return self._simulator.jobs
+
+    @property
+    def world_count(self) -> int:
+        """As the simulator's."""
+        return self._simulator.world_count
+
+    def start(self) -> tuple[StateToken, SceneState]:
+        """As the simulator's."""
+        return self._simulator.start()
+
+    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+        """As the simulator's; the outcome can be looked at once it is there."""
+        inner = self._simulator.submit(state, action)
+        # A future of our own: whoever waits for it finds the outcome already remembered.
+        outer: Future[Simulated] = Future()
+
+        def arrived(done: Future[Simulated]) -> None:
+            if done.cancelled():
+                outer.cancel()
+            if not outer.set_running_or_notify_cancel():
+                return
+            error = done.exception()
+            if error is not None:
+                outer.set_exception(error)
+                return
+            simulated = done.result()
+            self._frames.remember(simulated.outcomes[0])
+            outer.set_result(simulated)
+
+        def abandoned(done: Future[Simulated]) -> None:
+            if done.cancelled():
+                inner.cancel()
+
+        outer.add_done_callback(abandoned)
+        inner.add_done_callback(arrived)
+        return outer
+
+    def close(self) -> None:
+        """As the simulator's."""
+        self._simulator.close()

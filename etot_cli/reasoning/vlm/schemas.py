@@ -1,0 +1,47 @@
+"""JSON Schemas of the answers, in the subset that strict servers accept: everything required."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.skills.action import Verb
+
+
+def _object(**fields: Any) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": fields,
+        "required": list(fields),
+        "additionalProperties": False,
+    }
+
+
+def _list(items: Any) -> dict[str, Any]:
+    return {"type": "array", "items": items}
+
+
+def _one_of(*values: str) -> dict[str, Any]:
+    return {"type": "string", "enum": list(values)}
+
+
+_TEXT: dict[str, Any] = {"type": "string"}
+_STEP = _object(
+    action=_one_of(*(verb.value for verb in Verb)),
+    object=_TEXT,
+    pose=_one_of("any", "horizontal", "vertical"),
+    note=_TEXT,
+)
+_STATES = _list(_object(object=_TEXT, state=_TEXT))
+
+SCENE = _object(objects=_STATES, understanding=_TEXT)
+BRANCHES = _object(
+    goal_holds={"type": "boolean"}, branches=_list(_object(reason=_TEXT, steps=_list(_STEP)))
+)
+COMPARISON = _object(
+    before=_STATES,
+    after=_STATES,
+    outcome=_one_of("success", "failure", "unsafe", "unsure"),
+    explanation=_TEXT,
+)
+REVISION = _object(diagnosis=_TEXT, steps=_list(_STEP))
+VERDICT = _object(verdict=_one_of("yes", "no"))

@@ -1,0 +1,92 @@
+"""The report of ``etot reconstruct``: schema ``etot.reconstruct/1``."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from etot_cli.reporting.models import Metres, Model, Seconds, Share, TimingModel, VersionsModel
+
+
+class FitModel(Model):
+    """How well an object explains what is seen of it."""
+
+    residual_m: float = Field(ge=0)
+    """Root mean square distance of depth readings from its surface [m]."""
+    silhouette_px: float = Field(ge=0)
+    """Root mean square distance of its mask's edge from its outline [px]."""
+    explained: Share
+    """Share of edge and surface points within tolerance."""
+
+
+class ReconstructedObjectModel(Model):
+    """One object of the twin; base frame."""
+
+    name: str
+    kind: str
+    position: tuple[Metres, Metres, Metres]
+    """Centre."""
+    quaternion: tuple[float, float, float, float]
+    """w x y z."""
+    size: tuple[Metres, Metres, Metres]
+    """Extents along its own axes."""
+    support: str
+    """What it rests on: the desk or an object."""
+    fit: FitModel
+    settle_m: float | None
+    """How far it moved until it lay still; null when the twin could not be built."""
+    settle_deg: float | None
+    warnings: list[str]
+    """What is doubtful about it."""
+
+
+class JointModel(Model):
+    """A joint that two frames, or a server, have shown; base frame."""
+
+    object: str
+    type: Literal["slide", "hinge"]
+    axis: tuple[float, float, float]
+    anchor: tuple[Metres, Metres, Metres]
+    values: tuple[float, float]
+    """Joint values in the first and the second frame [m or rad]."""
+
+
+class PiecesModel(Model):
+    """Collision pieces of a free-form object."""
+
+    object: str
+    count: int
+    volume_error: float
+    """Volume of the pieces over that of the mesh, less one."""
+
+
+class ReconstructReport(Model):
+    """What was reconstructed from a capture."""
+
+    schema_: Literal["etot.reconstruct/1"] = Field(default="etot.reconstruct/1", alias="schema")
+    status: Literal["success", "partial", "interrupted"]
+    """Partial: usable, but something is missing or does not lie still; see warnings."""
+    seed: int = Field(ge=0)
+    interrupted: bool
+    versions: VersionsModel
+    timing: TimingModel
+    capture: str
+    """The capture folder as named on the command line."""
+    instruction: str | None
+    desk_top: Metres
+    tilt_deg: float = Field(ge=0)
+    """By how much the camera's pose was levelled."""
+    depth_shift_px: tuple[int, int]
+    """By how much depth was moved back onto colour (right, down)."""
+    objects: list[ReconstructedObjectModel]
+    joints: list[JointModel]
+    pieces: list[PiecesModel]
+    scene: str | None
+    """The scene file, relative to the report's folder."""
+    task: str | None
+    """The task file that ``etot plan`` takes; null without an instruction."""
+    warnings: list[str]
+    files: dict[str, str]
+    stages: dict[str, Seconds]
+    """Wall time of each stage."""
