@@ -25,7 +25,7 @@ TILT_NOTED = 0.3
 """Smaller tilts are corrected silently [deg]."""
 LEAST_DESK = 0.02
 """The desk covers at least this share of the picture."""
-MAX_SHIFT = 12
+MAX_SHIFT = 8
 """Largest displacement of depth against colour that is taken back [px]."""
 MAX_OFFSET = 16
 JUMP = 0.012
@@ -106,7 +106,8 @@ def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
         height = cloud[..., 2] - top
         if max(abs(shift[0]), abs(shift[1])) > SHIFT_NOTED:
             warnings.append(
-                f"depth lies {shift[0]} px right and {shift[1]} px down of colour and was moved back"
+                f"depth lies {shift[0]} px right and {shift[1]} px down of colour and was moved "
+                "back"
             )
     desk = np.abs(height) < max(0.004, 4 * noise)
     desk &= np.hypot(cloud[..., 0], cloud[..., 1]) < 2 * REACH
@@ -215,12 +216,13 @@ def _measure_shift(capture: Capture, raised: Mask) -> tuple[int, int]:
             elif known and erosion:
                 sign, offset = next(iter(known.items()))
                 found[slot] = offset + sign * erosion[-1]
-    right, below = (round(value) for value in found)
+    # An axis with a wild answer has seen no true pair of edges: it is left alone.
+    right, below = (round(v) if abs(v) <= MAX_SHIFT else 0 for v in found)
     lost = round(float(np.median(erosion))) if erosion else 0
     still = _agreement(jumps, strength, (0, 0), 0)
     if _agreement(jumps, strength, (right, below), lost) < LEAST_GAIN * still:
         return 0, 0
-    if max(abs(right), abs(below)) > MAX_SHIFT:
+    if not SHIFT_NOTED < max(abs(right), abs(below)) <= MAX_SHIFT:
         return 0, 0
     return right, below
 

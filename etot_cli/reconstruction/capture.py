@@ -94,9 +94,7 @@ def _number(info: dict[str, Any], key: str, path: Path, low: float, high: float)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise SpecError(f"found {value!r}, expected a number", file=str(path), path=key)
     if not low <= value <= high:
-        raise SpecError(
-            f"found {value:g}, expected {low:g} to {high:g}", file=str(path), path=key
-        )
+        raise SpecError(f"found {value:g}, expected {low:g} to {high:g}", file=str(path), path=key)
     return float(value)
 
 
@@ -133,8 +131,10 @@ def _pose(info: dict[str, Any], path: Path) -> Array:
         raise SpecError("expected 4 rows of 4 numbers", file=str(path), path=where)
     rotation = pose[:3, :3]
     skew = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
-    if skew > ROTATION_TOLERANCE or np.linalg.det(rotation) < 0 or np.any(
-        np.abs(pose[3] - [0, 0, 0, 1]) > 1e-6
+    if (
+        skew > ROTATION_TOLERANCE
+        or np.linalg.det(rotation) < 0
+        or np.any(np.abs(pose[3] - [0, 0, 0, 1]) > 1e-6)
     ):
         raise SpecError(
             "is no rigid pose (a rotation, a position in metres and the row 0 0 0 1)",
@@ -191,9 +191,7 @@ def _metres(raw: NDArray[Any], view: View, info: dict[str, Any], folder: Path) -
         )
     if kind == "ray":
         v, u = np.mgrid[0 : view.height, 0 : view.width]
-        depth /= np.sqrt(
-            1 + ((u - view.cx) / view.fx) ** 2 + ((v - view.cy) / view.fy) ** 2
-        )
+        depth /= np.sqrt(1 + ((u - view.cx) / view.fx) ** 2 + ((v - view.cy) / view.fy) ** 2)
     return depth
 
 
@@ -241,7 +239,9 @@ def mask_of(image: NDArray[Any]) -> Mask:
 def disjoint(masks: dict[str, Mask], warnings: list[str]) -> dict[str, Mask]:
     """Gives pixels that several masks claim to the smallest, which lies on or in the others."""
     order = sorted(masks, key=lambda name: int(masks[name].sum()))
-    taken = np.zeros(next(iter(masks.values())).shape, dtype=bool) if masks else None
+    if not masks:
+        return {}
+    taken = np.zeros(next(iter(masks.values())).shape, dtype=bool)
     found: dict[str, Mask] = {}
     for name in order:
         mask = masks[name]

@@ -22,8 +22,8 @@ from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
 
 TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
-COMPLETE = 0.03
-"""A move that gets the part this close to its end (share of its travel) is tried at once."""
+CLOSED_ENOUGH, OPEN_ENOUGH = 0.03, 0.12
+"""Moves that get the part this close to its end (share of its travel) are tried at once."""
 AJAR_SHARE = 0.08
 """... and the share of the part's travel that must have come of it."""
 TOOL_SPEED = 0.16
@@ -97,7 +97,7 @@ def _moves(
     for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, lenient)):
         missing = abs(move.reached - target) / abs(part.upper - part.lower)
         fraction = fraction_open(part, move.reached)
-        if missing < COMPLETE:
+        if missing < (OPEN_ENOUGH if opening else CLOSED_ENOUGH):
             pilot.checker.freeze(pilot.data)
             yield move
             pilot.checker.freeze(pilot.data)

@@ -17,7 +17,7 @@ from etot_cli.world.index import Part
 Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
-PATH_STEP = 0.012
+PATH_STEP = 0.03
 """Spacing of tool poses along the part's path [m]."""
 BACK_OUT_STEPS = 2
 
@@ -86,11 +86,15 @@ def approaches(
         approach, count = arm.line(path, before, free_spin=free_spin)
         if count < len(path):
             continue
-        if all(
-            is_free(pilot, joints, blockers, lenient, 0.0005)
-            for joints in (before, approach[-1], approach[count // 2])
-        ):
+        rows = (approach[-1], before, approach[count // 2])
+        hit = next(
+            (row for row in rows if not is_free(pilot, row, blockers, lenient, 0.0005)), None
+        )
+        if hit is None:
             yield before, approach
+        elif pilot.checker.hits(hit, clearance=0.0005, hand_only=True):
+            # The hand itself has no room there, so another branch of the arm has none either.
+            return
 
 
 def way_back(pilot: Pilot, joints: Vector) -> Vector | None:

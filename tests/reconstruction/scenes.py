@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from etot_cli.specs.scene import Camera, Scene
 
 FRONT = {"position": [0.98, 0.05, 0.72], "look_at": [0.44, 0.0, 0.14]}
@@ -117,3 +119,66 @@ def eight() -> dict[str, Scene]:
             {"position": [1.02, 0.15, 0.78], "look_at": [0.46, 0.05, 0.15]},
         ),
     }  # fmt: skip
+
+
+def others() -> dict[str, Scene]:
+    """Scenes with other objects, colours, desks and cameras than the shipped ones."""
+    low = {"position": [1.0, -0.25, 0.62], "look_at": [0.45, 0.05, 0.05], "fx": 700, "fy": 700,
+           "cx": 610, "cy": 380}  # fmt: skip
+    side = {"position": [0.75, 0.55, 0.75], "look_at": [0.42, -0.03, 0.22], "width": 960,
+            "height": 720, "fx": 640, "fy": 640, "cx": 480, "cy": 350}  # fmt: skip
+    return {
+        "green_desk": scene(
+            {
+                "mug": {**CUP, "diameter": 0.081, "height": 0.095, "color": "yellow",
+                        "at": [0.45, 0.22]},
+                "block": {"kind": "box", "size": [0.11, 0.06, 0.05], "color": "purple",
+                          "at": [0.40, -0.15], "yaw_deg": 25},
+                "can": {"kind": "cylinder", "diameter": 0.066, "height": 0.115, "color": "red",
+                        "at": [0.55, 0.02]},
+                "marker": {**PEN, "length": 0.14, "diameter": 0.016, "color": "blue",
+                           "at": [0.58, -0.22], "yaw_deg": 70},
+            },
+            low,
+            desk={"top": 0.05, "color": "#1a7a7a", "size": [0.9, 1.3]},
+        ),
+        "stack": scene(
+            {
+                "crate": {"kind": "box", "size": [0.20, 0.16, 0.09], "color": "brown",
+                          "at": [0.46, 0.05], "yaw_deg": 15},
+                "bowl": {"kind": "bowl", "diameter": 0.12, "height": 0.05, "color": "cyan",
+                         "on": "crate", "at": [0.46, 0.05]},
+                "ball": {**BALL, "diameter": 0.05, "color": "#cc2699", "at": [0.34, -0.16]},
+            },
+            side,
+            desk={"top": 0.20, "color": "gray", "size": [0.8, 1.0]},
+        ),
+        "chest": scene(
+            {
+                "chest": {**unit([0.22, 0.20, 0.17], 0.06, color="green"), "at": [0.45, 0.10],
+                          "yaw_deg": -60},
+                "stick": {"kind": "capsule", "length": 0.16, "diameter": 0.025, "color": "pink",
+                          "at": [0.36, -0.22], "yaw_deg": 130},
+            },
+            desk={"top": 0.10, "color": "#24346b"},
+        ),
+    }  # fmt: skip
+
+
+def articulated() -> dict[str, tuple[Scene, str, tuple[float, float]]]:
+    """Furniture with a moving part: scene, the part's address, joint values of two frames."""
+    drawer = scene({"chest": {**unit([0.24, 0.18, 0.16], 0.0), "at": [0.50, 0.05],
+                              "yaw_deg": -35}})  # fmt: skip
+    door = scene(
+        {
+            "locker": {
+                "kind": "cabinet", "size": [0.26, 0.36, 0.26], "at": [0.42, 0.20], "yaw_deg": -50,
+                "color": "silver", "door": {"hinge": "right", "open_deg": 0},
+            },
+        },
+        {"position": [1.10, -0.20, 0.90], "look_at": [0.45, 0.10, 0.15]},
+    )  # fmt: skip
+    return {
+        "drawer": (drawer, "chest.top", (0.0, 0.12)),
+        "door": (door, "locker.door", (np.radians(10), np.radians(60))),
+    }

@@ -19,6 +19,13 @@ MARGIN = 0.004
 """One surface is in front of another when it is nearer by more than this [m]."""
 CONTAINED = 0.4
 """An object with this share of its pixels in the hull of another's lies on or in it."""
+CLOSE = 0.02
+"""Surfaces this near to each other in depth may touch [m]."""
+HIGHER = 0.012
+HIDING = 0.2
+"""Of the border with something in front, the share from which it may hide a part."""
+SEAM = 4
+"""Masks of things that touch may be this far apart [px]."""
 FREE_RING = 25
 """How far around a mask free space is sampled [px]."""
 
@@ -83,14 +90,28 @@ def observe(
     height, width = mask.shape
     ring = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
     # Who is in front is asked a little inside each mask, where depth is sure.
-    own = _spread(nearness, mask, ring)
-    occluder = np.zeros_like(mask)
+    wide = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 3,) * 2)
+    own = _spread(nearness, mask, wide)
+    occluder, hiding = np.zeros_like(mask), np.zeros_like(mask)
     hull = convex_hull_mask(mask)
+    level = _level(cloud, mask)
     for other in others:
+        border = other & np.isfinite(own)
         if (other & hull).sum() > CONTAINED * other.sum():
-            occluder |= other  # it lies on or in the object: its edge is not the object's
+            front = other  # it lies on or in the object: its edge is not the object's
         else:
-            occluder |= other & (_spread(nearness, other, ring) < own + MARGIN)
+            foreign = _spread(nearness, other, wide)
+            front = border & (foreign < own - MARGIN)
+            if _level(cloud, other) > level + HIGHER:
+                # Where they touch, depth cannot tell; what is higher hides what is lower.
+                front |= border & (foreign < own + CLOSE)
+        occluder |= front
+        # Pixels of something in front say nothing about what is behind them.
+        if (front & border).sum() > HIDING * border.sum():
+            hiding |= other
+    # Masks drawn by hand or by a model leave a seam between things that touch.
+    seam = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 1,) * 2)
+    occluder = cv2.dilate(occluder.astype(np.uint8), seam) > 0
     edges = []
     total = 0
     v, u = np.nonzero(mask)
@@ -112,8 +133,7 @@ def observe(
     reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FREE_RING + 1,) * 2)
     grown = cv2.dilate(mask.astype(np.uint8), reach) > 0
     close = cv2.dilate(mask.astype(np.uint8), ring) > 0
-    # Pixels of something in front say nothing about what is behind them.
-    hiding = cv2.dilate(occluder.astype(np.uint8), ring) > 0
+    hiding |= occluder
     free = np.column_stack(np.nonzero(grown & ~close & ~hiding)[::-1]).astype(np.float64)
     kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
     sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
@@ -122,6 +142,13 @@ def observe(
     points = points[np.isfinite(points[:, 2])]
     return Observation(view, found, free, inside, points, base,
                        complete=len(found) / max(total, 1))  # fmt: skip
+
+
+def _level(cloud: Array, mask: Mask) -> float:
+    """Median height of a mask's readings [m]; low where there are none."""
+    heights = cloud[..., 2][mask]
+    heights = heights[np.isfinite(heights)]
+    return float(np.median(heights)) if len(heights) else -1.0
 
 
 def convex_hull_mask(mask: Mask) -> Mask:

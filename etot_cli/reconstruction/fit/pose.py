@@ -18,6 +18,12 @@ FINE = (700, 700)
 """Edge and surface points of the final fit."""
 GOOD_SCORE = 2.0
 """With a score below this no more involved shapes are tried."""
+INVOLVED = 0.5
+"""An involved shape replaces a simple one when its score is below this share of the other's."""
+FINE_DEPTH = 0.0015
+"""With a larger error of depth the thickness of a wall cannot be measured [m]."""
+IMPLAUSIBLE = 50.0
+"""Added to the score of a shape that its family is not meant for."""
 EXPLAINED_PX = 2.0
 """An edge point this near to the outline counts as explained [px]."""
 EXPLAINED_M = 0.004
@@ -67,8 +73,11 @@ def fit_shape(
         steps: most function evaluations, Jacobians not counted.
     """
     held = set(fixed) | (set() if free_z else {"z"})
+    if seen.depth_sigma > FINE_DEPTH:
+        held |= {"wall", "floor"}  # too thin to be seen by such depth
     free = np.array([name not in held for name in family.names])
     low, high = family.bounds(start)
+    high = np.maximum(high, low + 1e-4)
     begin = np.clip(start, low + 1e-9, high - 1e-9)
 
     def whole(part: Array) -> Array:
@@ -77,7 +86,7 @@ def fit_shape(
         return params
 
     def residuals(part: Array) -> Array:
-        return _residuals(family, seen, whole(part))
+        return residuals_of(family, seen, whole(part))
 
     solution = least_squares(
         residuals,
@@ -92,7 +101,8 @@ def fit_shape(
     return whole(np.asarray(solution.x))
 
 
-def _residuals(family: Family, seen: Observation, params: Array) -> Array:
+def residuals_of(family: Family, seen: Observation, params: Array) -> Array:
+    """Weighted residuals of silhouette, free space, depth and prior."""
     hulls = family.hulls(params, seen.view)
     parts = []
     pixels = np.vstack([seen.edges, seen.free, seen.inside])
@@ -109,7 +119,8 @@ def _residuals(family: Family, seen: Observation, params: Array) -> Array:
     if len(seen.points):
         depth = family.distance(params, seen.points) / seen.depth_sigma
         parts.append(depth * np.sqrt(100 / len(seen.points)))
-    return np.concatenate(parts) if parts else np.zeros(1)
+    parts.append(family.prior(params))
+    return np.concatenate(parts)
 
 
 def judge(family: Family, seen: Observation, params: Array) -> Fit:
@@ -129,6 +140,7 @@ def judge(family: Family, seen: Observation, params: Array) -> Fit:
         (edge_rms**2 + spill) / (2 * seen.edge_sigma) ** 2
         + (depth_rms / (2 * seen.depth_sigma)) ** 2
         + 0.12 * family.complexity
+        + (0.0 if family.plausible(params) else IMPLAUSIBLE)
     )
     bias = float(np.median(signed)) if len(signed) else 0.0
     return Fit(family, params, edge_rms, depth_rms, bias, good / max(total, 1), score)
@@ -143,7 +155,12 @@ def trimmed_rms(values: Array, share: float = 0.95) -> float:
 
 
 def best_fit(
-    families: list[list[Family]], seen: Observation, evidence: Evidence, rng: np.random.Generator
+    families: list[list[Family]],
+    seen: Observation,
+    evidence: Evidence,
+    rng: np.random.Generator,
+    *,
+    thorough: bool = True,
 ) -> list[Fit]:
     """Fits of several shapes, the best first.
 
@@ -153,6 +170,7 @@ def best_fit(
         seen: the observation.
         evidence: what first guesses are made from.
         rng: draws the samples.
+        thorough: fit the best two again to more points.
 
     Returns:
         at least one fit, unless no family has a guess.
@@ -160,8 +178,9 @@ def best_fit(
     coarse = seen.thinned(*COARSE, rng)
     fine = seen.thinned(*FINE, rng)
     fits: list[Fit] = []
-    for tier in families:
-        if fits and min(fit.score for fit in fits) < GOOD_SCORE:
+    for level, tier in enumerate(families):
+        plain = min((fit.score for fit in fits), default=np.inf)
+        if plain < GOOD_SCORE:
             break
         for family in tier:
             options = []
@@ -169,7 +188,12 @@ def best_fit(
                 params = fit_shape(family, coarse, guess, steps=25)
                 options.append(judge(family, coarse, params))
             if options:
-                fits.append(min(options, key=lambda fit: fit.score))
+                best_option = min(options, key=lambda fit: fit.score)
+                # An involved shape must explain much that a simple one leaves open.
+                if level == 0 or best_option.score < INVOLVED * plain:
+                    fits.append(best_option)
     fits.sort(key=lambda fit: fit.score)
+    if not thorough:
+        return fits
     best = [judge(fit.family, fine, fit_shape(fit.family, fine, fit.params)) for fit in fits[:2]]
     return sorted(best, key=lambda fit: fit.score) + fits[2:]

@@ -88,6 +88,14 @@ class Family(ABC):
                 low[index], high[index] = start[index] - 1.2, start[index] + 1.2
         return low, high
 
+    def plausible(self, params: Array) -> bool:
+        """Whether such a thing may be what the family is meant for."""
+        return True
+
+    def prior(self, params: Array) -> Array:
+        """Residuals, in standard deviations, of what is usual where nothing is seen."""
+        return np.zeros(0)
+
     def volume(self, params: Array) -> float:
         """Volume of the material [m³]."""
         return float(np.prod(self.size(params)))

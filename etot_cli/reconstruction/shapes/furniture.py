@@ -43,6 +43,7 @@ class OpenUnit(Family):
         self.moving = moving
 
     def guesses(self, evidence: Evidence) -> list[Array]:
+        """Parameter vectors to start from."""
         points, base = evidence.points, evidence.base
         center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.05:
@@ -63,6 +64,7 @@ class OpenUnit(Family):
         return [guess for _, guess in found[:2]]
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
+        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[7], high[7] = 0.0, max(0.3, start[7] * 1.2)
         return low, high
@@ -85,7 +87,9 @@ class OpenUnit(Family):
             if index < self.drawers - 1:
                 fixed.append(([-depth, -width, floor - t], [front, width, floor]))
             if index != self.moving:
-                fixed.append(([front, -width, floor - t / 2], [depth, width, floor + level + t / 2]))
+                fixed.append(
+                    ([front, -width, floor - t / 2], [depth, width, floor + level + t / 2])
+                )
         inner, back = width - t, -depth + t
         side_top = low + DRAWER_SIDES * level
         moving: list[Panel] = [
@@ -98,9 +102,12 @@ class OpenUnit(Family):
         return fixed, moving
 
     def hulls(self, params: Array, view: View) -> list[Array]:
+        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, width, height = params[4:7]
         fixed, moving = self.panels(params)
-        body = box_corners([-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height])
+        body = box_corners(
+            [-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height]
+        )
         sets = [body, box_corners(*moving[0])]
         sets += [box_corners(*panel) for panel in fixed if panel[1][0] > length / 2 - 1e-9]
         # The drawer's body is open at the top: its hull is that of its panels, front apart.
@@ -109,20 +116,26 @@ class OpenUnit(Family):
         return [rotate(points, params[3]) + params[:3] for points in sets]
 
     def distance(self, params: Array, points: Array) -> Array:
+        """Signed distance (n,) from the surface [m]."""
         local = own_frame(points, params, params[3])
         fixed, moving = self.panels(params)
-        return np.min(
-            [box_distance(local, np.array(low), np.array(high)) for low, high in fixed + moving],
-            axis=0,
-        )
+        found = [box_distance(local, np.array(low), np.array(high)) for low, high in fixed + moving]
+        return np.asarray(np.min(found, axis=0))
+
+    def plausible(self, params: Array) -> bool:
+        """Whether the proportions fit the family."""
+        return bool(min(params[4:7]) > 0.05 and 0.006 < params[7] < params[4])
 
     def size(self, params: Array) -> tuple[float, float, float]:
+        """Extents along its own axes [m]."""
         return float(params[4]), float(params[5]), float(params[6])
 
     def spec(self, params: Array) -> dict[str, Any]:
+        """Scene keys of the shape."""
         return unit_spec(self.size(params), self.drawers, float(params[7]), self.moving)
 
     def volume(self, params: Array) -> float:
+        """Volume of the material [m³]."""
         length, width, height = params[4:7]
         faces = 2 * (length * width + length * height + width * height)
         return float(1.6 * UNIT_WALL * faces)
@@ -142,20 +155,22 @@ class OpenCabinet(Family):
         self.side = -1.0 if hinge == "left" else 1.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
+        """Parameter vectors to start from."""
         center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.08:
             return []
         found = []
         for quarter in range(4):
             length, width = sides if quarter % 2 == 0 else sides[::-1]
-            for angle in (0.15, 0.6, 1.2):
-                found.append(
-                    np.array([*center, evidence.base, yaw + quarter * np.pi / 2, length, width,
-                              height, angle])
-                )  # fmt: skip
+            turn = yaw + quarter * np.pi / 2
+            found += [
+                np.array([*center, evidence.base, turn, length, width, height, angle])
+                for angle in (0.15, 0.6, 1.2)
+            ]
         return found
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
+        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[7], high[7] = 0.0, 2.6
         return low, high
@@ -172,6 +187,7 @@ class OpenCabinet(Family):
         return [0.0, y0, 0.0], [DOOR_THICKNESS - 0.001, y1, params[6]]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
+        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, width, height = params[4:7]
         body = box_corners(
             [-length / 2, -width / 2, 0], [length / 2 - DOOR_THICKNESS, width / 2, height]
@@ -181,6 +197,7 @@ class OpenCabinet(Family):
         return [rotate(points, params[3]) + params[:3] for points in (body, door)]
 
     def distance(self, params: Array, points: Array) -> Array:
+        """Signed distance (n,) from the surface [m]."""
         local = own_frame(points, params, params[3])
         depth, width, height = params[4] / 2, params[5] / 2, params[6]
         t, front = CABINET_WALL, params[4] / 2 - DOOR_THICKNESS
@@ -195,15 +212,22 @@ class OpenCabinet(Family):
         hinge, turn = self._door(params)
         low, high = self._door_extent(params)
         found.append(box_distance(rotate(local - hinge, -turn), np.array(low), np.array(high)))
-        return np.min(found, axis=0)
+        return np.asarray(np.min(found, axis=0))
+
+    def plausible(self, params: Array) -> bool:
+        """Whether the proportions fit the family."""
+        return bool(min(params[4:7]) > 0.08 and params[7] > 0.03)
 
     def size(self, params: Array) -> tuple[float, float, float]:
+        """Extents along its own axes [m]."""
         return float(params[4]), float(params[5]), float(params[6])
 
     def spec(self, params: Array) -> dict[str, Any]:
+        """Scene keys of the shape."""
         return cabinet_spec(self.size(params), self.hinge, float(np.degrees(params[7])))
 
     def volume(self, params: Array) -> float:
+        """Volume of the material [m³]."""
         length, width, height = params[4:7]
         faces = 2 * (length * width + length * height + width * height)
         return float(CABINET_WALL * faces)
