@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
 from etot_cli.skills.collision import Attached
-from etot_cli.skills.grasps import Grasp, GraspSet, sample_grasps, tilted
+from etot_cli.skills.grasps import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
 from etot_cli.skills.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
 from etot_cli.skills.pilot import PhaseEnd, Pilot
@@ -75,15 +75,18 @@ def prepared_grasps(
         yield _explain(pilot, name, found, blockers, unreachable)
 
 
-def _variants(found: GraspSet) -> list[Grasp]:
+def _variants(found: GraspSet) -> Iterator[Grasp]:
     """Candidates best first, leaning ones behind upright ones of the same quality. Objects too wide
     for the gripper are tried all the same when nothing else is left: physics decides.
     """
     ranked = found.grasps[:MAX_RANKED] or found.too_wide[:12]
-    variants = list(ranked)
-    for tilt in TILTS:
-        variants += [tilted(grasp, tilt) for grasp in ranked if grasp.pose is GraspPose.VERTICAL]
-    return sorted(variants, key=lambda grasp: grasp.score)[:MAX_PREPARED]
+    order = [
+        (grasp.score + LEAN_COST * abs(tilt), abs(tilt), rank, tilt)
+        for rank, grasp in enumerate(ranked)
+        for tilt in (0.0, *(TILTS if grasp.pose is GraspPose.VERTICAL else ()))
+    ]
+    for *_, rank, tilt in sorted(order)[:MAX_PREPARED]:
+        yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
 
 
 def _spun(grasp: Grasp) -> Grasp:

@@ -29,7 +29,7 @@ Guard = Callable[[], bool]
 """Called after every control period; True ends the phase."""
 
 STEPS_PER_CONTROL = round(CONTROL_PERIOD / TIMESTEP)
-OBSERVE_EVERY = 2
+OBSERVE_EVERY = 3
 """Control periods between observations of the recorder."""
 BLOCKED_ERROR = 0.06
 """Joint tracking error that means something is in the way [rad]."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.kinematics import JUMP, Pose, rotation_from_axes
+from etot_cli.skills.kinematics import JUMP, Pose, cross, rotation_from_axes
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.part_motion import (
     STANDOFF,
@@ -184,4 +184,4 @@ def _push_pose(robot: RobotIndex, part: Pose, push: Push, tilt: float, inside: f
     side = float(np.sqrt(max(0.0, 1.0 - float(approach @ direction) ** 2)))
     offset = robot.tip * across + robot.finger_half * side
     position = point - direction * (offset - inside)
-    return Pose(position, rotation_from_axes(approach, np.cross(UP, level)))
+    return Pose(position, rotation_from_axes(approach, cross(UP, level)))
