@@ -60,8 +60,7 @@ def reconstruct(
     Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
     unusable; 3: a server is not there.
     """
-    from etot_cli.commands.reconstruct import run_reconstruct
-    from etot_cli.reconstruction.pipeline import Options
+    from etot_cli.commands.reconstruct import Options, run_reconstruct
     from etot_cli.reporting.files import REPORT_NAME, output_folder, write_atomically
 
     if quiet and verbose:

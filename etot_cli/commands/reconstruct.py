@@ -6,13 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import cv2
-import mujoco
 import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reconstruction import assembly
-from etot_cli.reconstruction.exports import free_form_mesh, object_mesh, write_mjcf
+from etot_cli.reconstruction.exports import export_twin, free_form_mesh
 from etot_cli.reconstruction.naming import color_of
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.overlay import draw_overlay
@@ -28,9 +27,8 @@ from etot_cli.reporting.reconstruct_report import (
 )
 from etot_cli.specs.load import load_scene
 from etot_cli.world.build.imported import convex_pieces
-from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects
 
+__all__ = ["Options", "run_reconstruct"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
@@ -148,13 +146,9 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
         raise EtotError(f"cannot write {folder / OVERLAY}")
     files["overlay"] = OVERLAY
     if twin.scene is not None:
-        world = build_world(twin.scene.model_copy(update={"directory": str(folder.resolve())}))
-        data = mujoco.MjData(world.model)
-        place_objects(world, data)
-        for solid in twin.solids:
-            mesh = object_mesh(world, data, solid.name, color_of(color, solid.segment.mask))
-            mesh.export(meshes / f"{solid.name}.glb")
-        write_mjcf(world, data, folder / MJCF)
+        scene = twin.scene.model_copy(update={"directory": str(folder.resolve())})
+        colors = {s.name: color_of(color, s.segment.mask) for s in twin.solids}
+        export_twin(scene, colors, meshes, folder / MJCF)
         files["mjcf"], files["meshes"] = MJCF, MESHES
     return files, pieces
 

@@ -54,14 +54,25 @@ class CollisionChecker:
         self._model.body_margin[:] = _MARGIN
         self._tool = world.robot.tool_site
         self.checks = 0
+        self._live = mujoco.MjData(world.model)
+        self._riders: dict[str, list[str]] = {}
 
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
         self._data.qpos[:] = data.qpos
+        self._live = data
+        self._riders.clear()
 
     def set_joint(self, joint: str, value: float) -> None:
-        """Moves a furniture joint of the frozen scene."""
+        """Moves a door or drawer of the frozen scene, with what rides in or on a drawer."""
+        live = self._live
+        if joint not in self._riders:
+            self._riders[joint] = _riders(self.world, live, joint)
         self._data.joint(joint).qpos[0] = value
+        moved = value - float(live.joint(joint).qpos[0])
+        for name in self._riders[joint]:
+            shift = live.joint(joint).xaxis * moved
+            self._data.joint(name).qpos[:3] = live.joint(name).qpos[:3] + shift
 
     def set_fingers(self, opening: float) -> None:
         """Sets the distance between the pads [m] of the frozen scene's hand."""
@@ -168,3 +179,29 @@ class CollisionChecker:
         return Pose(
             data.site_xpos[self._tool].copy(), data.site_xmat[self._tool].reshape(3, 3).copy()
         )
+
+
+def _riders(world: World, data: mujoco.MjData, joint: str) -> list[str]:
+    """Free objects that touch the sliding part of a joint, and those that touch only these."""
+    part = next((part for part in world.parts.values() if part.joint == joint), None)
+    if part is None or part.info.joint_type != "slide":
+        return []
+    riding = {f"{part.info.owner}.{part.info.name}"}
+    pairs = [
+        (world.geom_address[int(one)], world.geom_address[int(two)])
+        for one, two in data.contact.geom
+    ]
+    found: list[str] = []
+    for _ in world.entries:
+        new = [
+            other
+            for pair in pairs
+            for rider, other in (pair, pair[::-1])
+            if rider in riding and other not in riding
+            and other in world.entries and world.entries[other].free
+        ]  # fmt: skip
+        if not new:
+            break
+        found += dict.fromkeys(new)
+        riding.update(new)
+    return found

@@ -52,6 +52,12 @@ class Performed:
     roughness: float = 0.0
     """How far it strayed from what was meant, and what it shoved [m]."""
 
+    @property
+    def final(self) -> bool:
+        """No other way would do better: it worked, or something stands in the way of all."""
+        cause = self.record.cause
+        return self.clean or (cause is not None and cause.kind is CauseKind.BLOCKED)
+
 
 class Workshop:
     """Everything that is built once for a scene and used for every action in it."""
@@ -101,9 +107,9 @@ class Workshop:
         """Tries an action in the ways that belong to some lanes.
 
         The ways are dealt out to the lanes in turn. A lane tries its ways one after the other,
-        each from the start state, until one has its effect without shoving other objects about;
-        failing that, its first way counts. Lanes know nothing of each other, so they may run in
-        different processes.
+        each from the start state, until one has its effect without shoving other objects about,
+        or is blocked by an object; failing that, its first way counts. Lanes know nothing of each
+        other, so they may run in different processes.
 
         Returns:
             For each lane asked for its result; None where the action has no way for it.
@@ -119,14 +125,14 @@ class Workshop:
                 return [reason] * len(wanted)
             lane = index % LANES
             earlier = results.get(lane)
-            if lane in wanted and not (earlier and earlier.clean):
+            if lane in wanted and not (earlier and earlier.final):
                 pilot = self._pilot(self._recorder(), f"{action}/{index}")
                 outcome = attempt(pilot)
                 tried = self._record(start, action, before, outcome, pilot)
                 results[lane] = tried if earlier is None else _better(earlier, tried)
                 restore(self.world, self.data, start)
             last_round = index >= ATTEMPTS - LANES
-            if all(k in results and (results[k].clean or last_round) for k in wanted):
+            if all(k in results and (results[k].final or last_round) for k in wanted):
                 break
         return [results.get(lane) for lane in wanted]
 

@@ -1,7 +1,7 @@
 """Drives the robot through contact dynamics: targets in, physics out, with guards on the way.
 
 A motion is a row of phases; within a phase the joint targets are fixed beforehand, and a guard
-says after every control period whether the phase may go on.
+says every other control period whether the phase may go on.
 """
 
 from __future__ import annotations
@@ -26,11 +26,13 @@ from etot_cli.world.recorder import Recorder
 
 Vector = NDArray[np.float64]
 Guard = Callable[[], bool]
-"""Called after every control period; True ends the phase."""
+"""Looked at every other control period; True ends the phase."""
 
 STEPS_PER_CONTROL = round(CONTROL_PERIOD / TIMESTEP)
 OBSERVE_EVERY = 3
 """Control periods between observations of the recorder."""
+GUARD_EVERY = 2
+"""Control periods between looks at the guards."""
 BLOCKED_ERROR = 0.06
 """Joint tracking error that means something is in the way [rad]."""
 BLOCKED_PERIODS = 8
@@ -191,16 +193,19 @@ class Pilot:
         commands = np.clip(targets + lead, low, high)
         late = 0
         qpos = self.world.robot.qpos
-        for target, command in zip(targets, commands, strict=True):
-            self.data.ctrl[ctrl] = command
+        data = self.data
+        for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
+            data.ctrl[ctrl] = command
             self.tick()
+            if period % GUARD_EVERY:
+                continue
             if guard is not None and guard():
-                self.data.ctrl[ctrl] = target
+                data.ctrl[ctrl] = target
                 return PhaseEnd.GUARD
-            error = float(np.abs(self.data.qpos[qpos] - target).max())
-            late = late + 1 if error > BLOCKED_ERROR else 0
+            error = float(np.abs(data.qpos[qpos] - target).max())
+            late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
             if stop_when_blocked and late >= BLOCKED_PERIODS:
-                self.data.ctrl[ctrl] = self.data.qpos[qpos]
+                data.ctrl[ctrl] = data.qpos[qpos]
                 return PhaseEnd.BLOCKED
             if self.exhausted:
                 return PhaseEnd.BLOCKED

@@ -1,0 +1,202 @@
+"""Puts the scene together: a YAML document that ``etot plan`` reads, and the test that it rests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import yaml
+
+from etot_cli.errors import EtotError
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.naming import color_of
+from etot_cli.reconstruction.objects import DESK, Solid
+from etot_cli.reconstruction.physics import guess
+from etot_cli.specs.scene import Scene
+from etot_cli.world.model import build_world
+from etot_cli.world.placing import place_objects
+
+SETTLE_SECONDS = 1.0
+SETTLE_MM = 2.0
+"""An object of a twin at rest moves no more than this."""
+SETTLE_DEG = 1.0
+EDGE = 0.03
+"""The desk reaches at least this far beyond every object's centre [m]."""
+DESK_LIMIT = 1.9
+FURNITURE = ("drawer_unit", "cabinet")
+ROUND = ("sphere", "cylinder", "cup", "bowl")
+RIM_OVERLAP = 0.0006
+"""Play of what stands inside a cup [m]."""
+LEAST_REST = 0.3
+"""A ball in a mouth rests with its centre at least this share of its radius above the rim."""
+
+
+@dataclass(frozen=True)
+class Settled:
+    """How far an object moved until it lay still [m], and how far it turned [deg]."""
+
+    moved: float
+    turned: float
+
+
+def scene_document(
+    name: str,
+    seen: Calibrated,
+    solids: list[Solid],
+    materials: dict[str, str],
+) -> dict[str, Any]:
+    """The scene as plain data, in the words of the scene file.
+
+    Raises:
+        SpecError: a material is not known.
+    """
+    view = seen.view
+    quaternion = np.zeros(4)
+    mujoco.mju_mat2Quat(quaternion, view.rotation.ravel())
+    camera = {
+        "position": _rounded(view.position),
+        "quaternion": _rounded(quaternion, 6),
+        "width": view.width, "height": view.height,
+        "fx": view.fx, "fy": view.fy, "cx": view.cx, "cy": view.cy,
+    }  # fmt: skip
+    by_name = {solid.name: solid for solid in solids}
+    return {
+        "name": name,
+        "description": "Reconstructed from one RGB-D frame; masses and frictions are guesses.",
+        "desk": _desk(seen, solids),
+        "cameras": {"capture": camera},
+        "objects": {
+            solid.name: _object(seen, solid, by_name, materials.get(solid.name)) for solid in solids
+        },
+    }
+
+
+def _rounded(values: Any, digits: int = 4) -> list[float]:
+    return [round(float(value), digits) for value in values]
+
+
+def _desk(seen: Calibrated, solids: list[Solid]) -> dict[str, Any]:
+    low, high = seen.outline.min(axis=0), seen.outline.max(axis=0)
+    for solid in solids:
+        low = np.minimum(low, solid.center[:2] - EDGE)
+        high = np.maximum(high, solid.center[:2] + EDGE)
+    size = np.clip(high - low, 0.2, DESK_LIMIT)
+    color = color_of(seen.capture.color, seen.desk)
+    return {
+        "size": _rounded(size), "center": _rounded((low + high) / 2),
+        "top": round(seen.desk_top, 4), "color": _rounded(color, 2),
+    }  # fmt: skip
+
+
+def _object(
+    seen: Calibrated, solid: Solid, others: dict[str, Solid], material: str | None
+) -> dict[str, Any]:
+    fields = {**solid.fit.family.spec(solid.fit.params), **solid.extra}
+    data: dict[str, Any] = {"kind": fields.pop("kind")}
+    data.update(_plain(fields))
+    if solid.kind == "cup":
+        _open_for_contents(data, solid, others)
+    x, y = _rounded(solid.center[:2])
+    if solid.relation == "rim":
+        data["on"] = solid.support  # it settles on the axis of the mouth
+    else:
+        data["at"] = [x, y]
+        if solid.support != DESK:
+            data[solid.relation] = solid.support
+    yaw = float(np.degrees(solid.yaw))
+    if solid.kind not in ROUND and abs(yaw) > 0.01:
+        data["yaw_deg"] = round((yaw + 180.0) % 360.0 - 180.0, 2)
+    mass, friction, guessed = guess(solid, material, data.get("wall"))
+    if solid.kind not in FURNITURE:
+        data["mass"] = round(mass, 4)
+    data["friction"] = friction
+    if solid.kind == "drawer_unit":
+        data["material"] = guessed
+    data["color"] = _rounded(color_of(seen.capture.color, solid.segment.mask), 2)
+    data["label"] = solid.segment.label or solid.name.replace("_", " ")
+    return data
+
+
+def _open_for_contents(data: dict[str, Any], cup: Solid, others: dict[str, Solid]) -> None:
+    """Makes the wall such that what hangs in the mouth cannot fall through, and the reverse."""
+    for other in others.values():
+        if other.support != cup.name or other.kind != "sphere":
+            continue
+        room = data["diameter"] - other.size[0]
+        wall = data["wall"]
+        if other.relation == "rim":
+            radius = other.size[0] / 2
+            above = float(other.center[2]) - cup.top
+            # Near its widest circle a ball would wedge itself in instead of resting.
+            above = float(np.clip(above, LEAST_REST * radius, 0.9 * radius))
+            wall = data["diameter"] / 2 - float(np.sqrt(radius**2 - above**2))
+        elif other.relation == "inside":
+            wall = min(wall, (room - RIM_OVERLAP) / 2)
+        data["wall"] = round(float(np.clip(wall, 0.001, 0.2 * data["diameter"])), 5)
+
+
+def _plain(value: Any) -> Any:
+    """Numbers rounded to a tenth of a millimetre, for a file that people read."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return round(value, 4) if isinstance(value, float) else value
+
+
+def scene_text(document: dict[str, Any], warnings: list[str]) -> str:
+    """The document as YAML, what is doubtful on top as comments."""
+    head = ["# Made by etot reconstruct. Sizes in metres, angles in degrees, base frame."]
+    head += [f"# note: {warning}" for warning in warnings]
+    body = yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=100,
+                          allow_unicode=True)  # fmt: skip
+    return "\n".join(head) + "\n" + body
+
+
+def load(document: dict[str, Any], directory: Path) -> Scene:
+    """The document as a scene.
+
+    Raises:
+        EtotError: it is no valid scene.
+    """
+    from pydantic import ValidationError
+
+    try:
+        scene = Scene.model_validate(document)
+    except ValidationError as error:
+        raise EtotError(f"the reconstructed scene is not valid: {error}") from error
+    return scene.model_copy(update={"directory": str(directory)})
+
+
+def settle(scene: Scene) -> dict[str, Settled]:
+    """Lets a twin come to rest and says how far each loose object moved.
+
+    Raises:
+        WorldError: it cannot be built.
+    """
+    world = build_world(scene)
+    data = mujoco.MjData(world.model)
+    place_objects(world, data)
+    joints = world.robot.qpos
+    data.qpos[joints] = world.robot.spec.home
+    mujoco.mj_forward(world.model, data)
+    home = data.qpos[joints].copy()
+    start = {name: _pose(data, entry.body) for name, entry in world.entries.items()}
+    for _ in range(int(SETTLE_SECONDS / world.model.opt.timestep)):
+        data.qpos[joints] = home
+        data.qvel[world.robot.dof] = 0.0
+        mujoco.mj_step(world.model, data)
+    found = {}
+    for name, entry in world.entries.items():
+        position, quaternion = _pose(data, entry.body)
+        moved = float(np.linalg.norm(position - start[name][0]))
+        overlap = min(1.0, abs(float(quaternion @ start[name][1])))
+        found[name] = Settled(moved, float(np.degrees(2 * np.arccos(overlap))))
+    return found
+
+
+def _pose(data: mujoco.MjData, body: str) -> tuple[Any, Any]:
+    return data.body(body).xpos.copy(), data.body(body).xquat.copy()

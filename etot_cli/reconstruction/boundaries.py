@@ -1,0 +1,102 @@
+"""Edges of masks drawn by colour, where depth is too coarse, eroded or displaced for them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.surfaces import color_features, shaded_desk
+from etot_cli.reconstruction.view import Mask
+
+INNER = 4
+"""Pixels this far inside a mask are the object's for sure."""
+OUTER = 14
+"""Pixels this far outside are not."""
+COLOURFUL = 20.0
+"""An object whose hue is this far from the desk's cannot be mistaken for a shadow."""
+EXACT = 0.0015
+"""With a smaller residual of the desk plane depth is believed against colour [m]."""
+FLAT = 0.003
+"""Heights that are the desk's [m]."""
+MARGIN = 40
+ROUNDS = 4
+LEAST_KEPT, MOST_GROWN = 0.5, 2.2
+"""A colour edge that shrinks or grows the mask beyond these shares is not believed."""
+
+
+def refine_masks(seen: Calibrated, masks: list[Mask]) -> list[Mask]:
+    """The masks with edges where colour changes; they stay disjoint."""
+    small_first = sorted(range(len(masks)), key=lambda i: int(masks[i].sum()))
+    result: dict[int, Mask] = {}
+    shade, color = shaded_desk(seen), color_features(seen.capture.color)
+    for index in small_first:
+        others = [result.get(i, masks[i]) for i in range(len(masks)) if i != index]
+        apart = _coloured(seen, color, masks[index])
+        result[index] = _refine(seen, masks[index], others, shade, apart=apart)
+    taken = np.zeros(seen.depth.shape, dtype=bool)
+    for index in small_first:
+        result[index] = result[index] & ~taken
+        taken |= result[index]
+    return [result[index] for index in range(len(masks))]
+
+
+def _coloured(seen: Calibrated, color: NDArray[np.float32], mask: Mask) -> bool:
+    """Whether an object's hue and saturation are clearly not the desk's."""
+    own, desk = np.median(color[mask][:, :2], axis=0), np.median(color[seen.desk][:, :2], axis=0)
+    return bool(np.linalg.norm(own - desk) > COLOURFUL)
+
+
+def _refine(seen: Calibrated, mask: Mask, others: list[Mask], shade: Mask, *, apart: bool) -> Mask:
+    rows, columns = np.nonzero(mask)
+    height, width = mask.shape
+    y0, y1 = max(rows.min() - MARGIN, 0), min(rows.max() + MARGIN + 1, height)
+    x0, x1 = max(columns.min() - MARGIN, 0), min(columns.max() + MARGIN + 1, width)
+    window = (slice(y0, y1), slice(x0, x1))
+    own = mask[window].astype(np.uint8)
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * INNER + 1,) * 2)
+    ring = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * OUTER + 1,) * 2)
+    filled = cv2.morphologyEx(own, cv2.MORPH_CLOSE, disc)
+    core = cv2.erode(filled, disc)
+    if core.sum() < 0.15 * own.sum():
+        core = cv2.erode(filled, np.ones((3, 3), np.uint8))
+    reach = cv2.dilate(filled, ring)
+    foreign: Any = np.zeros_like(own)
+    for other in others:
+        foreign |= cv2.erode(other[window].astype(np.uint8), np.ones((5, 5), np.uint8))
+    trimap: Any = np.full(own.shape, cv2.GC_BGD, np.uint8)
+    trimap[reach > 0] = cv2.GC_PR_BGD
+    trimap[(filled > 0) & (reach > 0)] = cv2.GC_PR_FGD
+    trimap[(foreign > 0) & (core == 0)] = cv2.GC_BGD
+    if seen.noise < EXACT:
+        # Where depth says desk, also in a shadow of the object's own grey, there is desk.
+        with np.errstate(invalid="ignore"):
+            flat = (np.abs(seen.height[window]) < FLAT).astype(np.uint8)
+        flat = np.asarray(cv2.erode(flat, np.ones((7, 7), np.uint8)))
+        trimap[(flat > 0) & (core == 0)] = cv2.GC_BGD
+    trimap[core > 0] = cv2.GC_FGD
+    if not (trimap == cv2.GC_BGD).any() or not (core > 0).any():
+        return mask
+    image = cv2.cvtColor(seen.capture.color[window], cv2.COLOR_RGB2LAB)
+    background, foreground = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.setRNGSeed(1)
+    window_only: Any = None
+    cv2.grabCut(image, trimap, window_only, background, foreground, ROUNDS, cv2.GC_INIT_WITH_MASK)
+    found = ((trimap == cv2.GC_FGD) | (trimap == cv2.GC_PR_FGD)).astype(np.uint8)
+    if apart:
+        # An object of another colour than the desk does not grow into its own shadow.
+        found[shade[window] & (filled == 0)] = 0
+    found = cv2.morphologyEx(found, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    found = cv2.morphologyEx(found, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
+    _, labels = cv2.connectedComponents(found)
+    kept = np.unique(labels[(core > 0) & (labels > 0)])
+    found = np.isin(labels, kept[kept > 0])
+    share = found.sum() / max(int(own.sum()), 1)
+    if not LEAST_KEPT < share < MOST_GROWN:
+        return mask
+    result = np.zeros_like(mask)
+    result[window] = found
+    return result

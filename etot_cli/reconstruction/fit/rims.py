@@ -1,0 +1,127 @@
+"""Things that rest in the mouth of a cup: vessel and content are fitted together.
+
+A ball that is wider than the opening touches the rim all around, so its centre lies on the cup's
+axis at a height that follows from both sizes. Each one's silhouette then helps the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.fit.lip import rim_height
+from etot_cli.reconstruction.fit.pose import judge, residuals_of
+from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.shapes.ball import Ball
+from etot_cli.reconstruction.shapes.upright import Cup, Cylinder
+from etot_cli.reconstruction.view import Array
+
+WALL_PRIOR = (0.003, 0.001)
+"""Mean and standard deviation of a wall that is not seen [m]."""
+SUNK = 0.25
+"""What reaches less deep than to this share of a cup's height hangs in its mouth."""
+UNROUND = 0.004
+"""How far a thing that is no perfect ball may rest from where one would [m]."""
+ON_FLOOR = 0.0007
+"""How far from the floor what stands on it may be found [m]."""
+LIP_SIGMA = 0.0007
+"""How exactly the rim's edge shows in colour [m]."""
+TOO_SMALL = 0.0005
+"""A ball in the mouth is at most this much smaller than the opening [m]."""
+
+
+def resting_height(cup: Array, diameter: float, *, rim: bool) -> float:
+    """Height of the lowest point of a ball in a cup [m]: in its mouth, or on its floor."""
+    opening, radius = cup[3] / 2 - cup[5], diameter / 2
+    if not rim:
+        return float(cup[2] + cup[6])
+    return float(cup[2] + cup[4] + np.sqrt(max(radius**2 - opening**2, 0.0)) - radius)
+
+
+def settle_on_rim(seen: Calibrated, solids: list[Solid]) -> list[Solid]:
+    """Fits every ball that was found in or on a cup together with its cup."""
+    found = {solid.name: solid for solid in solids}
+    for solid in solids:
+        vessel = found.get(solid.support)
+        if vessel is None or not isinstance(vessel.fit.family, Cylinder):
+            continue
+        if not isinstance(solid.fit.family, Ball):
+            continue
+        vessel = _as_cup(vessel)
+        cup, ball, rim = vessel.fit.params, solid.fit.params, True
+        for _ in range(2):  # the rim is looked for with the width that the fit with it finds
+            vessel = replace(vessel, fit=replace(vessel.fit, params=cup))
+            tall = rim_height(seen, vessel)
+            options = [(*_together(vessel, solid, tall, rim=rim), rim) for rim in (True, False)]
+            _, cup, ball, rim = min(options, key=lambda option: option[0])
+        rim = bool(ball[2] - cup[2] > cup[6] + SUNK * cup[4])
+        found[vessel.name] = replace(
+            vessel, fit=judge(vessel.fit.family, vessel.observation, cup)
+        ).warned("its mouth is covered: wall and floor are from rule, not from data")
+        found[solid.name] = replace(
+            solid,
+            fit=judge(solid.fit.family, solid.observation, ball),
+            relation="rim" if rim else "inside",
+        )
+    return [found[solid.name] for solid in solids]
+
+
+def _as_cup(vessel: Solid) -> Solid:
+    """A cylinder in which something rests is a cup."""
+    if isinstance(vessel.fit.family, Cup):
+        return vessel
+    assert isinstance(vessel.fit.family, Cylinder)  # only round things have rims
+    params = np.array([*vessel.fit.params[:5], 0.003, 0.004])
+    return replace(vessel, fit=replace(vessel.fit, family=Cup(), params=params))
+
+
+def _together(
+    vessel: Solid, ball: Solid, tall: float | None, *, rim: bool
+) -> tuple[float, Array, Array]:
+    """Cost and parameters of cup and ball under the rule where the ball rests.
+
+    ``tall`` is the cup's height as far as it is seen otherwise [m].
+    """
+    cup_start, ball_start = vessel.fit.params, ball.fit.params
+
+    def split(values: Array) -> tuple[Array, Array]:
+        cup = cup_start.copy()
+        cup[[0, 1, 3, 4, 5]] = values[[0, 1, 2, 3, 5]]
+        place = values[:2] if rim else values[7:9]
+        return cup, np.array(
+            [*place, resting_height(cup, values[4], rim=rim) + values[6], values[4]]
+        )
+
+    def residuals(values: Array) -> Array:
+        cup, content = split(values)
+        room = cup[3] / 2 - cup[5] - content[3] / 2
+        off_axis = float(np.hypot(*(content[:2] - cup[:2])))
+        broken = max(room, 0.0) if rim else max(off_axis - room, 0.0)
+        rules = [
+            (values[5] - WALL_PRIOR[0]) / WALL_PRIOR[1],
+            30 * broken / TOO_SMALL,
+            values[6] / (UNROUND if rim else ON_FLOOR),
+        ]
+        if tall is not None:
+            rules.append((values[3] - tall) / LIP_SIGMA)
+        return np.concatenate(
+            [
+                residuals_of(vessel.fit.family, vessel.observation, cup),
+                residuals_of(ball.fit.family, ball.observation, content),
+                rules,
+            ]
+        )
+
+    if tall is not None:
+        cup_start = cup_start.copy()
+        cup_start[4] = tall
+    start = [*cup_start[:2], cup_start[3], cup_start[4], ball_start[3], cup_start[5], 0.0]
+    if not rim:
+        start += list(ball_start[:2])
+    solution = least_squares(
+        residuals, start, loss="soft_l1", f_scale=2.0, x_scale=0.02, max_nfev=60, diff_step=1e-6
+    )
+    return float(solution.cost), *split(np.asarray(solution.x))

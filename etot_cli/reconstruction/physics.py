@@ -1,0 +1,71 @@
+"""Mass and friction: guesses from shape and material, written where a person can change them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from etot_cli.errors import SpecError
+from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.shapes.upright import Cup
+
+
+@dataclass(frozen=True)
+class Material:
+    """Density of the material [kg/m³] and sliding friction."""
+
+    density: float
+    friction: float
+
+
+MATERIALS: dict[str, Material] = {
+    "wood": Material(600.0, 0.5),
+    "plastic": Material(1050.0, 0.45),
+    "metal": Material(7800.0, 0.4),
+    "aluminium": Material(2700.0, 0.4),
+    "glass": Material(2500.0, 0.4),
+    "ceramic": Material(2300.0, 0.5),
+    "rubber": Material(1100.0, 0.9),
+    "foam": Material(60.0, 0.8),
+    "cardboard": Material(250.0, 0.5),
+    "fruit": Material(820.0, 0.6),
+    "light plastic": Material(400.0, 0.45),
+    "hollow": Material(250.0, 0.6),
+}
+"""``light plastic``: printed or foamed, as most small vessels are. ``hollow``: things with thin
+walls that are modelled as solid, such as play balls."""
+DEFAULTS = {
+    "sphere": "hollow", "box": "hollow", "cylinder": "wood", "cup": "light plastic",
+    "bowl": "light plastic",
+    "pen": "wood", "capsule": "wood", "mesh": "hollow", "drawer_unit": "plastic",
+    "cabinet": "plastic",
+}  # fmt: skip
+LIGHTEST = 0.005
+THICK_WALL = 0.005
+"""Vessels with thicker walls are solid ware rather than light prints and foams [m]."""
+
+
+def guess(
+    solid: Solid, material: str | None, wall: float | None = None
+) -> tuple[float, float, str]:
+    """Mass [kg], friction and the material that they are from.
+
+    Args:
+        solid: the object.
+        material: what it is made of, when that is known.
+        wall: a cup's wall [m], where another than the fitted one is written.
+
+    Raises:
+        SpecError: the material is not known.
+    """
+    name = material or DEFAULTS.get(solid.kind, "hollow")
+    if material is None and wall is not None and wall > THICK_WALL:
+        name = "plastic"
+    if name not in MATERIALS:
+        raise SpecError(f"unknown material {name!r}; expected one of {', '.join(MATERIALS)}")
+    found = MATERIALS[name]
+    params = solid.fit.params
+    if wall is not None and isinstance(solid.fit.family, Cup):
+        params = params.copy()
+        params[5] = wall
+    mass = max(found.density * solid.fit.family.volume(params), LIGHTEST)
+    return mass, found.friction, name

@@ -1,0 +1,191 @@
+"""From a capture to a twin: the stages in their order."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from etot_cli.errors import EtotError, SpecError
+from etot_cli.reconstruction import assembly, services
+from etot_cli.reconstruction.articulation import Joint, articulate
+from etot_cli.reconstruction.calibration import Calibrated, calibrate
+from etot_cli.reconstruction.capture import disjoint, read_capture
+from etot_cli.reconstruction.fit.supports import fit_all
+from etot_cli.reconstruction.furnish import furnish
+from etot_cli.reconstruction.given import asked_joints, complete, given_shapes
+from etot_cli.reconstruction.masks import find_segments
+from etot_cli.reconstruction.naming import assign_names, color_of, hint_of, mentions
+from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.specs.scene import Scene
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What is asked of a reconstruction.
+
+    ``auto``: find masks even where the capture has some. ``second``: a capture of the same scene
+    with another joint state; by default the folder ``second`` in the capture, where there is one.
+    ``meshes``: mesh files by object name. The URLs let servers take stages over.
+    """
+
+    capture: Path
+    instruction: str | None = None
+    auto: bool = False
+    second: Path | None = None
+    materials: dict[str, str] = field(default_factory=dict)
+    meshes: dict[str, Path] = field(default_factory=dict)
+    masks_url: str | None = None
+    mesh_url: str | None = None
+    pose_url: str | None = None
+    articulation_url: str | None = None
+    deadline: float = services.DEADLINE
+    seed: int = 0
+    settle: bool = True
+
+
+@dataclass
+class Twin:
+    """What a reconstruction has found."""
+
+    seen: Calibrated
+    solids: list[Solid]
+    document: dict[str, Any]
+    warnings: list[str]
+    timing: dict[str, float]
+    joints: list[Joint] = field(default_factory=list)
+    scene: Scene | None = None
+    settled: dict[str, assembly.Settled] = field(default_factory=dict)
+
+
+def reconstruct(options: Options) -> Twin:
+    """Reconstructs the scene that a capture shows.
+
+    Raises:
+        SpecError: the capture is unusable, or nothing is found in it.
+        ServiceError: a server that was asked for is not there.
+    """
+    timing: dict[str, float] = {}
+    clock = _Clock(timing)
+    seen = calibrate(read_capture(options.capture, use_masks=not options.auto), seed=options.seed)
+    clock.lap("calibration")
+    warnings = list(seen.warnings)
+    segments = _segments(seen, options)
+    if not segments:
+        raise SpecError("no object is seen on the desk", file=str(options.capture))
+    clock.lap("masks")
+    solids, lost = _shapes(seen, segments, options)
+    warnings += [f"{name}: too little of it is seen; left out" for name in lost]
+    clock.lap("shapes")
+    solids = given_shapes(seen, solids, options)
+    clock.lap("meshes and poses")
+    solids, joints = _joints(seen, solids, options)
+    solids = _named(seen, solids, options.instruction)
+    clock.lap("articulation")
+    document = assembly.scene_document(safe_title(options.capture), seen, solids, options.materials)
+    twin = Twin(seen, solids, document, warnings, timing, joints)
+    if options.settle and not any(solid.kind == "mesh" for solid in solids):
+        settle_twin(twin, options.capture)
+    clock.lap("assembly")
+    return twin
+
+
+def _segments(seen: Calibrated, options: Options) -> list[Segment]:
+    """Pixels of the objects: from a server, from the capture's masks, or found."""
+    if options.masks_url is not None:
+        prompts = [" ".join(filter(None, (m.color, m.noun))) for m in mentions(options.instruction)]
+        masks = services.ask_masks(options.masks_url, seen.capture.color, prompts, options.deadline)
+        masks = disjoint(masks, [])
+    else:
+        masks = seen.capture.masks
+    if masks:
+        return [Segment(name, mask, label=name.replace("_", " ")) for name, mask in masks.items()]
+    return find_segments(seen)
+
+
+def _shapes(
+    seen: Calibrated, segments: list[Segment], options: Options
+) -> tuple[list[Solid], list[str]]:
+    """Solids, and the names of segments that show too little."""
+    rng = np.random.default_rng(options.seed)
+    hints = {s.name: hint for s in segments if s.named and (hint := hint_of(s.name))}
+    solids = fit_all(seen, segments, rng=rng, hints=hints)
+    lost = {segment.name for segment in segments} - {solid.name for solid in solids}
+    solids = [complete(seen, solid) for solid in solids]
+    return [furnish(seen, solid, hints.get(solid.name)) for solid in solids], sorted(lost)
+
+
+def _joints(
+    seen: Calibrated, solids: list[Solid], options: Options
+) -> tuple[list[Solid], list[Joint]]:
+    """The solids with joints from a second frame or a server."""
+    folder = options.second
+    if folder is None and (options.capture / "second").is_dir():
+        folder = options.capture / "second"
+    joints: list[Joint] = []
+    if folder is not None:
+        later = calibrate(read_capture(folder, use_masks=not options.auto), seed=options.seed)
+        masks = later.capture.masks
+        segments = (
+            [Segment(name, mask) for name, mask in masks.items()] if masks else find_segments(later)
+        )
+        others, _ = _shapes(later, segments, options)
+        solids, joints = articulate(solids, others)
+    if options.articulation_url is not None:
+        solids, asked = asked_joints(seen, solids, options)
+        joints += asked
+    return solids, joints
+
+
+def safe_title(folder: Path) -> str:
+    """A scene name from a folder's."""
+    kept = "".join(c if c.isalnum() or c in "_.-" else "_" for c in folder.resolve().name)[:60]
+    return kept if kept and kept[0].isalnum() else f"scene{kept}"
+
+
+def _named(seen: Calibrated, solids: list[Solid], instruction: str | None) -> list[Solid]:
+    """Gives found objects their names; what the user named keeps its name."""
+    found = [solid for solid in solids if not solid.segment.named]
+    if not found:
+        return solids
+    colors = {s.name: color_of(seen.capture.color, s.segment.mask) for s in found}
+    names = assign_names({s.name: s.kind for s in found}, colors, instruction)
+    renamed = []
+    for solid in solids:
+        name = names.get(solid.name, solid.name)
+        segment = replace(solid.segment, name=name, label=name.replace("_", " "))
+        support = names.get(solid.support, solid.support)
+        renamed.append(replace(solid, segment=segment, support=support))
+    return renamed
+
+
+def settle_twin(twin: Twin, folder: Path) -> None:
+    """Builds the twin and lets it rest; trouble becomes warnings, never silence."""
+    try:
+        twin.scene = assembly.load(twin.document, folder)
+        twin.settled = assembly.settle(twin.scene)
+    except EtotError as error:
+        twin.warnings.append(f"the twin cannot be built: {error}")
+        return
+    for name, rest in twin.settled.items():
+        if rest.moved * 1000 > assembly.SETTLE_MM or rest.turned > assembly.SETTLE_DEG:
+            twin.warnings.append(
+                f"{name} does not lie still: it moves {rest.moved * 1000:.1f} mm and turns "
+                f"{rest.turned:.1f}° until it rests"
+            )
+
+
+class _Clock:
+    """Writes the wall time since the last lap into a mapping."""
+
+    def __init__(self, timing: dict[str, float]) -> None:
+        self._timing = timing
+        self._last = time.perf_counter()
+
+    def lap(self, name: str) -> None:
+        now = time.perf_counter()
+        self._timing[name] = now - self._last
+        self._last = now

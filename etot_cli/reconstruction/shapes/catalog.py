@@ -1,0 +1,37 @@
+"""Which shapes are tried, simple ones first."""
+
+from __future__ import annotations
+
+from etot_cli.reconstruction.shapes.ball import Ball
+from etot_cli.reconstruction.shapes.base import Family
+from etot_cli.reconstruction.shapes.block import Block
+from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
+from etot_cli.reconstruction.shapes.rod import Capsule, Pen
+from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
+
+Tiers = list[list[Family]]
+MOST_DRAWERS = 3
+
+
+def tiers(hint: str | None = None) -> Tiers:
+    """Families by tier; a later tier is for what the earlier ones do not explain.
+
+    Args:
+        hint: a kind that is known: only families of that kind are tried then (furniture may be
+            closed, which is a plain block as far as shape goes).
+    """
+    simple: list[Family] = [Ball(), Block(), Cylinder(), Cup(), Capsule(), Pen()]
+    units: list[Family] = [
+        OpenUnit(count, moving) for count in range(1, MOST_DRAWERS + 1) for moving in range(count)
+    ]
+    doors: list[Family] = [OpenCabinet("left"), OpenCabinet("right")]
+    if hint is None:
+        return [simple, [ConicalCup()], [*units, *doors]]
+    if hint == "drawer_unit":
+        return [[Block()], units]
+    if hint == "cabinet":
+        return [[Block()], doors]
+    if hint in ("cup", "bowl"):
+        return [[Cup()], [ConicalCup()]]
+    chosen = [family for family in simple if family.kind == hint]
+    return [chosen] if chosen else tiers()

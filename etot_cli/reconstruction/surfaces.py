@@ -1,0 +1,168 @@
+"""Local geometry and colour of a picture: normals, depth jumps, level areas, colour features."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.view import Array, Mask
+
+JUMP = 0.012
+"""Neighbouring pixels that differ by more than this in depth are not one surface [m]."""
+LEVEL_COSINE = 0.94
+FLUSH = 0.004
+"""Two sides of a border are flush when they are out of line by less than this [m]."""
+FLUSH_COSINE = 0.9
+APART = 4
+"""The two sides of a border are compared this far from it [px]."""
+SURROUNDINGS = (121, 121)
+SHADOW_HUE = 7.0
+"""A shadow keeps the desk's hue and saturation up to this distance."""
+DARKEST_SHADOW = 0.3
+LEAST_BORDER = 12
+STRAIGHT = 3.0
+"""Nine tenths of a straight border lie this near to a line [px]."""
+
+
+@dataclass(frozen=True)
+class Border:
+    """Where two regions meet: share of its known pixels that are one surface, share that is known,
+    length [px] along its ``direction`` (2,), and whether it is a straight line.
+    """
+
+    one_surface: float
+    known: float
+    length: float
+    direction: Array
+    straight: bool
+
+
+def _border(votes: Array) -> Border:
+    """A border from rows (verdict, u, v)."""
+    verdicts, pixels = votes[:, 0], votes[:, 1:]
+    known = np.isfinite(verdicts)
+    same = float(verdicts[known].mean()) if known.any() else 0.0
+    center = pixels.mean(axis=0)
+    axes = np.linalg.svd(pixels - center, full_matrices=False)[2]
+    off = np.abs((pixels - center) @ axes[1])
+    straight = float(np.percentile(off, 90)) < STRAIGHT
+    length = len(np.unique(np.round((pixels - center) @ axes[0])))
+    return Border(same, float(known.mean()), float(length), axes[0], straight)
+
+
+@dataclass(frozen=True)
+class Surfaces:
+    """``normals`` (h, w, 3), NaN = unknown; ``jumps``, ``level`` (h, w); ``area`` (h, w) of a
+    level pixel [m²]; ``color`` (h, w, 3) features that shading hardly changes.
+    """
+
+    normals: Array
+    jumps: Mask
+    level: Mask
+    area: Array
+    color: NDArray[np.float32]
+
+    def borders(self, seen: Calibrated, labels: NDArray[np.int32]) -> dict[tuple[int, int], Border]:
+        """The borders between labels, by (low, high).
+
+        Sides that are in line, or that meet in a convex edge, are one surface as far as geometry
+        goes; a jump in depth or a concave edge is where two things meet.
+        """
+        votes: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
+        for dv, du in ((0, 1), (1, 0)):
+            one = labels[: labels.shape[0] - dv, : labels.shape[1] - du]
+            two = labels[dv:, du:]
+            v, u = np.nonzero((one != two) & (one > 0) & (two > 0))
+            verdicts = self._compare(seen, labels, v, u, dv, du)
+            for a, b, verdict, x, y in zip(one[v, u], two[v, u], verdicts, u, v, strict=True):
+                pair = (int(min(a, b)), int(max(a, b)))
+                votes.setdefault(pair, []).append((float(verdict), float(x), float(y)))
+        return {
+            pair: _border(np.array(found))
+            for pair, found in votes.items()
+            if len(found) >= LEAST_BORDER
+        }
+
+    def _compare(
+        self, seen: Calibrated, labels: NDArray[np.int32],
+        v: NDArray[np.int64], u: NDArray[np.int64], dv: int, du: int,
+    ) -> Array:  # fmt: skip
+        """1 one surface, 0 two, NaN unknown, for border pixels (v, u) towards (dv, du)."""
+        height, width = labels.shape
+        v0, u0 = np.clip(v - APART * dv, 0, height - 1), np.clip(u - APART * du, 0, width - 1)
+        v1 = np.clip(v + (APART + 1) * dv, 0, height - 1)
+        u1 = np.clip(u + (APART + 1) * du, 0, width - 1)
+        p0, p1 = seen.cloud[v0, u0], seen.cloud[v1, u1]
+        n0, n1 = self.normals[v0, u0], self.normals[v1, u1]
+        gap = p1 - p0
+        known = np.isfinite(gap).all(axis=1) & np.isfinite(n0).all(axis=1)
+        known &= np.isfinite(n1).all(axis=1)
+        with np.errstate(invalid="ignore"):
+            offset = np.maximum(np.abs((gap * n0).sum(1)), np.abs((gap * n1).sum(1)))
+            turn = (n0 * n1).sum(1)
+            slack = FLUSH + 2 * seen.noise
+            # Beyond a convex edge each side lies behind the other's plane.
+            convex = ((gap * n0).sum(1) < slack / 2) & ((gap * n1).sum(1) > -slack / 2)
+            convex &= ((n1 - n0) * gap).sum(1) > 0
+            flush = (turn > FLUSH_COSINE) & (offset < slack)
+            near = np.linalg.norm(gap, axis=1) < 0.03
+        return np.where(known, (flush | (convex & near & (turn < FLUSH_COSINE))) & near, np.nan)
+
+
+def measure_surfaces(seen: Calibrated, *, smooth: int) -> Surfaces:
+    """Measures a picture; ``smooth``: radius of the windows for normals [px]."""
+    depth = seen.depth.astype(np.float32)
+    valid = depth > 0
+    size = (2 * smooth + 1, 2 * smooth + 1)
+    weight = cv2.blur(valid.astype(np.float32), size)
+    mean = cv2.blur(np.where(valid, depth, 0), size) / np.maximum(weight, 1e-6)
+    mean = np.where(valid & (weight > 0.4), mean, np.nan)
+    points = seen.view.cloud(np.nan_to_num(mean))
+    reach = max(1, smooth)
+    right = np.roll(points, -reach, axis=1) - np.roll(points, reach, axis=1)
+    down = np.roll(points, -reach, axis=0) - np.roll(points, reach, axis=0)
+    normals = np.cross(down, right)
+    length = np.linalg.norm(normals, axis=2, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        normals = normals / length
+    away = (normals * (seen.view.position - points)).sum(axis=2) < 0
+    normals[away] *= -1
+    kernel = np.ones((3, 3), np.uint8)
+    far = np.where(valid, depth, 0)
+    near = np.where(valid, depth, 99.0).astype(np.float32)
+    step = cv2.dilate(far, kernel) - cv2.erode(near, kernel)
+    # The farther side of a jump is marked: the nearer one is the object that hides it.
+    jumps = valid & (step > JUMP + 3 * seen.noise) & (depth - cv2.erode(near, kernel) > step / 2)
+    with np.errstate(invalid="ignore"):
+        level = np.nan_to_num(normals[..., 2]) > LEVEL_COSINE
+        slant = np.abs(((seen.view.position - points) * normals).sum(axis=2)) / np.linalg.norm(
+            seen.view.position - points, axis=2
+        )
+        area = depth**2 / (seen.view.fx * seen.view.fy) / np.maximum(np.nan_to_num(slant), 0.15)
+    return Surfaces(normals, jumps, level & valid, area, color_features(seen.capture.color))
+
+
+def color_features(color: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Hue and saturation that do not depend on shading, and a little lightness; (h, w, 3)."""
+    blurred = cv2.bilateralFilter(np.ascontiguousarray(color), 5, 25, 3)
+    lab = cv2.cvtColor(blurred.astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
+    light = lab[..., :1]
+    return np.concatenate([100 * lab[..., 1:] / (light + 25), 0.25 * light], axis=2)
+
+
+def shaded_desk(seen: Calibrated) -> Mask:
+    """Pixels (h, w) whose colour is the desk's in light or in shadow."""
+    lab = cv2.cvtColor(seen.capture.color.astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
+    lab = cv2.GaussianBlur(lab, (0, 0), 1.5)
+    # The desk's own colour varies over the picture with light and lens.
+    weight = cv2.blur(seen.desk.astype(np.float32), SURROUNDINGS)
+    local = cv2.blur(np.where(seen.desk[..., None], lab, 0), SURROUNDINGS)
+    typical = np.median(lab[seen.desk], axis=0)
+    local = np.where(weight[..., None] > 0.02, local / np.maximum(weight[..., None], 1e-6), typical)
+    dim = lab[..., 0] / np.maximum(local[..., 0], 1.0)
+    hue = np.linalg.norm(lab[..., 1:] - local[..., 1:] * dim[..., None], axis=2)
+    return np.asarray((hue < SHADOW_HUE) & (dim > DARKEST_SHADOW) & (dim < 1.1))

@@ -1,0 +1,55 @@
+"""Rendered captures that several tests share."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+os.environ.setdefault("MUJOCO_GL", "egl")
+
+from etot_cli.errors import ServiceError
+from etot_cli.specs.scene import Scene
+from etot_cli.world.capture import Picture, capture
+from tests.reconstruction.scenes import BALL, CUP, PEN, scene
+
+
+def render(what: Scene, **options: object) -> Picture:
+    """A capture of a scene; the test is skipped where there is no OpenGL."""
+    try:
+        return capture(what, **options)  # type: ignore[arg-type]
+    except ServiceError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture(scope="session")
+def table() -> Scene:
+    """A few things on a small picture."""
+    return scene(
+        {
+            "mug": {**CUP, "color": "yellow", "at": [0.45, 0.20]},
+            "crate": {"kind": "box", "size": [0.14, 0.10, 0.06], "color": "purple",
+                      "at": [0.45, -0.12], "yaw_deg": 20},
+            "marker": {**PEN, "length": 0.12, "color": "white", "on": "crate",
+                       "at": [0.45, -0.12], "yaw_deg": 45},
+            "ball": {**BALL, "color": "red", "at": [0.60, 0.05]},
+        },
+        {"position": [0.98, 0.05, 0.62], "look_at": [0.44, 0.0, 0.14], "width": 640,
+         "height": 480, "fx": 480, "fy": 480, "cx": 322.5, "cy": 236.0},
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def picture(table: Scene) -> Picture:
+    """The table, rendered."""
+    return render(table)
+
+
+@pytest.fixture
+def folder(picture: Picture, tmp_path: Path) -> Path:
+    """The table as a clean capture folder with masks."""
+    from etot_cli.world.capture import write_capture
+
+    write_capture(picture, tmp_path / "table")
+    return tmp_path / "table"
