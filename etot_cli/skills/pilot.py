@@ -29,7 +29,7 @@ Guard = Callable[[], bool]
 """Looked at every other control period; True ends the phase."""
 
 STEPS_PER_CONTROL = round(CONTROL_PERIOD / TIMESTEP)
-OBSERVE_EVERY = 3
+OBSERVE_EVERY = 4
 """Control periods between observations of the recorder."""
 GUARD_EVERY = 2
 """Control periods between looks at the guards."""

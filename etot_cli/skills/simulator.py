@@ -91,6 +91,9 @@ class ActionSimulator:
     def start(self) -> tuple[StateToken, SceneState]:
         """The settled initial state of all worlds, and world 0's view of it."""
         if self._start is None:
+            if self._jobs > 1:
+                # Workers come up while the scene settles and the instruction is read.
+                self._ensure_pool().submit(int)
             begun = [workshop.start() for workshop in self._workshops]
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start

@@ -53,7 +53,7 @@ class Recorder:
         self.start_time = float(data.time)
         self._last_time = self.start_time
         self._origin = data.xpos[self._bodies].copy()
-        self._farthest = np.zeros(len(self._names))
+        self._farthest_squared = np.zeros(len(self._names))
         self._trail_end = self._origin.copy()
         self._trails = [[(float(x), float(y))] for x, y, _ in self._origin]
         self._peak = np.zeros(len(owners) ** 2)
@@ -81,12 +81,17 @@ class Recorder:
         """Takes note of the current contacts and positions."""
         now = float(data.time)
         elapsed, self._last_time = now - self._last_time, now
-        if data.ncon:
+        if data.ncon and data.nefc:
             self._observe_contacts(data, now, elapsed)
         positions = data.xpos[self._bodies]
-        distance = np.linalg.norm(positions - self._origin, axis=1)
-        np.maximum(self._farthest, distance, out=self._farthest)
-        strayed = np.linalg.norm(positions - self._trail_end, axis=1) > TRAIL_STEP
+        offset = positions - self._origin
+        np.maximum(
+            self._farthest_squared,
+            np.einsum("ij,ij->i", offset, offset),
+            out=self._farthest_squared,
+        )
+        offset = positions - self._trail_end
+        strayed = np.einsum("ij,ij->i", offset, offset) > TRAIL_STEP**2
         if strayed.any():
             self._extend_trails(positions, strayed)
         if self._keep_frames and (not self._times or now - self._times[-1] >= FRAME_PERIOD - 1e-6):
@@ -102,9 +107,11 @@ class Recorder:
     def _observe_contacts(self, data: mujoco.MjData, now: float, elapsed: float) -> None:
         contact = data.contact
         address = contact.efc_address
-        force = np.where(address >= 0, data.efc_force[np.maximum(address, 0)], 0.0)
+        force = data.efc_force[address]
+        force[address < 0] = 0.0
         labels = self._geom_label[contact.geom]
-        pairs = labels.min(axis=1) * len(self._labels) + labels.max(axis=1)
+        first, second = labels[:, 0], labels[:, 1]
+        pairs = np.minimum(first, second) * len(self._labels) + np.maximum(first, second)
         total = np.bincount(pairs, weights=force, minlength=self._peak.size)
         total[total < FORCE_THRESHOLD] = 0.0
         fresh = (total > 0.0) & (self._peak == 0.0)
@@ -141,6 +148,10 @@ class Recorder:
                 )
             )
         return tuple(sorted(events, key=lambda event: (event.time_s, event.first, event.second)))
+
+    @property
+    def _farthest(self) -> NDArray[np.float64]:
+        return np.sqrt(self._farthest_squared)
 
     def displacement(self) -> dict[str, float]:
         """Largest distance of each free object from where it was [m]."""

@@ -102,7 +102,7 @@ def _add_camera(world: Any, name: str, camera: specs.Camera) -> None:
         resolution=[camera.width, camera.height],
         sensor_size=[camera.width * 1e-5, camera.height * 1e-5],
         focal_pixel=[camera.fx, camera.fy],
-        principal_pixel=[camera.cx - camera.width / 2, camera.height / 2 - camera.cy],
+        principal_pixel=[camera.width / 2 - camera.cx - 0.5, camera.height / 2 - camera.cy - 0.5],
     )
 
 
