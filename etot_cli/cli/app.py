@@ -17,6 +17,7 @@ import typer
 
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, OK, UNUSABLE
 from etot_cli.cli.plan import plan
+from etot_cli.cli.reconstruct import reconstruct
 from etot_cli.cli.simulate import simulate
 from etot_cli.errors import EtotError
 
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 app.command()(plan)
 app.command()(simulate)
+app.command()(reconstruct)
 
 
 def _show_version(wanted: bool) -> None:

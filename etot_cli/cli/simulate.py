@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from etot_cli.cli.exits import OK
 from etot_cli.cli.options import Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
 from etot_cli.cli.session import Session
 
@@ -13,14 +16,21 @@ from etot_cli.cli.session import Session
 def simulate(
     task: TaskFile,
     plan: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--plan",
             metavar="PLAN",
             help="The actions, e.g. '[PICK UP, pen] [PUT INTO, holder]', or a report.json of "
             "etot plan.",
         ),
-    ],
+    ] = None,
+    capture: Annotated[
+        Path | None,
+        typer.Option("--capture", metavar="DIR", help="Render an RGB-D capture instead of acting."),
+    ] = None,
+    noise: Annotated[
+        bool, typer.Option("--noise", help="With --capture: as a Kinect would see it.")
+    ] = False,
     vary: Vary = False,
     video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
@@ -35,6 +45,16 @@ def simulate(
     Exit code 0: the plan works and the task is done; 1: it is not; 2: unusable input; 3: --video
     or --frames without OpenGL; 130: interrupted.
     """
+    if capture is not None:
+        if plan is not None or video or frames:
+            raise typer.BadParameter("--capture renders the scene as it stands; it takes no plan")
+        from etot_cli.commands.capture import run_capture
+
+        folder = run_capture(task, capture, noisy=noise, seed=seed, vary=vary)
+        print(f"capture: {folder}", file=sys.stderr if json else sys.stdout)
+        return OK
+    if plan is None:
+        raise typer.BadParameter("missing --plan (or --capture to render the scene)")
     session = Session("simulate", task, out=out, json=json, quiet=quiet, verbose=verbose)
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate

@@ -7,19 +7,21 @@ import sys
 from pathlib import Path
 
 from etot_cli.reporting.files import write_atomically
-from etot_cli.reporting.models import Report
+from etot_cli.reporting.models import Model
 from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.reporting.simulate_report import SimulateReport
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
-REPORTS: dict[str, type[Report]] = {
+REPORTS: dict[str, type[Model]] = {
     "etot.plan-1.json": PlanReport,
     "etot.simulate-1.json": SimulateReport,
+    "etot.reconstruct-1.json": ReconstructReport,
 }
 """Schema file name → report model."""
 
 
-def schema_text(model: type[Report]) -> str:
+def schema_text(model: type[Model]) -> str:
     """A report model's JSON Schema, as it stands in its file."""
     schema = model.model_json_schema(mode="serialization")
     return json.dumps({"$schema": DIALECT, **schema}, indent=2, ensure_ascii=False) + "\n"

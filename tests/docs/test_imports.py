@@ -18,14 +18,22 @@ BELOW: dict[str, set[str]] = {
     "planning": {"specs", "world", "skills", "reasoning"},
     "reconstruction": {"specs", "world"},
     "reporting": {"specs", "world", "skills", "reasoning", "planning"},
-    "commands": {"specs", "world", "skills", "reasoning", "planning", "reporting"},
+    "commands": {
+        "specs",
+        "world",
+        "skills",
+        "reasoning",
+        "planning",
+        "reporting",
+        "reconstruction",
+    },
     "cli": {"planning", "reasoning", "reporting", "commands"},
 }
 """Rooms that each room may import besides itself and ``errors``. Rooms still to come may stand on
 everything."""
 WITHOUT_MUJOCO = ("specs", "reasoning/builtin", "planning", "reporting", "commands", "cli")
 WITHOUT_HTTP = (
-    "specs", "world", "skills", "reasoning/builtin", "planning", "reporting", "reconstruction",
+    "specs", "world", "skills", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
 PLAIN_DATA = {"etot_cli.world": {"state", "colors"}, "etot_cli.skills": {"action", "simulated"}}
 """The modules of lower rooms that carry data alone; physics is behind a protocol."""

@@ -31,7 +31,7 @@ MEMORY_LIMIT_MIB = 1024
 
 @dataclass
 class Meter:
-    """Sums the time spent inside ``mj_step``, which is what bare stepping of the same steps costs."""
+    """Sums the time spent inside ``mj_step``: what bare stepping of the same steps costs."""
 
     inside_s: float = 0.0
 

@@ -49,9 +49,7 @@ NAIVE_PLANS = (
         "[PICK UP, apple] [PUT INTO, holder] [PICK UP, holder] [PUT ON, drawer]",
         "apple",
     ),
-    Naive(
-        "task7", "[OPEN, drawer] [PICK UP, apple] [PUT INTO, drawer] [CLOSE, drawer]", "apple"
-    ),
+    Naive("task7", "[OPEN, drawer] [PICK UP, apple] [PUT INTO, drawer] [CLOSE, drawer]", "apple"),
     Naive(
         "task7",
         "[PICK UP, apple] [PUT INTO, holder] [PICK UP, tennis_ball] [PUT INTO, holder]",
@@ -72,7 +70,9 @@ def is_right_plan(task: str, plan: list[str]) -> bool:
 
 
 def _same(wanted: str, plan: list[str]) -> bool:
-    expected = [item.strip() for item in wanted.replace("] [", "]\n[").replace(") [", ")\n[").split("\n")]
+    expected = [
+        item.strip() for item in wanted.replace("] [", "]\n[").replace(") [", ")\n[").split("\n")
+    ]
     return len(expected) == len(plan) and all(
         have == want or ("*" in want and have.startswith(want.split("*")[0]))
         for want, have in zip(expected, plan, strict=True)

@@ -27,4 +27,6 @@ def replace_section(page: Path, title: str, text: str) -> None:
     while prose and not prose[0].strip():
         prose.pop(0)
     body = ["", *prose, *([""] if prose else []), *text.splitlines(), ""]
-    page.write_text("\n".join([*lines[:start], *body, *lines[end:]]).rstrip() + "\n", encoding="utf-8")
+    page.write_text(
+        "\n".join([*lines[:start], *body, *lines[end:]]).rstrip() + "\n", encoding="utf-8"
+    )

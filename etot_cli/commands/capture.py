@@ -1,0 +1,44 @@
+"""``etot simulate --capture``: renders an RGB-D capture of a scene instead of acting in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from etot_cli.specs.document import read_document
+from etot_cli.specs.load import load_scene, load_task
+
+
+def run_capture(path: Path, folder: Path, *, noisy: bool, seed: int, vary: bool) -> Path:
+    """Writes a capture folder (see docs/capture_format.md) and returns it.
+
+    Args:
+        path: a task or a scene file.
+        folder: where the capture goes.
+        noisy: as a Kinect would see it, depth shifted against colour.
+        seed: of the noise and of the variation.
+        vary: draw the scene's poses and parameters first.
+
+    Raises:
+        SpecError: the file is unusable.
+        ServiceError: OpenGL is missing.
+    """
+    # A task has an instruction; deciding by that keeps a broken file's own error.
+    content = read_document(path).plain()
+    is_task = isinstance(content, dict) and "instruction" in content
+    scene = load_task(path).scene if is_task else load_scene(path)
+    if vary:
+        from etot_cli.specs.vary import vary as varied
+
+        scene = varied(scene, seed)
+    from etot_cli.world.engine import import_mujoco
+
+    import_mujoco()
+    from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
+
+    picture = capture(scene)
+    if noisy:
+        picture = add_noise(picture, KINECT, np.random.default_rng(seed))
+    write_capture(picture, folder, scale=KINECT.scale if noisy else CLEAN_SCALE)
+    return folder
