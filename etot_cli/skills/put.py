@@ -113,14 +113,21 @@ def put_into_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillO
     attached = pilot.attach(name)
     pilot.checker.freeze(pilot.data)
     blockers = Blockers(pilot.world)
-    placements: list[Placement] = []
+    shallow: list[Placement] = []
+    deep = 0
     for target, hover in _container_targets(pilot, attached, region):
+        pilot.checker.freeze(pilot.data)
         placement = _lower_into(pilot, attached, target, hover, blockers)
-        if placement is not None:
-            placements.append(placement)
-        if sum(item.drop < LOWER_STEP for item in placements) >= ENOUGH_PLACEMENTS:
+        if placement is None:
+            continue
+        if placement.drop >= LOWER_STEP:
+            shallow.append(placement)
+            continue
+        deep += 1
+        yield partial(_execute, attached=attached, placement=placement)
+        if deep >= ENOUGH_PLACEMENTS:
             break
-    if not placements:
+    if not deep and not shallow:
         blocking = blockers.most(excluding=[name])
         yield failed(
             CauseKind.NO_ROOM,
@@ -128,7 +135,7 @@ def put_into_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillO
             f"{name} cannot be brought into {action.target}"
             + (f": {', '.join(blocking)} in the way" if blocking else ": out of the arm's reach"),
         )
-    for placement in sorted(placements, key=lambda item: round(item.drop / LOWER_STEP)):
+    for placement in sorted(shallow, key=lambda item: round(item.drop / LOWER_STEP)):
         yield partial(_execute, attached=attached, placement=placement)
 
 
