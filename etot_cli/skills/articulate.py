@@ -14,7 +14,7 @@ import numpy as np
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.grip_part import AJAR, grip_moves
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
-from etot_cli.skills.part_motion import STANDOFF, PreparedMove, fraction_open, way_back
+from etot_cli.skills.part_motion import STANDOFF, Effort, PreparedMove, fraction_open, way_back
 from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.skills.push_part import Push, contact_points, push_move
@@ -24,6 +24,13 @@ from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
 TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
 CLOSED_ENOUGH, OPEN_ENOUGH = 0.03, 0.12
 """Moves that get the part this close to its end (share of its travel) are tried at once."""
+EFFORTS = (
+    Effort(),
+    Effort(thorough=True),
+    Effort(lenient=True),
+    Effort(lenient=True, thorough=True),
+)
+"""Looked at in turn until one has a way."""
 AJAR_SHARE = 0.08
 """... and the share of the part's travel that must have come of it."""
 TOOL_SPEED = 0.16
@@ -54,8 +61,8 @@ def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | Sk
         return
     blockers = Blockers(pilot.world)
     found = False
-    for lenient in (False, True):
-        for move in _moves(pilot, part, value, opening, blockers, lenient):
+    for effort in EFFORTS:
+        for move in _moves(pilot, part, value, opening, blockers, effort):
             found = True
             yield _attempt(part, move, opening)
         if found:
@@ -85,7 +92,7 @@ def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | Sk
 
 
 def _moves(
-    pilot: Pilot, part: Part, value: float, opening: bool, blockers: Blockers, lenient: bool
+    pilot: Pilot, part: Part, value: float, opening: bool, blockers: Blockers, effort: Effort
 ) -> Iterator[PreparedMove]:
     """Moves that follow the part to its end at once; then those that at least get far enough,
     the farthest first.
@@ -94,7 +101,7 @@ def _moves(
     wanted = OPEN_AT + 0.04 if opening else CLOSED_AT
     partway: list[tuple[float, int, PreparedMove]] = []
     pilot.checker.freeze(pilot.data)
-    for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, lenient)):
+    for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, effort)):
         missing = abs(move.reached - target) / abs(part.upper - part.lower)
         fraction = fraction_open(part, move.reached)
         if missing < (OPEN_ENOUGH if opening else CLOSED_ENOUGH):
@@ -118,7 +125,7 @@ def _ajar_moves(
     pilot.checker.freeze(pilot.data)
     moves = [
         move
-        for move in grip_moves(pilot, part, value, part.upper, blockers, False)
+        for move in grip_moves(pilot, part, value, part.upper, blockers, Effort())
         if move.length >= AJAR
     ]
     pilot.checker.freeze(pilot.data)
@@ -126,11 +133,11 @@ def _ajar_moves(
 
 
 def _candidates(
-    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, lenient: bool
+    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, effort: Effort
 ) -> Iterator[PreparedMove]:
     opening = abs(target - part.upper) < abs(target - part.lower)
     if opening:
-        yield from grip_moves(pilot, part, value, target, blockers, lenient)
+        yield from grip_moves(pilot, part, value, target, blockers, effort)
     face = part.inner if opening else part.outer
     if face is None:
         return
@@ -138,12 +145,12 @@ def _candidates(
         for outward in (False, True):
             push = Push(face, contact, outward)
             for tilt in TILTS[1:] if outward else TILTS:
-                move = push_move(pilot, part, push, value, target, tilt, blockers, lenient)
+                move = push_move(pilot, part, push, value, target, tilt, blockers, effort)
                 if move is not None:
                     yield move
                     break
     if not opening:
-        yield from grip_moves(pilot, part, value, target, blockers, lenient)
+        yield from grip_moves(pilot, part, value, target, blockers, effort)
 
 
 def _attempt(part: Part, move: PreparedMove, opening: bool) -> Attempt:
@@ -159,7 +166,7 @@ def _open_in_two(pilot: Pilot, part: Part, move: PreparedMove) -> SkillOutcome:
     value = float(pilot.data.joint(part.joint).qpos[0])
     if outcome.effect or abs(value - part.lower) < AJAR_SHARE * abs(part.upper - part.lower):
         return outcome
-    second = next(_moves(pilot, part, value, True, Blockers(pilot.world), False), None)
+    second = next(_moves(pilot, part, value, True, Blockers(pilot.world), Effort()), None)
     return outcome if second is None else carry_out(pilot, part, second, True)
 
 

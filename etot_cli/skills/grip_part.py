@@ -13,6 +13,7 @@ from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.part_motion import (
     BACK_OUT_STEPS,
     STANDOFF,
+    Effort,
     PartFrame,
     PreparedMove,
     approaches,
@@ -34,12 +35,12 @@ AJAR = 0.05
 
 
 def grip_moves(
-    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, lenient: bool
+    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, effort: Effort
 ) -> Iterator[PreparedMove]:
     """Moves with the fingers closed on the part, upright hands first."""
     for grasp in part.grasps:
         for tilt in GRIP_TILTS:
-            move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, lenient)
+            move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, effort)
             if move is not None:
                 yield move
 
@@ -52,7 +53,7 @@ def _grip_move(
     target: float,
     tilt: float,
     blockers: Blockers,
-    lenient: bool,
+    effort: Effort,
 ) -> PreparedMove | None:
     frame = PartFrame(pilot, part)
     now = frame.at(value)
@@ -71,7 +72,7 @@ def _grip_move(
         for spin in (1.0, -1.0):
             in_part = Pose(center, base @ np.diag([spin, spin, 1.0]))
             move = _follow_part(
-                pilot, part, frame, now, in_part, value, target, opening, True, blockers, lenient
+                pilot, part, frame, now, in_part, value, target, opening, True, blockers, effort
             )
             if move is not None:
                 return move
@@ -89,7 +90,7 @@ def _follow_part(
     opening: float,
     grip: bool,
     blockers: Blockers,
-    lenient: bool,
+    effort: Effort,
 ) -> PreparedMove | None:
     """A tool pose fixed to the part, followed along the part's path."""
     arm = pilot.arm
@@ -97,12 +98,12 @@ def _follow_part(
     pilot.checker.set_joint(part.joint, value)
     pilot.checker.set_fingers(opening)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    reachable = approach_of(pilot, start, tool, False, blockers, lenient)
+    reachable = approach_of(pilot, start, tool, False, blockers, effort)
     if reachable is None:
         return None
     before, approach = reachable
     radius = float(np.linalg.norm(in_part.position[:2]))
-    values = joint_values(part, value, target, radius)
+    values = joint_values(part, value, target, radius, effort)
     along: list[Vector] = []
     joints = approach[-1]
     reached = value
@@ -112,7 +113,7 @@ def _follow_part(
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             break
         pilot.checker.set_joint(part.joint, float(step))
-        if not is_free(pilot, result.joints, blockers, lenient, PENETRATION):
+        if not is_free(pilot, result.joints, blockers, effort, PENETRATION):
             break
         joints = result.joints
         along.append(joints)
@@ -131,11 +132,11 @@ def _follow_part(
 
 
 def approach_of(
-    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
 ) -> tuple[Vector, Vector] | None:
     """Joint values at the standoff and along the straight approach, for the first arm branch
     that is free.
     """
-    for before, approach in approaches(pilot, start, tool, free_spin, blockers, lenient):
+    for before, approach in approaches(pilot, start, tool, free_spin, blockers, effort):
         return before, approach
     return None

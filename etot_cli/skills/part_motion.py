@@ -17,9 +17,21 @@ from etot_cli.world.index import Part
 Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
-PATH_STEP = 0.03
+PATH_STEP, FINE_STEP = 0.03, 0.012
 """Spacing of tool poses along the part's path [m]."""
 BACK_OUT_STEPS = 2
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How hard a way is looked for.
+
+    ``lenient``: movable objects in the way do not count, physics will show; ``thorough``: finer
+    steps along the path, and all branches of the arm even where the hand seems to have no room.
+    """
+
+    lenient: bool = False
+    thorough: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,10 +73,11 @@ def fraction_open(part: Part, value: float) -> float:
     return (value - part.lower) / (part.upper - part.lower)
 
 
-def joint_values(part: Part, value: float, target: float, radius: float) -> Vector:
+def joint_values(part: Part, value: float, target: float, radius: float, effort: Effort) -> Vector:
     """Joint values from ``value`` to ``target``, spaced along the contact's path."""
     travel = abs(target - value) * (radius if part.info.joint_type == "hinge" else 1.0)
-    count = max(int(np.ceil(travel / PATH_STEP)), 2)
+    step = FINE_STEP if effort.thorough else PATH_STEP
+    count = max(int(np.ceil(travel / step)), 2)
     return np.linspace(value, target, count + 1)
 
 
@@ -74,7 +87,7 @@ def travel_length(part: Part, value: float, reached: float, radius: float) -> fl
 
 
 def approaches(
-    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, lenient: bool
+    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
 ) -> Iterator[tuple[Vector, Vector]]:
     """Joint values at the standoff and along the straight approach, for every free arm branch."""
     arm = pilot.arm
@@ -87,12 +100,10 @@ def approaches(
         if count < len(path):
             continue
         rows = (approach[-1], before, approach[count // 2])
-        hit = next(
-            (row for row in rows if not is_free(pilot, row, blockers, lenient, 0.0005)), None
-        )
+        hit = next((row for row in rows if not is_free(pilot, row, blockers, effort, 0.0005)), None)
         if hit is None:
             yield before, approach
-        elif pilot.checker.hits(hit, clearance=0.0005, hand_only=True):
+        elif not effort.thorough and pilot.checker.hits(hit, clearance=0.0005, hand_only=True):
             # The hand itself has no room there, so another branch of the arm has none either.
             return
 
@@ -106,14 +117,14 @@ def way_back(pilot: Pilot, joints: Vector) -> Vector | None:
 
 
 def is_free(
-    pilot: Pilot, joints: Vector, blockers: Blockers, lenient: bool, clearance: float
+    pilot: Pilot, joints: Vector, blockers: Blockers, effort: Effort, clearance: float
 ) -> bool:
-    """Whether the arm is free; lenient, movable objects in the way do not count."""
+    """Whether the arm is free; with lenient effort movable objects do not count."""
     hits = pilot.checker.hits(joints, clearance=clearance)
     if not hits:
         return True
     blockers.add(hits)
-    if not lenient:
+    if not effort.lenient:
         return False
     return all(_is_movable(pilot, hit) for hit in hits)
 

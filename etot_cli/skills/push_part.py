@@ -12,6 +12,7 @@ from etot_cli.skills.kinematics import JUMP, Pose, cross, rotation_from_axes
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.part_motion import (
     STANDOFF,
+    Effort,
     PartFrame,
     PreparedMove,
     approaches,
@@ -82,7 +83,7 @@ def push_move(
     target: float,
     tilt: float,
     blockers: Blockers,
-    lenient: bool,
+    effort: Effort,
 ) -> PreparedMove | None:
     """Closed fingers against a face; the hand keeps pointing down, tilted more where the arm
     would otherwise not reach.
@@ -94,10 +95,10 @@ def push_move(
     tool = _push_pose(pilot.world.robot, frame.at(value), push, tilt, -FACE_GAP)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
     best: PreparedMove | None = None
-    for before, approach in approaches(pilot, start, tool, True, blockers, lenient):
+    for before, approach in approaches(pilot, start, tool, True, blockers, effort):
         move = _push_along(
             pilot, part, frame, push, value, target, tilt, before, approach, blockers,
-            lenient,
+            effort,
         )  # fmt: skip
         if move is not None and (
             best is None or abs(move.reached - target) < abs(best.reached - target) - 1e-6
@@ -119,7 +120,7 @@ def _push_along(
     before: Vector,
     approach: Vector,
     blockers: Blockers,
-    lenient: bool,
+    effort: Effort,
 ) -> PreparedMove | None:
     checker = pilot.checker
     radius = float(np.linalg.norm(push.contact[:2]))
@@ -129,8 +130,8 @@ def _push_along(
         beyond = target + sign * OVERTRAVEL / (radius if part.info.joint_type == "hinge" else 1.0)
     along: list[Vector] = []
     joints, reached, lean = approach[-1], value, tilt
-    for step in joint_values(part, value, beyond, radius)[1:]:
-        found = _next_push(pilot, part, frame, push, float(step), lean, joints, blockers, lenient)
+    for step in joint_values(part, value, beyond, radius, effort)[1:]:
+        found = _next_push(pilot, part, frame, push, float(step), lean, joints, blockers, effort)
         if found is None:
             break
         joints, lean = found
@@ -155,7 +156,7 @@ def _next_push(
     lean: float,
     joints: Vector,
     blockers: Blockers,
-    lenient: bool,
+    effort: Effort,
 ) -> tuple[Vector, float] | None:
     pose = frame.at(value)
     clamped = min(max(value, min(part.lower, part.upper)), max(part.lower, part.upper))
@@ -168,7 +169,7 @@ def _next_push(
         result = pilot.arm.solve(tool, joints, free_spin=True)
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             continue
-        if is_free(pilot, result.joints, blockers, lenient, PENETRATION - PRESS):
+        if is_free(pilot, result.joints, blockers, effort, PENETRATION - PRESS):
             return result.joints, tilt
     return None
 

@@ -114,7 +114,7 @@ def test_worlds_give_a_probability(tmp_path: Path) -> None:
     assert code == 0
     survival = report["survival"]
     assert survival["worlds"] == 4
-    assert survival["survived"] >= 3
+    assert survival["alive"] >= 3
     low, high = survival["ci95"]
     assert 0.0 <= low <= survival["probability"] <= high <= 1.0
 
