@@ -11,7 +11,7 @@ from typing import Protocol
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.plan import task_model
 from etot_cli.errors import PlanSyntaxError
-from etot_cli.planning.conditions import describe, holds
+from etot_cli.planning.conditions import holds
 from etot_cli.planning.survival import NOMINAL
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.reporting.models import action_fields, cause_model, seconds
@@ -27,6 +27,7 @@ from etot_cli.skills.action import Action, parse_plan
 from etot_cli.skills.simulated import Simulator
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
+from etot_cli.specs.wording import describe
 from etot_cli.world.state import SceneState
 
 

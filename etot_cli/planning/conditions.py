@@ -46,25 +46,6 @@ def holds(condition: Condition, scene: SceneState) -> bool:
     raise SpecError("a condition has no key that can be checked")
 
 
-def describe(condition: Condition) -> str:
-    """A condition in words, e.g. ``cup on desk`` or ``not (lid open)``."""
-    if condition.any is not None:
-        return " or ".join(f"({describe(part)})" for part in condition.any)
-    if condition.all is not None:
-        return " and ".join(f"({describe(part)})" for part in condition.all)
-    if condition.not_ is not None:
-        return f"not ({describe(condition.not_)})"
-    for relation in ("on", "inside"):
-        pair = getattr(condition, relation)
-        if pair is not None:
-            return f"{pair[0]} {relation} {pair[1]}"
-    for state in ("in_hand", "open", "closed", "upright", "present"):
-        name = getattr(condition, state)
-        if name is not None:
-            return f"{name} {state.replace('_', ' ')}"
-    return "nothing"
-
-
 def _on(name: str, support: str, scene: SceneState) -> bool:
     state = _object(name, scene)
     if support in state.on:

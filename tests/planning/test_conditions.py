@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from etot_cli.errors import SpecError
-from etot_cli.planning.conditions import describe, holds
+from etot_cli.planning.conditions import holds
 from etot_cli.specs.task import Condition
+from etot_cli.specs.wording import describe
 from etot_cli.world.state import CLOSED_AT, SceneState
 from tests.planning.fakes import scene
 

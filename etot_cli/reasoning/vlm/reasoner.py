@@ -31,7 +31,7 @@ from etot_cli.reasoning.vlm.reading.states import ReadComparison, read_compariso
 from etot_cli.reasoning.vlm.reflecting import Reflection
 from etot_cli.reasoning.vlm.settings import Judge
 from etot_cli.skills.action import Action
-from etot_cli.specs.task import Condition
+from etot_cli.specs.wording import describe as describe_condition
 from etot_cli.world.state import RolloutRecord, SceneState
 
 MAX_BRANCHES = 16
@@ -220,23 +220,4 @@ def instruction_of(assignment: Assignment) -> str:
     """The task in words; a formal goal is written out."""
     if assignment.goal is None:
         return assignment.instruction
-    return "Reach this state: " + "; ".join(_condition(item) for item in assignment.goal)
-
-
-def _condition(condition: Condition) -> str:
-    """A condition in words."""
-    if condition.any is not None:
-        return " or ".join(f"({_condition(part)})" for part in condition.any)
-    if condition.all is not None:
-        return " and ".join(f"({_condition(part)})" for part in condition.all)
-    if condition.not_ is not None:
-        return f"not ({_condition(condition.not_)})"
-    for relation in ("on", "inside"):
-        pair = getattr(condition, relation)
-        if pair is not None:
-            return f"{pair[0]} {relation} {pair[1]}"
-    for state in ("in_hand", "open", "closed", "upright", "present"):
-        name = getattr(condition, state)
-        if name is not None:
-            return f"{name} {state.replace('_', ' ')}"
-    return "anything"
+    return "Reach this state: " + "; ".join(describe_condition(item) for item in assignment.goal)
