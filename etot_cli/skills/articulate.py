@@ -9,21 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-import numpy as np
-
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.grip_part import AJAR, grip_moves
-from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, failed
+from etot_cli.skills.outcome import DONE, Evidence, SkillOutcome, failed
 from etot_cli.skills.part_motion import STANDOFF, Effort, PreparedMove, fraction_open, way_back
+from etot_cli.skills.part_search import PartSearch
 from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.push_part import Push, contact_points, push_move
+from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
 
-TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
-CLOSED_ENOUGH, OPEN_ENOUGH = 0.03, 0.12
-"""Moves that get the part this close to its end (share of its travel) are tried at once."""
 EFFORTS = (
     Effort(),
     Effort(thorough=True),
@@ -37,11 +32,8 @@ TOOL_SPEED = 0.16
 SETTLE_TIME = 1.2
 
 
-def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | SkillOutcome]:
-    """Ways to carry out OPEN or CLOSE, prepared as they are asked for; a reason when there is none.
-
-    The pilot's world must stand as it did at the first call whenever the next item is asked for.
-    """
+def articulation_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
+    """Ways to carry out OPEN or CLOSE."""
     part = pilot.world.parts.get(action.target)
     if part is None:
         entry = pilot.world.entries.get(action.target)
@@ -51,113 +43,46 @@ def articulation_attempts(pilot: Pilot, action: Action) -> Iterator[Attempt | Sk
             if several
             else f"{action.target} has no movable part"
         )
-        yield failed(CauseKind.PRECONDITION, [action.target], text)
-        return
+        return failed(CauseKind.PRECONDITION, [action.target], text)
     opening = action.verb is Verb.OPEN
-    value = float(pilot.data.joint(part.joint).qpos[0])
-    fraction = fraction_open(part, value)
+    fraction = fraction_open(part, float(pilot.data.joint(part.joint).qpos[0]))
     if (opening and fraction >= 0.98) or (not opening and fraction <= 0.01):
-        yield lambda _: DONE
-        return
-    blockers = Blockers(pilot.world)
+        return lambda lane: dealt([lambda _: DONE], lane)
+    return partial(_lane_ways, PartSearch(pilot, part, opening))
+
+
+def _lane_ways(search: PartSearch, lane: int) -> Iterator[Attempt | NoWay]:
+    own = list(dealt(range(search.count), lane))
+    others = [index for index in range(search.count) if index not in own]
     found = False
     for effort in EFFORTS:
-        for move in _moves(pilot, part, value, opening, blockers, effort):
+        for move in search.moves(own, effort):
             found = True
-            yield _attempt(part, move, opening)
-        if found:
+            yield partial(carry_out, part=search.part, move=move, opening=search.opening)
+        # What another lane finds with this effort is better than what more effort would find.
+        if found or next(search.moves(others, effort), None) is not None:
             return
-    if opening:
-        for move in _ajar_moves(pilot, part, value, blockers):
-            found = True
-            yield partial(_open_in_two, part=part, move=move)
-    if found:
-        return
-    owner = part.info.owner
-    blocking = blockers.most(excluding=[owner])
-    verb = "open" if opening else "close"
+    ajar = search.ajar_moves() if search.opening else []
+    for move in dealt(ajar, lane):
+        yield partial(_open_in_two, part=search.part, move=move)
+    if not ajar:
+        info = search.part.info
+        verb = "open" if search.opening else "close"
+        explain = partial(_no_hold, info.owner, info.address, verb)
+        yield NoWay(search.evidence(), explain)
+
+
+def _no_hold(owner: str, address: str, verb: str, evidence: Evidence) -> SkillOutcome:
+    blocking = evidence.most(excluding=[owner])
     if blocking:
-        yield failed(
+        return failed(
             CauseKind.BLOCKED,
             [*blocking, owner],
-            f"the hand cannot get to {part.info.address} to {verb} it: "
-            f"{', '.join(blocking)} in the way",
+            f"the hand cannot get to {address} to {verb} it: {', '.join(blocking)} in the way",
         )
-    else:
-        yield failed(
-            CauseKind.UNREACHABLE,
-            [owner],
-            f"the hand finds no hold within reach to {verb} {part.info.address}",
-        )
-
-
-def _moves(
-    pilot: Pilot, part: Part, value: float, opening: bool, blockers: Blockers, effort: Effort
-) -> Iterator[PreparedMove]:
-    """Moves that follow the part to its end at once; then those that at least get far enough,
-    the farthest first.
-    """
-    target = part.upper if opening else part.lower
-    wanted = OPEN_AT + 0.04 if opening else CLOSED_AT
-    partway: list[tuple[float, int, PreparedMove]] = []
-    pilot.checker.freeze(pilot.data)
-    for rank, move in enumerate(_candidates(pilot, part, value, target, blockers, effort)):
-        missing = abs(move.reached - target) / abs(part.upper - part.lower)
-        fraction = fraction_open(part, move.reached)
-        if missing < (OPEN_ENOUGH if opening else CLOSED_ENOUGH):
-            pilot.checker.freeze(pilot.data)
-            yield move
-            pilot.checker.freeze(pilot.data)
-        elif fraction >= wanted if opening else fraction <= wanted:
-            partway.append((round(missing, 2), rank, move))
-    pilot.checker.freeze(pilot.data)
-    for *_, move in sorted(partway, key=lambda item: item[:2]):
-        yield move
-
-
-def _ajar_moves(
-    pilot: Pilot, part: Part, value: float, blockers: Blockers
-) -> Iterator[PreparedMove]:
-    """Grips that only bring the part far enough for a finger to get behind it, the farthest first.
-
-    The hand often cannot stay on a handle all the way, but can push on from inside.
-    """
-    pilot.checker.freeze(pilot.data)
-    moves = [
-        move
-        for move in grip_moves(pilot, part, value, part.upper, blockers, Effort())
-        if move.length >= AJAR
-    ]
-    pilot.checker.freeze(pilot.data)
-    yield from sorted(moves, key=lambda move: -round(move.length, 2))
-
-
-def _candidates(
-    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, effort: Effort
-) -> Iterator[PreparedMove]:
-    opening = abs(target - part.upper) < abs(target - part.lower)
-    if opening:
-        yield from grip_moves(pilot, part, value, target, blockers, effort)
-    face = part.inner if opening else part.outer
-    if face is None:
-        return
-    for contact in contact_points(part, face):
-        for outward in (False, True):
-            push = Push(face, contact, outward)
-            for tilt in TILTS[1:] if outward else TILTS:
-                move = push_move(pilot, part, push, value, target, tilt, blockers, effort)
-                if move is not None:
-                    yield move
-                    break
-    if not opening:
-        yield from grip_moves(pilot, part, value, target, blockers, effort)
-
-
-def _attempt(part: Part, move: PreparedMove, opening: bool) -> Attempt:
-    def run(pilot: Pilot) -> SkillOutcome:
-        return carry_out(pilot, part, move, opening)
-
-    return run
+    return failed(
+        CauseKind.UNREACHABLE, [owner], f"the hand finds no hold within reach to {verb} {address}"
+    )
 
 
 def _open_in_two(pilot: Pilot, part: Part, move: PreparedMove) -> SkillOutcome:
@@ -166,7 +91,8 @@ def _open_in_two(pilot: Pilot, part: Part, move: PreparedMove) -> SkillOutcome:
     value = float(pilot.data.joint(part.joint).qpos[0])
     if outcome.effect or abs(value - part.lower) < AJAR_SHARE * abs(part.upper - part.lower):
         return outcome
-    second = next(_moves(pilot, part, value, True, Blockers(pilot.world), Effort()), None)
+    search = PartSearch(pilot, part, True)
+    second = next(search.moves(range(search.count), Effort()), None)
     return outcome if second is None else carry_out(pilot, part, second, True)
 
 

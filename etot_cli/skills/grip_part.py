@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -34,18 +32,7 @@ AJAR = 0.05
 """Way of a handle that leaves room for a finger behind the part [m] ..."""
 
 
-def grip_moves(
-    pilot: Pilot, part: Part, value: float, target: float, blockers: Blockers, effort: Effort
-) -> Iterator[PreparedMove]:
-    """Moves with the fingers closed on the part, upright hands first."""
-    for grasp in part.grasps:
-        for tilt in GRIP_TILTS:
-            move = _grip_move(pilot, part, grasp, value, target, tilt, blockers, effort)
-            if move is not None:
-                yield move
-
-
-def _grip_move(
+def grip_move(
     pilot: Pilot,
     part: Part,
     grasp: Graspable,
@@ -55,6 +42,7 @@ def _grip_move(
     blockers: Blockers,
     effort: Effort,
 ) -> PreparedMove | None:
+    """The fingers closed on a handle or edge, the hand leaning by ``tilt`` [rad]."""
     frame = PartFrame(pilot, part)
     now = frame.at(value)
     center = np.array(grasp.center)

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import islice
 
 import mujoco
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.articulate import articulation_attempts
+from etot_cli.skills.articulate import articulation_ways
 from etot_cli.skills.collision import CollisionChecker
 from etot_cli.skills.kinematics import Arm
 from etot_cli.skills.outcome import SkillOutcome, failed
-from etot_cli.skills.pick import execute_grasp, prepared_grasps
-from etot_cli.skills.pilot import Attempt, Pilot
-from etot_cli.skills.put import put_into_attempts, put_on_attempts
+from etot_cli.skills.pick import pick_ways
+from etot_cli.skills.pilot import Pilot
+from etot_cli.skills.put import put_into_ways, put_on_ways
 from etot_cli.skills.solids import Solids
+from etot_cli.skills.ways import LANES, NoWay, Ways, no_way
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import place_objects
@@ -28,10 +28,8 @@ from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Snapshot, restore, save
 from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
-LANES = 2
-"""Ways of an action that are tried side by side, in parallel worlds where there are workers."""
-ATTEMPTS = 4
-"""Ways of an action that are tried at most, each from the action's own start state."""
+ATTEMPTS_PER_LANE = 2
+"""Ways of an action that a lane tries at most, each from the action's own start state."""
 SHOVED = 0.03
 """A way that shoves another object further than this is not clean [m]."""
 SMOOTHER = 0.003
@@ -51,6 +49,8 @@ class Performed:
     """It had its effect, and nothing else was shoved about."""
     roughness: float = 0.0
     """How far it strayed from what was meant, and what it shoved [m]."""
+    no_way: NoWay | None = None
+    """Nothing was tried, and why."""
 
     @property
     def final(self) -> bool:
@@ -106,35 +106,43 @@ class Workshop:
     ) -> list[Performed | None]:
         """Tries an action in the ways that belong to some lanes.
 
-        The ways are dealt out to the lanes in turn. A lane tries its ways one after the other,
-        each from the start state, until one has its effect without shoving other objects about,
-        or is blocked by an object; failing that, its first way counts. Lanes know nothing of each
-        other, so they may run in different processes.
+        A lane tries its ways one after the other, each from the start state, until one has its
+        effect without shoving other objects about, or is blocked by an object; failing that, its
+        first way counts. Lanes know nothing of each other, so they may run in different processes.
 
         Returns:
-            For each lane asked for its result; None where the action has no way for it.
+            For each lane asked for its result; None where the other lanes have the only ways.
         """
         restore(self.world, self.data, start)
         before, _ = read_scene(self.world, self.data, start.memory)
         planner = self._pilot(self._recorder(), str(action))
-        wanted = list(lanes)
-        results: dict[int, Performed] = {}
-        for index, attempt in enumerate(islice(self._attempts(planner, action, before), ATTEMPTS)):
-            if isinstance(attempt, SkillOutcome):
-                reason = self._record(start, action, before, attempt, planner)
-                return [reason] * len(wanted)
-            lane = index % LANES
-            earlier = results.get(lane)
-            if lane in wanted and not (earlier and earlier.final):
-                pilot = self._pilot(self._recorder(), f"{action}/{index}")
-                outcome = attempt(pilot)
-                tried = self._record(start, action, before, outcome, pilot)
-                results[lane] = tried if earlier is None else _better(earlier, tried)
-                restore(self.world, self.data, start)
-            last_round = index >= ATTEMPTS - LANES
-            if all(k in results and (results[k].final or last_round) for k in wanted):
+        ways = self._ways(planner, action, before)
+        if isinstance(ways, SkillOutcome):
+            reason = self._record(start, action, before, ways, planner)
+            return [reason for _ in lanes]
+        return [self._run_lane(start, action, before, planner, ways, lane) for lane in lanes]
+
+    def _run_lane(
+        self,
+        start: Snapshot,
+        action: Action,
+        before: SceneState,
+        planner: Pilot,
+        ways: Ways,
+        lane: int,
+    ) -> Performed | None:
+        result: Performed | None = None
+        for index, way in enumerate(islice(ways(lane), ATTEMPTS_PER_LANE)):
+            if isinstance(way, NoWay):
+                record = self._record(start, action, before, no_way([way]), planner)
+                return replace(record, no_way=way)
+            pilot = self._pilot(self._recorder(), f"{action}/{index * LANES + lane}")
+            tried = self._record(start, action, before, way(pilot), pilot)
+            result = tried if result is None else _better(result, tried)
+            restore(self.world, self.data, start)
+            if result.final:
                 break
-        return [results.get(lane) for lane in wanted]
+        return result
 
     def _recorder(self) -> Recorder:
         return Recorder(self.world, self.data, keep_frames=self.keep_frames)
@@ -172,30 +180,20 @@ class Workshop:
             roughness=outcome.roughness + shoved,
         )
 
-    def _attempts(
-        self, pilot: Pilot, action: Action, before: SceneState
-    ) -> Iterator[Attempt | SkillOutcome]:
-        """Ways to carry out the action, best first; a reason instead where there is none."""
+    def _ways(self, pilot: Pilot, action: Action, before: SceneState) -> Ways | SkillOutcome:
+        """Ways to carry out the action; a reason instead where it makes no sense now."""
         if action.verb is Verb.PUT_ON:
-            yield from put_on_attempts(pilot, action)
-        elif action.verb is Verb.PUT_INTO:
-            yield from put_into_attempts(pilot, action)
-        elif action.verb is Verb.PICK_UP:
+            return put_on_ways(pilot, action)
+        if action.verb is Verb.PUT_INTO:
+            return put_into_ways(pilot, action)
+        if action.verb is Verb.PICK_UP:
             problem = _pick_precondition(self.world, action, before)
-            if problem is not None:
-                yield problem
-                return
-            for grasp in prepared_grasps(pilot, self.solids, action.target, action.pose):
-                if isinstance(grasp, SkillOutcome):
-                    yield grasp
-                else:
-                    yield partial(execute_grasp, name=action.target, prepared=grasp)
-        elif before.holding is not None:
-            yield failed(
+            return problem or pick_ways(pilot, self.solids, action.target, action.pose)
+        if before.holding is not None:
+            return failed(
                 CauseKind.PRECONDITION, [before.holding], f"the hand still holds {before.holding}"
             )
-        else:
-            yield from articulation_attempts(pilot, action)
+        return articulation_ways(pilot, action)
 
 
 def _pick_precondition(world: World, action: Action, before: SceneState) -> SkillOutcome | None:
@@ -214,17 +212,22 @@ def _pick_precondition(world: World, action: Action, before: SceneState) -> Skil
 
 
 def choose(results: Sequence[Performed | None]) -> Performed:
-    """The result that counts: the smoothest clean one, else the first lane's.
+    """The result that counts: the smoothest clean one, else that of the first lane with a way.
 
-    Steps and time of all lanes are counted to it.
+    Steps and time of all lanes are counted to it. Where no lane has a way, the reason comes from
+    what all of them found.
     """
     present = [result for result in results if result is not None]
-    best = present[0]
-    for other in present[1:]:
+    tried = [result for result in present if result.no_way is None]
+    if not tried:
+        reason = no_way([result.no_way for result in present if result.no_way is not None])
+        return replace(present[0], record=replace(present[0].record, cause=reason.cause))
+    best = tried[0]
+    for other in tried[1:]:
         if other.clean and (not best.clean or other.roughness < best.roughness - SMOOTHER):
             best = other
-    steps = sum(result.record.steps for result in present)
-    simulated = round(sum(result.record.simulated_s for result in present), 4)
+    steps = sum(result.record.steps for result in tried)
+    simulated = round(sum(result.record.simulated_s for result in tried), 4)
     return replace(best, record=replace(best.record, steps=steps, simulated_s=simulated))
 
 

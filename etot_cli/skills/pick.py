@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,10 @@ from etot_cli.skills.action import GraspPose
 from etot_cli.skills.collision import Attached
 from etot_cli.skills.grasps import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
 from etot_cli.skills.kinematics import Pose, straight
-from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
-from etot_cli.skills.pilot import PhaseEnd, Pilot
+from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
+from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.skills.solids import Solids
+from etot_cli.skills.ways import NoWay, Ways, lane_of
 from etot_cli.world.state import CauseKind
 
 Vector = NDArray[np.float64]
@@ -34,6 +36,8 @@ MAX_PREPARED = 140
 MAX_RANKED = 48
 TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
+SAME_PLACE, SAME_TURN = 0.02, 0.1
+"""Grasps closer to each other than this [m, rad] are much the same."""
 CONTACT_CLEARANCE = 0.0008
 """Clearance of the hand at the grasp itself [m]."""
 
@@ -48,19 +52,17 @@ class PreparedGrasp:
     lift: Vector
 
 
-def prepared_grasps(
-    pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None
-) -> Iterator[PreparedGrasp | SkillOutcome]:
-    """Grasps that can be reached, best first, prepared one at a time as they are asked for.
-
-    When there is none, the only item is the reason. The pilot's world must stand as it did at the
-    first call whenever the next item is asked for.
-    """
+def pick_ways(pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None) -> Ways:
+    """Grasps that can be reached and carried out."""
     found = sample_grasps(pilot.world, solids, pilot.data, name, pose)
+    return partial(_lane_ways, pilot, name, found)
+
+
+def _lane_ways(pilot: Pilot, name: str, found: GraspSet, lane: int) -> Iterator[Attempt | NoWay]:
     blockers = Blockers(pilot.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
-    for candidate in _variants(found):
+    for candidate in _of_lane(_variants(found), lane):
         pilot.checker.freeze(pilot.data)
         result = _prepare(pilot, name, candidate, blockers)
         if result is None:
@@ -70,9 +72,35 @@ def prepared_grasps(
             unreachable += 1
         elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
             prepared.append(result)
-            yield result
+            yield partial(execute_grasp, name=name, prepared=result)
     if not prepared:
-        yield _explain(pilot, name, found, blockers, unreachable)
+        yield NoWay(
+            blockers.evidence(unreachable),
+            partial(
+                _explain,
+                name,
+                pilot.world.robot.spec.gripper.opening,
+                replace(found, grasps=found.grasps[:1], too_wide=found.too_wide[:1]),
+            ),
+        )
+
+
+def _of_lane(grasps: Iterable[Grasp], lane: int) -> Iterator[Grasp]:
+    """Grasps that nearly coincide go to the same lane, so that lanes try different ones."""
+    positions = np.empty((MAX_PREPARED, 3))
+    rotations = np.empty((MAX_PREPARED, 9))
+    groups = 0
+    for grasp in grasps:
+        position, rotation = grasp.tool.position, grasp.tool.rotation.ravel()
+        offset = positions[:groups] - position
+        near = np.einsum("ij,ij->i", offset, offset) < SAME_PLACE**2
+        near &= rotations[:groups] @ rotation > 1 + 2 * np.cos(SAME_TURN)
+        group = int(near.argmax()) if near.any() else groups
+        if group == groups:
+            positions[groups], rotations[groups] = position, rotation
+            groups += 1
+        if lane_of(group) == lane:
+            yield grasp
 
 
 def _variants(found: GraspSet) -> Iterator[Grasp]:
@@ -172,11 +200,8 @@ def _supports(pilot: Pilot, name: str) -> set[str]:
     return found
 
 
-def _explain(
-    pilot: Pilot, name: str, found: GraspSet, blockers: Blockers, unreachable: int
-) -> SkillOutcome:
-    opening = pilot.world.robot.spec.gripper.opening
-    blocking = blockers.most(excluding=[name])
+def _explain(name: str, opening: float, found: GraspSet, evidence: Evidence) -> SkillOutcome:
+    blocking, unreachable = evidence.most(excluding=[name]), evidence.unreachable
     # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
     none_fits = bool(found.grasps) and not unreachable and not blocking
     if none_fits or (not found.grasps and not found.too_wide):
@@ -269,4 +294,4 @@ def struck_objects(pilot: Pilot) -> list[str]:
     return list(found)
 
 
-__all__ = ["LIFT", "PreparedGrasp", "execute_grasp", "prepared_grasps", "struck_objects"]
+__all__ = ["LIFT", "PreparedGrasp", "execute_grasp", "pick_ways", "struck_objects"]

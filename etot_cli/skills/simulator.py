@@ -17,8 +17,9 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 
 from etot_cli.skills.action import Action
-from etot_cli.skills.perform import LANES, Performed, Workshop, choose
+from etot_cli.skills.perform import Performed, Workshop, choose
 from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
+from etot_cli.skills.ways import LANES
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot

@@ -1,0 +1,91 @@
+"""How an object is turned when it is put down: level, or upright where it must stand."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.collision import Attached
+from etot_cli.skills.kinematics import turn_about
+from etot_cli.skills.pilot import Pilot
+
+Vector = NDArray[np.float64]
+
+UP = np.array([0.0, 0.0, 1.0])
+TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
+
+
+def resting_rotation(pilot: Pilot, attached: Attached) -> Vector:
+    """The object's orientation as it will rest: its present one made level; rods lie."""
+    pose = pilot.object_pose(attached.name)
+    entry = pilot.world.entries[attached.name]
+    if entry.axis is not None:
+        axis = pose.rotation @ np.array(entry.axis)
+        level = axis * np.array([1.0, 1.0, 0.0])
+        if np.linalg.norm(level) < 0.3:
+            tool = pilot.tool().rotation[:, 2]
+            level = tool * np.array([1.0, 1.0, 0.0])
+            level = level if np.linalg.norm(level) > 0.3 else np.array([1.0, 0.0, 0.0])
+        return _align(axis, level / np.linalg.norm(level)) @ pose.rotation
+    if not entry.upright_matters:
+        return _level_tool(pilot, attached) @ attached.in_tool.rotation
+    columns = pose.rotation.T @ UP
+    nearest = int(np.argmax(np.abs(columns)))
+    up = pose.rotation[:, nearest] * np.sign(columns[nearest])
+    return _align(up, UP) @ pose.rotation
+
+
+def standing_rotation(pilot: Pilot, attached: Attached) -> Vector:
+    """The rod upright, its point down."""
+    pose = pilot.object_pose(attached.name)
+    axis = pose.rotation @ np.array(pilot.world.entries[attached.name].axis)
+    return _align(axis, -UP) @ pose.rotation
+
+
+def turned_rotations(pilot: Pilot, attached: Attached, base: Vector, spot: Vector) -> list[Vector]:
+    """Turns of the object about the vertical, the ones comfortable for the arm first.
+
+    A hand that points down may turn either way; a level hand should point away from the base.
+    """
+    outward = np.array([spot[0], spot[1], 0.0]) / max(float(np.hypot(*spot[:2])), 1e-6)
+    to_tool = attached.in_tool.rotation.T
+    ranked = []
+    closing_now = pilot.tool().rotation[:, 1]
+    for turn in TURNS:
+        rotation = turn_about(UP, turn) @ base
+        tool = rotation @ to_tool
+        level = tool[:, 2] * np.array([1.0, 1.0, 0.0])
+        if np.linalg.norm(level) > 0.3:
+            cost = 1.0 - float(level @ outward) / float(np.linalg.norm(level))
+        else:
+            radial = np.arctan2(spot[1], spot[0])
+            now = np.arctan2(pilot.object_pose(attached.name).position[1],
+                             pilot.object_pose(attached.name).position[0])  # fmt: skip
+            natural = turn_about(UP, float(radial - now)) @ closing_now
+            cost = 1.0 - float(tool[:, 1] @ natural)
+        ranked.append((round(cost, 6), abs(turn), turn, rotation))
+    ranked.sort(key=lambda item: item[:3])
+    return [rotation for *_, rotation in ranked]
+
+
+def _level_tool(pilot: Pilot, attached: Attached) -> Vector:
+    """The present tool orientation turned to point straight down or level, whichever is nearer."""
+    rotation = pilot.tool().rotation
+    approach = rotation[:, 2]
+    if approach[2] < -0.6:
+        return _align(approach, -UP) @ rotation
+    return rotation
+
+
+def _align(source: Vector, target: Vector) -> Vector:
+    """The smallest rotation (3, 3) that turns one unit vector into another."""
+    cross = np.cross(source, target)
+    sine, cosine = float(np.linalg.norm(cross)), float(source @ target)
+    if sine < 1e-9:
+        if cosine > 0:
+            return np.eye(3)
+        other = np.cross(source, [1.0, 0.0, 0.0])
+        if np.linalg.norm(other) < 1e-6:
+            other = np.cross(source, [0.0, 1.0, 0.0])
+        return turn_about(other / np.linalg.norm(other), np.pi)
+    return turn_about(cross / sine, float(np.arctan2(sine, cosine)))

@@ -1,0 +1,132 @@
+"""Working out how the arm gets what it holds to a place, and its hand away from there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.collision import Attached
+from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.pilot import Pilot
+
+Vector = NDArray[np.float64]
+
+UP = np.array([0.0, 0.0, 1.0])
+HOVER = 0.10
+"""Height above the release pose from which it is lowered straight [m]."""
+RETREAT = 0.09
+"""Distance of the straight retreat [m]."""
+LOWER_STEP = 0.016
+"""Spacing of poses on the way down into a container [m]."""
+RELEASES = (0.024, 0.016, 0.010, 0.006)
+"""How far the fingers open to let go [m]: the widest that touches nothing but the object."""
+CLEARANCE = 0.001
+
+
+@dataclass(frozen=True)
+class Placement:
+    """A prepared put: joint values before it, on the way down, and on the way back."""
+
+    before: Vector
+    down: Vector
+    back: Vector
+    release: float
+    """How far the fingers open to let go [m]."""
+    drop: float
+    """How far above its wanted height the object is let go [m]."""
+
+
+def lower_onto(
+    pilot: Pilot, attached: Attached, target: Pose, touching: set[str], blockers: Blockers
+) -> Placement | None:
+    """Straight down onto a surface from a hover pose; None where the arm cannot or something is
+    in the way. ``touching``: addresses that the object may come to touch.
+    """
+    checker, arm = pilot.checker, pilot.arm
+    tool = target @ attached.in_tool.inverse()
+    checker.set_fingers(pilot.opening)
+    above = arm.reach(tool.moved(UP * HOVER), pilot.commanded)
+    if not above.reached:
+        return None
+    down, count = arm.line(straight(tool.moved(UP * HOVER), tool), above.joints)
+    if count == 0 or np.linalg.norm(arm.forward(down[-1]).position - tool.position) > 2e-3:
+        return None
+    for joints, allow in ((down[-1], touching), (above.joints, set())):
+        hits = checker.hits(joints, attached, clearance=CLEARANCE, allow_attached=allow)
+        if hits:
+            blockers.add(hits)
+            return None
+    retreat = _retreat(pilot, attached.name, tool, down[-1])
+    return None if retreat is None else Placement(above.joints, down, *retreat, drop=0.0)
+
+
+def lower_into(
+    pilot: Pilot,
+    attached: Attached,
+    target: Pose,
+    hover: float,
+    blockers: Blockers,
+) -> Placement | None:
+    """Down into a container as deep as it goes without touching anything.
+
+    When something fills the container, the object starts from above that and is let go there.
+    """
+    checker, arm = pilot.checker, pilot.arm
+    tool = target @ attached.in_tool.inverse()
+    checker.set_fingers(pilot.opening)
+    start = None
+    for extra in (0.0, 0.05, 0.10):
+        pose = tool.moved(UP * (hover + extra))
+        above = arm.reach(pose, pilot.commanded)
+        if not above.reached:
+            return None
+        hits = checker.hits(above.joints, attached, clearance=CLEARANCE)
+        if not hits:
+            start = pose
+            break
+        blockers.add(hits)
+    if start is None:
+        return None
+    down, count = arm.line(straight(start, tool, LOWER_STEP), above.joints)
+    depth = 0
+    for index in range(count):
+        hits = checker.hits(down[index], attached, clearance=CLEARANCE)
+        if hits:
+            blockers.add(hits)
+            break
+        depth = index + 1
+    path = down[:depth] if depth else above.joints[None]
+    reached = arm.forward(path[-1])
+    retreat = _retreat(pilot, attached.name, reached, path[-1])
+    if retreat is None:
+        return None
+    drop = float(reached.position[2] - tool.position[2])
+    return Placement(above.joints, path, *retreat, drop=drop)
+
+
+def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
+    """The way back out along the approach direction, and how far the fingers open for it [m].
+
+    Fingers that open against a container's wall would carry it off.
+    """
+    checker, arm = pilot.checker, pilot.arm
+    away = tool.moved(-RETREAT * tool.rotation[:, 2])
+    path, count = arm.line(straight(tool, away), joints)
+    if count < 2:
+        return None
+    try:
+        for release in RELEASES:
+            checker.set_fingers(pilot.opening + release)
+            rows = (joints, path[count // 2], path[-1])
+            margins = (CLEARANCE, 0.0, 0.0)
+            if not any(
+                checker.hits(row, clearance=margin, allow={name})
+                for row, margin in zip(rows, margins, strict=True)
+            ):
+                return path, release
+    finally:
+        checker.set_fingers(pilot.opening)
+    return None
