@@ -12,6 +12,7 @@ from etot_cli.skills.pilot import Pilot
 Vector = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
+INWARD_TURNS = tuple(np.radians((0, 20, -20, 40, -40)))
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
 
 
@@ -66,6 +67,28 @@ def turned_rotations(pilot: Pilot, attached: Attached, base: Vector, spot: Vecto
         ranked.append((round(cost, 6), abs(turn), turn, rotation))
     ranked.sort(key=lambda item: item[:3])
     return [rotation for *_, rotation in ranked]
+
+
+def inward_rotations(
+    pilot: Pilot, attached: Attached, base: Vector, inward: Vector
+) -> list[Vector]:
+    """Turns of the object about the vertical with which a hand gets in through a front, the
+    straight ones first: a level hand points inwards, one that points down has its fingers to the
+    left and right of the way.
+
+    Args:
+        pilot: holds the object.
+        attached: the object.
+        base: its orientation (3, 3) as it will rest.
+        inward: level unit vector (3,), base frame.
+    """
+    tool = base @ attached.in_tool.rotation.T
+    approach, closing = tool[:, 2], tool[:, 1]
+    is_level = np.hypot(approach[0], approach[1]) > 0.5
+    now = approach if is_level else np.array([closing[1], -closing[0], 0.0])
+    straight = float(np.arctan2(inward[1], inward[0]) - np.arctan2(now[1], now[0]))
+    turns = (straight + more for more in (INWARD_TURNS if is_level else (0.0, np.pi)))
+    return [turn_about(UP, turn) @ base for turn in turns]
 
 
 def _level_tool(pilot: Pilot, attached: Attached) -> Vector:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +38,8 @@ class Placement:
     """How far the fingers open to let go [m]."""
     drop: float
     """How far above its wanted height the object is let go [m]."""
+    back_length: float = RETREAT
+    """Length of the way back [m]."""
 
 
 def lower_onto(
@@ -107,26 +110,78 @@ def lower_into(
     return Placement(above.joints, path, *retreat, drop=drop)
 
 
+def slide_in(
+    pilot: Pilot, attached: Attached, target: Pose, way_in: Vector, blockers: Blockers
+) -> Placement | None:
+    """Level through a front and back out the same way.
+
+    Args:
+        pilot: holds the object.
+        attached: the object in the hand.
+        target: where it is let go, just above what it will stand on.
+        way_in: from where the object is clear of the front to the target (3,), base frame [m].
+        blockers: takes note of what is in the way.
+    """
+    checker, arm = pilot.checker, pilot.arm
+    tool = target @ attached.in_tool.inverse()
+    checker.set_fingers(pilot.opening)
+    outside = tool.moved(-way_in)
+    # The target first: where hand or arm have no room there, the way to it need not be found.
+    inside = arm.reach(tool, pilot.commanded)
+    if not inside.reached:
+        return None
+    hits = checker.hits(inside.joints, attached, clearance=CLEARANCE)
+    if hits:
+        blockers.add(hits)
+        return None
+    poses = straight(tool, outside, LOWER_STEP)
+    out, count = arm.line(poses, inside.joints)
+    if count < len(poses):
+        return None
+    for joints in out:
+        hits = checker.hits(joints, attached, clearance=CLEARANCE)
+        if hits:
+            blockers.add(hits)
+            return None
+    release = _widest_release(pilot, attached.name, [inside.joints, *out], (CLEARANCE,))
+    if release is None:
+        return None
+    path = np.vstack([out[-2::-1], inside.joints])
+    return Placement(out[-1], path, out, release, 0.0, float(np.linalg.norm(way_in)))
+
+
 def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
     """The way back out along the approach direction, and how far the fingers open for it [m].
 
     Fingers that open against a container's wall would carry it off.
     """
-    checker, arm = pilot.checker, pilot.arm
+    arm = pilot.arm
     away = tool.moved(-RETREAT * tool.rotation[:, 2])
     path, count = arm.line(straight(tool, away), joints)
     if count < 2:
         return None
+    rows = (joints, path[count // 2], path[-1])
+    release = _widest_release(pilot, name, rows, (CLEARANCE, 0.0, 0.0))
+    return None if release is None else (path, release)
+
+
+def _widest_release(
+    pilot: Pilot, name: str, rows: Sequence[Vector], margins: Sequence[float]
+) -> float | None:
+    """How far the fingers can open to let go [m] without touching anything but the object.
+
+    ``margins``: required distance for each row of joint values [m]; the last one for the rest.
+    """
+    checker = pilot.checker
+    wanted = [*margins, *[margins[-1]] * (len(rows) - len(margins))]
     try:
         for release in RELEASES:
             checker.set_fingers(pilot.opening + release)
-            rows = (joints, path[count // 2], path[-1])
-            margins = (CLEARANCE, 0.0, 0.0)
             if not any(
                 checker.hits(row, clearance=margin, allow={name})
-                for row, margin in zip(rows, margins, strict=True)
+                for row, margin in zip(rows, wanted, strict=True)
             ):
-                return path, release
+                return release
     finally:
         checker.set_fingers(pilot.opening)
     return None

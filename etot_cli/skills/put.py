@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action
 from etot_cli.skills.collision import Attached
+from etot_cli.skills.container_spots import container_targets, front_targets
 from etot_cli.skills.kinematics import Pose, straight
-from etot_cli.skills.orientation import UP, resting_rotation, standing_rotation, turned_rotations
+from etot_cli.skills.orientation import UP, resting_rotation, turned_rotations
 from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
 from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.placement import LOWER_STEP, RETREAT, Placement, lower_into, lower_onto
+from etot_cli.skills.placement import LOWER_STEP, Placement, lower_into, lower_onto, slide_in
 from etot_cli.skills.spots import surface_spots
 from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Region
-from etot_cli.world.placing import must_stand
 from etot_cli.world.state import DESK, CauseKind
 
 Vector = NDArray[np.float64]
@@ -27,8 +27,8 @@ Vector = NDArray[np.float64]
 LOWER_SPEED = 0.12
 SURFACE_GAP = 0.002
 """The object is let go this far above a surface [m]."""
-FLOOR_GAP = 0.006
-"""... and this far above a container's floor [m]."""
+LEVEL_OPENING = 0.5
+"""Containers whose opening rises less than this (sine) are filled from the front."""
 SETTLE_TIME = 1.6
 CLEARING_STEP = 0.05
 MAX_CLEARING = 6
@@ -48,6 +48,10 @@ def put_on_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
         text = f"{action.target} has no flat top to put something on"
         return failed(CauseKind.PRECONDITION, [action.target], text)
     attached = pilot.attach(name)
+    space = None if action.target == DESK else world.surfaces[action.target].space
+    if space is not None:
+        explain = partial(_no_spot, name, action.target)
+        return partial(_ways_through_front, pilot, attached, space, explain)
     base = resting_rotation(pilot, attached)
     low, high = pilot.checker.extent(name, base)
     spots = surface_spots(
@@ -109,18 +113,26 @@ def put_into_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
     if region is None:
         return failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
     attached = pilot.attach(name)
-    return partial(_ways_into, pilot, action.target, attached, region)
+    explain = partial(_no_way_in, name, action.target)
+    out = pilot.data.body(region.body).xmat.reshape(3, 3) @ np.array(region.opening)
+    if abs(out[2]) < LEVEL_OPENING:
+        return partial(_ways_through_front, pilot, attached, region, explain)
+    return partial(_ways_into, pilot, attached, region, explain)
 
 
 def _ways_into(
-    pilot: Pilot, container: str, attached: Attached, region: Region, lane: int
+    pilot: Pilot,
+    attached: Attached,
+    region: Region,
+    explain: Callable[[Evidence], SkillOutcome],
+    lane: int,
 ) -> Iterator[Attempt | NoWay]:
     """One way down to the bottom, and those that end higher, the deepest first."""
     blockers = Blockers(pilot.world)
     shallow: list[Placement] = []
     found = False
     hover = 2 * region.half[2] + MOUTH_CLEARANCE
-    for target in dealt(_container_targets(pilot, attached, region), lane):
+    for target in dealt(container_targets(pilot, attached, region), lane):
         pilot.checker.freeze(pilot.data)
         placement = lower_into(pilot, attached, target, hover, blockers)
         if placement is None:
@@ -132,9 +144,29 @@ def _ways_into(
         yield partial(_execute, attached=attached, placement=placement)
         break
     if not found:
-        yield NoWay(blockers.evidence(), partial(_no_way_in, attached.name, container))
+        yield NoWay(blockers.evidence(), explain)
     for placement in sorted(shallow, key=lambda item: round(item.drop / LOWER_STEP)):
         yield partial(_execute, attached=attached, placement=placement)
+
+
+def _ways_through_front(
+    pilot: Pilot,
+    attached: Attached,
+    region: Region,
+    explain: Callable[[Evidence], SkillOutcome],
+    lane: int,
+) -> Iterator[Attempt | NoWay]:
+    """Level through the open side, to places on the floor."""
+    blockers = Blockers(pilot.world)
+    found = False
+    for target, way_in in dealt(front_targets(pilot, attached, region), lane):
+        pilot.checker.freeze(pilot.data)
+        placement = slide_in(pilot, attached, target, way_in, blockers)
+        if placement is not None:
+            found = True
+            yield partial(_execute, attached=attached, placement=placement)
+    if not found:
+        yield NoWay(blockers.evidence(), explain)
 
 
 def _no_way_in(name: str, container: str, evidence: Evidence) -> SkillOutcome:
@@ -145,37 +177,6 @@ def _no_way_in(name: str, container: str, evidence: Evidence) -> SkillOutcome:
         f"{name} cannot be brought into {container}"
         + (f": {', '.join(blocking)} in the way" if blocking else ": out of the arm's reach"),
     )
-
-
-def _container_targets(pilot: Pilot, attached: Attached, region: Region) -> Iterator[Pose]:
-    """Object poses at the bottom of the container."""
-    name, entry = attached.name, pilot.world.entries[attached.name]
-    body = pilot.data.body(region.body)
-    rotation = body.xmat.reshape(3, 3)
-    floor = body.xpos + rotation @ (np.array(region.center) - UP * region.half[2])
-    if rotation[2, 2] < 0.7 or region.opening[2] < 0.7:
-        return
-    stands = must_stand(entry, region)
-    base = standing_rotation(pilot, attached) if stands else resting_rotation(pilot, attached)
-    low, _ = pilot.checker.extent(name, base)
-    room = np.array(region.half[:2]) - (0.0 if stands else float(np.abs(low[:2]).max()))
-    for offset in _inside_offsets(region, room):
-        point = floor + rotation @ np.array([*offset, 0.0])
-        for turned in turned_rotations(pilot, attached, base, point[:2])[: (5 if stands else 3)]:
-            low, _ = pilot.checker.extent(name, turned)
-            height = point[2] + FLOOR_GAP - low[2]
-            yield Pose(np.array([point[0], point[1], height]), turned)
-
-
-def _inside_offsets(region: Region, room: Vector) -> list[Vector]:
-    if region.round or room.max() < 0.02:
-        return [np.zeros(2)]
-    shares = (0.0, 0.45, -0.45, 0.9, -0.9, 0.7, -0.7)
-    return [
-        np.array([a * max(room[0], 0.0), b * max(room[1], 0.0)])
-        for a in sorted(shares, reverse=True)
-        for b in (0.0, 0.5, -0.5)
-    ]
 
 
 def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOutcome:
@@ -195,7 +196,7 @@ def _execute(pilot: Pilot, attached: Attached, placement: Placement) -> SkillOut
         return _lost_grip(pilot, name, "while lowering it")
     recorder.mark(pilot.data)
     pilot.release(pilot.opening + placement.release)
-    pilot.follow_line(placement.back, RETREAT, LOWER_SPEED * 1.5)
+    pilot.follow_line(placement.back, placement.back_length, LOWER_SPEED * 1.5)
     _clear_hand(pilot)
     pilot.settle(SETTLE_TIME)
     recorder.mark(pilot.data)

@@ -31,13 +31,17 @@ class Region:
 
 @dataclass(frozen=True)
 class Surface:
-    """A flat top: ``center`` (3,) on the face, ``half`` extents x y [m], body frame."""
+    """A flat top: ``center`` (3,) on the face, ``half`` extents x y [m], body frame.
+
+    ``space``: the room above it where something covers it, open to the side only.
+    """
 
     address: str
     body: str
     center: tuple[float, float, float]
     half: tuple[float, float]
     round: bool = False
+    space: Region | None = None
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,8 @@ class PartInfo:
     """Full opening [m or rad]."""
     container: bool
     """Things can be put into it (a drawer), through the opening that this part frees."""
+    front: bool = False
+    """That opening faces sideways, so the hand has to come in level (a cabinet)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,7 +84,7 @@ def drawers(
 
 
 def cabinet(name: str, at: tuple[float, float], openness: float, **more: object) -> Item:
-    parts = (PartInfo(name, "door", name, "hinge", 2.0, True),)
+    parts = (PartInfo(name, "door", name, "hinge", 2.0, True, front=True),)
     more.setdefault("size", (0.36, 0.50, 0.30))
     return item(name, "cabinet", at, parts=parts, openness={"door": openness}, **more)  # type: ignore[arg-type]
 

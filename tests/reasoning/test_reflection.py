@@ -235,6 +235,17 @@ def test_a_failure_between_the_action_s_own_objects_never_swaps_them(kind: Cause
         assert revised is None
 
 
+def test_what_goes_in_through_a_front_is_held_from_the_side() -> None:
+    start = scenes.microwave()
+    before = changed(held(start, "tennis_ball"), microwave={"openness": {"door": 1.0}})
+    plan = "[OPEN, microwave] [PICK UP, tennis_ball]{0} [PUT INTO, microwave] [CLOSE, microwave]"
+    reason = cause(CauseKind.NO_ROOM, "microwave", "tennis_ball")
+    step = failed(start, plan.format(""), 2, reason, before)
+    assert revision(step) == plan.format(" (horizontal)")
+    asked = failed(start, plan.format(" (vertical)"), 2, reason, before)
+    assert revision(asked) is None, "an asked pose is not replaced"
+
+
 def test_what_the_goal_wants_in_place_comes_back() -> None:
     plain = scenes.apple_and_holder()
     start = changed(plain, apple={"inside": "holder", "on": ("holder",)})

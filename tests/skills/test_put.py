@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import mujoco
 import numpy as np
 import pytest
 
 from etot_cli.skills.action import Action, Keepout, Verb
 from etot_cli.world.state import CauseKind, ObjectState
-from tests.skills.helpers import BALL, BOX, CUP, PEN, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
 
 SEEDS = range(3)
 
@@ -140,3 +142,51 @@ def test_two_things_end_up_apart(seed: int) -> None:
     after = run.must("[PICK UP, one]", "[PUT ON, desk]", "[PICK UP, two]", "[PUT ON, desk]")
     one, two = (np.array(after.states[name].position[:2]) for name in ("one", "two"))
     assert np.linalg.norm(one - two) > 0.06
+
+
+# -- through a front -------------------------------------------------------------------------------
+
+FURNACE = OVEN | {
+    "size": [0.30, 0.36, 0.28], "at": [0.40, 0.42], "yaw_deg": -90,
+    "door": {"hinge": "right", "range_deg": 114, "open_deg": 110},
+}  # fmt: skip
+MUG = CUP | {"diameter": 0.075, "height": 0.10, "at": [0.42, -0.15]}
+RACK = {"kind": "shelf", "size": [0.22, 0.36, 0.45], "mass": 6.0, "at": [0.52, 0.15],
+        "yaw_deg": 180, "boards": ["lower", "middle", "top"]}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("thing", [MUG, BOX | {"size": [0.05, 0.05, 0.12]}], ids=["mug", "box"])
+def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) -> None:
+    run = episode(seed, oven=FURNACE, thing=thing | {"at": [0.42, -0.15]})
+    after = run.must("[PICK UP, thing] (horizontal)", "[PUT INTO, oven]")
+    state = after.states["thing"]
+    assert state.inside == "oven" and not state.toppled
+    door = after.infos["oven"].parts[0]
+    assert after.openness(door) > 0.85, "the door stays as it was"
+
+
+def test_hand_from_above_has_no_room_in_a_cabinet() -> None:
+    run = episode(oven=FURNACE, mug=MUG)
+    run.must("[PICK UP, mug] (vertical)")
+    record = run.do("[PUT INTO, oven]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM
+    assert "oven" in record.cause.objects
+    assert record.after.holding == "mug"
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("board", ["lower", "middle", "top"])
+def test_goes_on_every_board_of_a_shelf(board: str, seed: int) -> None:
+    run = episode(seed, rack=RACK, mug=MUG | {"at": [0.36, -0.25]})
+    after = run.must("[PICK UP, mug] (horizontal)", f"[PUT ON, rack.{board}]")
+    assert after.states["mug"].on == (f"rack.{board}",)
+    assert not after.states["mug"].toppled
+
+
+def test_what_is_too_tall_for_a_board_is_refused() -> None:
+    tall = BOX | {"size": [0.05, 0.05, 0.24], "at": [0.36, -0.25]}
+    run = episode(rack=RACK, tall=tall)
+    run.must("[PICK UP, tall] (horizontal)")
+    record = run.do("[PUT ON, rack.lower]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM

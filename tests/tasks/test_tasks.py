@@ -28,6 +28,10 @@ PLANS = {
         "[OPEN, caddy.upper]", "[PICK UP, spool]", "[PUT INTO, caddy.upper]",
         "[CLOSE, caddy.upper]",
     ],
+    "oven": [
+        "[OPEN, oven]", "[PICK UP, mug] (horizontal)", "[PUT INTO, oven]", "[CLOSE, oven]",
+    ],
+    "rack": ["[PICK UP, vase] (horizontal)", "[PUT ON, rack.middle]"],
     "seven_joints": [
         "[PICK UP, carton]", "[PUT ON, rack]", "[PICK UP, ball]", "[PUT INTO, bowl]",
     ],

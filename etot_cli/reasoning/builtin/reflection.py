@@ -214,13 +214,28 @@ class _Case:
         return distance(scene.states[part.owner], scene.states[name]) < limit
 
     def _other_pose(self, pick: int) -> Iterator[Correction]:
-        """A grasp from above where none was asked for and the object slipped."""
+        """Another grasp where none was asked for: from above where the object slipped, from the
+        side where the hand has no room above it.
+        """
         action = self.actions[pick]
-        if self.cause.kind is not CauseKind.SLIP or action.pose is not None:
+        if action.pose is not None:
             return
-        posed = replace(action, pose=GraspPose.VERTICAL)
+        if self.cause.kind is CauseKind.SLIP:
+            pose, how = GraspPose.VERTICAL, "from above"
+        elif self.cause.kind is CauseKind.NO_ROOM and self._goes_in_level():
+            pose, how = GraspPose.HORIZONTAL, "from the side"
+        else:
+            return
+        posed = replace(action, pose=pose)
         actions = (*self.actions[:pick], posed, *self.actions[pick + 1 :])
-        yield Correction(actions, f"{action.target} is grasped from above")
+        yield Correction(actions, f"{action.target} is grasped {how}")
+
+    def _goes_in_level(self) -> bool:
+        """Whether the target of the action can only be got at through a front."""
+        owner, _, board = self.action.target.partition(".")
+        part = self.failed.start.part(self.action.target)
+        info = self.failed.start.infos.get(owner)
+        return part.front if part is not None else info is not None and board in info.boards
 
     def _of_put(self) -> Iterator[Correction]:
         index, owner = self.failed.index, owner_of(self.action.target)

@@ -230,7 +230,7 @@ def add_cabinet(
     if door.handle is not None:
         mount = (door.thickness - 0.001, reach * (span - 0.04), 0.0)
         grasps.append(_add_handle(moving, door.handle, look, mount))
-    info = PartInfo(name, door.name, name, "hinge", travel, container=True)
+    info = PartInfo(name, door.name, name, "hinge", travel, container=True, front=True)
     region = Region(
         name,
         name,
@@ -259,6 +259,13 @@ def add_shelf(
         top = -height + t + index * step if count > 1 else height
         address = f"{name}.{board}"
         _panel(body, look, (-depth + t, -width + t, top - t), (depth, width - t, top), address)
-        surfaces.append(Surface(address, name, (t / 2, 0, top), (depth - t / 2, width - t)))
+        half = (depth - t / 2, width - t)
+        space = None
+        if index < count - 1:
+            room = (step - t) / 2
+            space = Region(
+                address, name, (t / 2, 0, top + room), (*half, room), opening=(1.0, 0.0, 0.0)
+            )
+        surfaces.append(Surface(address, name, (t / 2, 0, top), half, space=space))
     surfaces.insert(0, Surface(name, name, surfaces[-1].center, surfaces[-1].half))
     return (), (), tuple(surfaces)
