@@ -6,16 +6,11 @@ most common colour, one mask per connected region: enough to try the connection.
 
 from __future__ import annotations
 
-import argparse
-import base64
-import json
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 import cv2
 import numpy as np
-
-MAX_REQUEST = 64 * 1024 * 1024
+from stage import read_color, run, write_mask
 
 
 def segment(color: np.ndarray, prompts: list[str]) -> list[tuple[str, np.ndarray]]:
@@ -34,41 +29,11 @@ def segment(color: np.ndarray, prompts: list[str]) -> list[tuple[str, np.ndarray
     return [(name, labels == i) for name, i in zip(names, order, strict=False)]
 
 
-class Handler(BaseHTTPRequestHandler):
-    """Answers one request at a time per connection."""
-
-    def do_POST(self) -> None:
-        """Reads a picture and prompts, writes masks."""
-        try:
-            size = int(self.headers.get("content-length", 0))
-            if not 0 < size <= MAX_REQUEST:
-                raise ValueError("the request is empty or too large")
-            request = json.loads(self.rfile.read(size))
-            data = np.frombuffer(base64.b64decode(request["color"]), np.uint8)
-            picture = cv2.imdecode(data, cv2.IMREAD_COLOR)
-            if picture is None:
-                raise ValueError("'color' is no PNG")
-            found = segment(picture[..., ::-1].copy(), list(request.get("prompts", [])))
-            reply: dict[str, Any] = {
-                "masks": [{"name": name, "png": _png(mask)} for name, mask in found]
-            }
-        except (ValueError, KeyError, TypeError) as error:
-            reply = {"error": str(error)}
-        body = json.dumps(reply).encode()
-        self.send_response(200)
-        self.send_header("content-type", "application/json")
-        self.send_header("content-length", str(len(body)))
-        self.end_headers()
-        self.wfile.write(body)
-
-
-def _png(mask: np.ndarray) -> str:
-    return base64.b64encode(cv2.imencode(".png", mask.astype(np.uint8) * 255)[1]).decode()
+def answer(request: dict[str, Any]) -> dict[str, Any]:
+    """A request's picture and prompts to masks."""
+    found = segment(read_color(request), [str(text) for text in request.get("prompts", [])])
+    return {"masks": [{"name": name, "png": write_mask(mask)} for name, mask in found]}
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--port", type=int, default=8765)
-    server = ThreadingHTTPServer(("127.0.0.1", parser.parse_args().port), Handler)
-    print(f"http://127.0.0.1:{server.server_port}/")
-    server.serve_forever()
+    run(answer, __doc__, 8765)

@@ -39,6 +39,10 @@ def reconstruct(
     mesh: Annotated[
         list[str] | None, typer.Option("--mesh", metavar="NAME=FILE", help="A known mesh.")
     ] = None,
+    library: Annotated[
+        Path | None,
+        typer.Option("--library", metavar="FILE", help="Known things with their true sizes."),
+    ] = None,
     material: Annotated[
         list[str] | None,
         typer.Option("--material", metavar="NAME=MATERIAL", help="What an object is made of."),
@@ -49,6 +53,10 @@ def reconstruct(
     articulation_url: Annotated[
         str | None, typer.Option("--articulation-url", metavar="URL")
     ] = None,
+    server_timeout: Annotated[
+        float,
+        typer.Option("--server-timeout", metavar="S", min=0.1, help="Longest wait for a server."),
+    ] = 120.0,
     out: Out = None,
     seed: Seed = 0,
     json: Json = False,
@@ -70,8 +78,9 @@ def reconstruct(
         capture=capture, instruction=instruction, auto=auto_masks, second=second,
         materials=_pairs(material, "--material"),
         meshes={name: Path(file) for name, file in _pairs(mesh, "--mesh").items()},
-        masks_url=masks_url, mesh_url=mesh_url, pose_url=pose_url,
-        articulation_url=articulation_url, seed=seed,
+        library=library, masks_url=masks_url, mesh_url=mesh_url, pose_url=pose_url,
+        articulation_url=articulation_url, deadline=server_timeout,
+        seed=seed,
     )  # fmt: skip
     report = run_reconstruct(options, folder)
     text = report.model_dump_json(indent=2) + "\n"

@@ -21,6 +21,7 @@ from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.reconstruct_report import (
     FitModel,
     JointModel,
+    KnownModelModel,
     PiecesModel,
     ReconstructedObjectModel,
     ReconstructReport,
@@ -105,6 +106,16 @@ def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
         ),
         settle_m=None if rest is None else rest.moved,
         settle_deg=None if rest is None else rest.turned,
+        model=None
+        if solid.model is None
+        else KnownModelModel.model_validate(
+            {
+                "source": solid.model.source,
+                "metres_per_unit": solid.model.metres_per_unit,
+                "pose": solid.model.pose.tolist(),
+                "mismatch": solid.model.mismatch,
+            }
+        ),
         warnings=list(solid.warnings),
     )
 
@@ -119,14 +130,16 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
     for solid in twin.solids:
         if solid.kind != "mesh":
             continue
-        mesh = free_form_mesh(solid, color_of(color, solid.segment.mask))
-        mesh.export(meshes / f"{solid.name}.obj")
-        twin.document["objects"][solid.name].update(file=f"{MESHES}/{solid.name}.obj", scale=1.0)
-        vertices = np.asarray(mesh.vertices)
-        middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
-        parts = convex_pieces(vertices - middle, np.asarray(mesh.faces))
+        file = meshes / f"{solid.name}.obj"
+        free_form_mesh(solid, color_of(color, solid.segment.mask)).export(file)
+        twin.document["objects"][solid.name].update(file=f"{MESHES}/{file.name}", scale=1.0)
         import trimesh
 
+        # As the world will read it: the digits that are written decide what the cache knows.
+        mesh: Any = trimesh.load(file, force="mesh")
+        vertices = np.asarray(mesh.vertices, dtype=np.float64)
+        middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+        parts = convex_pieces(vertices - middle, np.asarray(mesh.faces, dtype=np.int64))
         volume = sum(trimesh.convex.convex_hull(part).volume for part in parts)
         error = volume / max(float(mesh.volume), 1e-12) - 1
         pieces.append(PiecesModel(object=solid.name, count=len(parts), volume_error=error))

@@ -110,14 +110,18 @@ def _object(
     if solid.kind not in ROUND and abs(yaw) > 0.01:
         data["yaw_deg"] = round((yaw + 180.0) % 360.0 - 180.0, 2)
     mass, friction, guessed = guess(solid, material, data.get("wall"))
+    guesses: dict[str, Any] = {"friction": friction}
     if solid.kind not in FURNITURE:
-        data["mass"] = round(mass, 4)
-    data["friction"] = friction
+        guesses["mass"] = round(mass, 4)
     if solid.kind == "drawer_unit":
-        data["material"] = guessed
-    data["color"] = _rounded(color_of(seen.capture.color, solid.segment.mask), 2)
-    data["label"] = solid.segment.label or solid.name.replace("_", " ")
-    return data
+        guesses["material"] = guessed
+    guesses["color"] = _rounded(color_of(seen.capture.color, solid.segment.mask), 2)
+    guesses["label"] = solid.segment.label or solid.name.replace("_", " ")
+    # What a library knows about a thing is no guess, unless the user says what it is made of.
+    known = {key: data.pop(key) for key in guesses if key in data}
+    if material is not None:
+        known.pop("mass", None)
+    return {**data, **guesses, **known}
 
 
 def _open_for_contents(data: dict[str, Any], cup: Solid, others: dict[str, Solid]) -> None:

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.surfaces import color_features, shaded_desk
 from etot_cli.reconstruction.view import Mask
 
 INNER = 4
@@ -24,30 +23,42 @@ FLAT = 0.003
 """Heights that are the desk's [m]."""
 MARGIN = 40
 ROUNDS = 4
+REFINEMENTS = 2
+SETTLED = 0.05
+"""A mask that changes by a smaller share is refined no further."""
 LEAST_KEPT, MOST_GROWN = 0.5, 2.2
 """A colour edge that shrinks or grows the mask beyond these shares is not believed."""
 
 
-def refine_masks(seen: Calibrated, masks: list[Mask]) -> list[Mask]:
-    """The masks with edges where colour changes; they stay disjoint."""
+def refine_masks(
+    seen: Calibrated, masks: list[Mask], color: NDArray[np.float32], shade: Mask
+) -> list[Mask]:
+    """The masks with edges where colour changes; they stay disjoint.
+
+    Args:
+        seen: the calibrated capture.
+        masks: disjoint masks (h, w).
+        color: colour features (h, w, 3), see :func:`color_features`.
+        shade: pixels (h, w) of the desk's colour, see :func:`shaded_desk`.
+    """
+    desk = np.median(color[seen.desk][:, :2], axis=0)
     small_first = sorted(range(len(masks)), key=lambda i: int(masks[i].sum()))
-    result: dict[int, Mask] = {}
-    shade, color = shaded_desk(seen), color_features(seen.capture.color)
-    for index in small_first:
-        others = [result.get(i, masks[i]) for i in range(len(masks)) if i != index]
-        apart = _coloured(seen, color, masks[index])
-        result[index] = _refine(seen, masks[index], others, shade, apart=apart)
-    taken = np.zeros(seen.depth.shape, dtype=bool)
-    for index in small_first:
-        result[index] = result[index] & ~taken
-        taken |= result[index]
-    return [result[index] for index in range(len(masks))]
-
-
-def _coloured(seen: Calibrated, color: NDArray[np.float32], mask: Mask) -> bool:
-    """Whether an object's hue and saturation are clearly not the desk's."""
-    own, desk = np.median(color[mask][:, :2], axis=0), np.median(color[seen.desk][:, :2], axis=0)
-    return bool(np.linalg.norm(own - desk) > COLOURFUL)
+    result, settled = list(masks), [False] * len(masks)
+    for _ in range(REFINEMENTS):
+        for index in small_first:
+            if settled[index]:
+                continue
+            mask = result[index]
+            own = np.median(color[mask][:, :2], axis=0)
+            apart = bool(np.linalg.norm(own - desk) > COLOURFUL)
+            others = [other for i, other in enumerate(result) if i != index]
+            result[index] = _refine(seen, mask, others, shade, apart=apart)
+            settled[index] = bool((result[index] ^ mask).sum() < SETTLED * mask.sum())
+        taken = np.zeros(seen.depth.shape, dtype=bool)
+        for index in small_first:
+            result[index] = result[index] & ~taken
+            taken |= result[index]
+    return result
 
 
 def _refine(seen: Calibrated, mask: Mask, others: list[Mask], shade: Mask, *, apart: bool) -> Mask:

@@ -20,12 +20,16 @@ NEAREST, FARTHEST = 0.1, 5.0
 """The median depth of a desk scene lies between these [m]; else the unit is wrong."""
 LEAST_READINGS = 0.02
 """With a smaller share of valid pixels a depth picture is empty."""
+SCALES = (0.001, 0.0001, 0.00025, 0.01, 1.0)
+"""Metres per unit that depth pictures are written with."""
 ROTATION_TOLERANCE = 0.02
 MAX_MASKS = 64
 LEAST_MASK = 60
 """A smaller mask shows too little of an object [px]."""
 OVERLAP = 0.1
 """Masks that share more of the smaller one than this are reported."""
+OTHER_PICTURES = (".jpg", ".jpeg", ".PNG", ".bmp", ".tif", ".tiff", ".webp", ".npy")
+"""Files that may be meant as masks but are not read."""
 MAX_JSON_BYTES = 1024 * 1024
 
 
@@ -57,12 +61,16 @@ def read_capture(folder: Path, *, use_masks: bool = True) -> Capture:
     color = read_png(folder / "color.png")
     depth = read_png(folder / "depth.png")
     if color.ndim != 3 or color.dtype != np.uint8:
-        raise SpecError("expected 8-bit colour", file=str(folder / "color.png"))
+        channels = 1 if color.ndim == 2 else color.shape[2]
+        raise SpecError(
+            f"is {color.dtype} with {channels} channel(s); expected 8-bit colour",
+            file=str(folder / "color.png"),
+        )
     view = _view(info, color.shape[:2], folder)
     metres = _metres(depth, view, info, folder)
     masks: dict[str, Mask] = {}
     warnings: list[str] = []
-    if use_masks and (folder / "masks").is_dir():
+    if use_masks and (folder / "masks").exists():
         masks, warnings = read_masks(folder / "masks", color.shape[:2])
     rgb = np.ascontiguousarray(color[:, :, 2::-1])
     return Capture(folder, view, rgb, metres, masks, tuple(warnings))
@@ -90,7 +98,7 @@ def _read_camera(path: Path) -> dict[str, Any]:
 def _number(info: dict[str, Any], key: str, path: Path, low: float, high: float) -> float:
     value = info.get(key)
     if value is None:
-        raise SpecError(f"lacks {key!r}", file=str(path), path=key)
+        raise SpecError(f"lacks {key!r}, a number", file=str(path), path=key)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise SpecError(f"found {value!r}, expected a number", file=str(path), path=key)
     if not low <= value <= high:
@@ -180,7 +188,7 @@ def _metres(raw: NDArray[Any], view: View, info: dict[str, Any], folder: Path) -
     middle = float(np.median(depth[valid]))
     if not NEAREST <= middle <= FARTHEST:
         hint = next(
-            (s for s in (0.001, 0.0001, 0.00025, 0.01)
+            (s for s in SCALES
              if NEAREST <= middle / scale * s <= FARTHEST), None,
         )  # fmt: skip
         raise SpecError(
@@ -199,13 +207,18 @@ def read_masks(folder: Path, shape: tuple[int, ...]) -> tuple[dict[str, Mask], l
     """Masks by object name, made disjoint, and warnings.
 
     Raises:
-        SpecError: a mask of another size, or too many.
+        SpecError: a mask of another size, too many, or no folder of masks.
     """
+    if not folder.is_dir():
+        raise SpecError("is no folder; expected masks/*.png", file=str(folder))
     paths = sorted(folder.glob("*.png"))
     if len(paths) > MAX_MASKS:
         raise SpecError(f"{len(paths)} masks; expected at most {MAX_MASKS}", file=str(folder))
     masks: dict[str, Mask] = {}
-    warnings: list[str] = []
+    warnings = [
+        f"masks/{path.name} is no .png file and is left out"
+        for path in sorted(folder.iterdir())[:MAX_MASKS] if path.suffix in OTHER_PICTURES
+    ]  # fmt: skip
     for path in paths:
         image = read_png(path)
         if image.shape[:2] != shape[:2]:

@@ -1,7 +1,4 @@
-"""Shapes, poses and joints that come from outside: mesh files, mesh, pose and joint servers.
-
-Also the completed free-form shape for things that none of the simple kinds explains.
-"""
+"""Shapes and poses that come from outside: mesh files, an object library, mesh and pose servers."""
 
 from __future__ import annotations
 
@@ -14,59 +11,30 @@ import numpy as np
 
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.articulation import Joint
 from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.fit.pose import COARSE, FINE, fit_shape, judge
-from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.shapes.base import Evidence
-from etot_cli.reconstruction.shapes.block import Block
-from etot_cli.reconstruction.shapes.free import FreeForm, completed, load_mesh
-from etot_cli.reconstruction.shapes.furniture import cabinet_spec, unit_spec
+from etot_cli.reconstruction.capture import safe_name, unique_name
+from etot_cli.reconstruction.known_kinds import SCALED_BY_FILE, extra_keys, fit_known_kind
+from etot_cli.reconstruction.library import Entry, Library, read_library
+from etot_cli.reconstruction.mesh_files import MAX_BYTES, SUFFIXES, MeshFile, parse_mesh
+from etot_cli.reconstruction.objects import DESK, KnownModel, Solid
+from etot_cli.reconstruction.registration.evidence import target_of
+from etot_cli.reconstruction.registration.model import Model, models_of
+from etot_cli.reconstruction.registration.register import POOR, Registered, register
+from etot_cli.reconstruction.view import Array, Mask
+from etot_cli.specs.scene import Mesh
 
 if TYPE_CHECKING:
     from etot_cli.reconstruction.pipeline import Options
 
-POOR = 0.6
-"""A simple shape that explains less than this share of what is seen gives way to a free one."""
-POOR_EDGE = 5.0
-"""… or whose outline is off by more than this [px]."""
-MESH_SUFFIXES = {".glb": "glb", ".obj": "obj", ".stl": "stl"}
-MAX_MESH_BYTES = 50 * 1024 * 1024
-
-
-def complete(seen: Calibrated, solid: Solid) -> Solid:
-    """The solid as a completed free form, where no simple kind explains it."""
-    fit = solid.fit
-    if (fit.explained > POOR and fit.edge_rms < POOR_EDGE) or len(solid.observation.points) < 100:
-        return solid
-    shape = completed(_evidence(seen, solid))
-    if shape is None:
-        return solid.warned("its shape is poorly explained: treat size and pose with care")
-    params = np.array([*_centre_of(shape, solid), solid.observation.base, 0.0, shape.unit])
-    free = judge(shape, solid.observation, params)
-    return replace(solid, fit=free).warned(
-        "free form: its far side is mirrored and its lower part extruded, not seen"
-    )
-
-
-def _centre_of(shape: FreeForm, solid: Solid) -> tuple[float, float]:
-    points = solid.observation.points
-    low, high = np.percentile(points[:, :2], [1, 99], axis=0)
-    middle = (low + high) / 2
-    return float(middle[0]), float(middle[1])
-
-
-def _evidence(seen: Calibrated, solid: Solid) -> Evidence:
-    observation = solid.observation
-    outline = seen.view.on_plane(observation.edges, observation.base)
-    return Evidence(observation.points, observation.base, outline, seen.view)
+SIZE_RANGE = (0.5, 2.0)
+"""A known thing may be what was found when their longest sides differ by no more than this."""
 
 
 def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> list[Solid]:
-    """Solids with meshes that the user or a server gives, and poses that a server gives.
+    """Solids with shapes that the user, a library or a server gives, registered with the picture.
 
     Raises:
-        SpecError: a mesh file is unusable, or is for an object that is not there.
+        SpecError: a mesh or library file is unusable, or is for an object that is not there.
         ServiceError: a server gives no usable answer.
     """
     unknown = set(options.meshes) - {solid.name for solid in solids}
@@ -75,68 +43,120 @@ def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> lis
             f"a mesh is given for {sorted(unknown)[0]!r}, which is not found; objects are "
             f"{', '.join(solid.name for solid in solids)}"
         )
+    library = Library(()) if options.library is None else read_library(options.library)
     found = []
     for solid in solids:
-        shape = None
-        data, kind = b"", "glb"
+        others = [other.segment.mask for other in solids if other is not solid]
+        entry = library.named(solid.name) if solid.segment.named else None
         if solid.name in options.meshes:
-            data, kind = _read(options.meshes[solid.name])
-            shape = load_mesh(data, kind, str(options.meshes[solid.name]))
+            path = options.meshes[solid.name]
+            found.append(_with_mesh(seen, solid, others, _read(path), str(path), options))
+        elif entry is not None:
+            found.append(_from_library(seen, solid, others, entry, options))
         elif options.mesh_url is not None:
-            data, kind = services.ask_mesh(
-                options.mesh_url, solid.name, seen.capture.color, solid.segment.mask,
-                options.deadline,
-            )  # fmt: skip
-            try:
-                shape = load_mesh(data, kind, "mesh")
-            except SpecError as error:
-                raise services.Server(options.mesh_url, "mesh").error(str(error)) from None
-        if shape is not None:
-            solid = _registered(seen, solid, shape, options, data, kind)
-        found.append(solid)
-    return found
+            mesh = _asked_mesh(seen, solid, options)
+            found.append(_with_mesh(seen, solid, others, mesh, "mesh server", options))
+        else:
+            found.append(solid)
+    return _recognized(seen, found, library, options)
 
 
-def _read(path: Path) -> tuple[bytes, str]:
-    kind = MESH_SUFFIXES.get(path.suffix.lower())
+def _read(path: Path) -> MeshFile:
+    kind = SUFFIXES.get(path.suffix.lower())
     if kind is None or not path.is_file():
         raise SpecError("expected an existing .glb, .obj or .stl file", file=str(path))
-    if path.stat().st_size > MAX_MESH_BYTES:
-        raise SpecError(f"larger than {MAX_MESH_BYTES // 2**20} MiB", file=str(path))
-    return path.read_bytes(), kind
+    if path.stat().st_size > MAX_BYTES:
+        raise SpecError(f"larger than {MAX_BYTES // 2**20} MiB", file=str(path))
+    return parse_mesh(path.read_bytes(), kind, str(path))
 
 
-def _registered(
-    seen: Calibrated, solid: Solid, shape: FreeForm, options: Options, data: bytes, kind: str
+def _asked_mesh(seen: Calibrated, solid: Solid, options: Options) -> MeshFile:
+    """The mesh that a mesh server gives for an object."""
+    assert options.mesh_url is not None  # asked by the caller
+    data, kind = services.ask_mesh(
+        options.mesh_url, solid.name, seen.capture.color, solid.segment.mask, options.deadline
+    )
+    try:
+        return parse_mesh(data, kind, "mesh")
+    except SpecError as error:
+        raise services.Server(options.mesh_url, "mesh").error(str(error)) from None
+
+
+def _with_mesh(
+    seen: Calibrated,
+    solid: Solid,
+    others: list[Mask],
+    mesh: MeshFile,
+    source: str,
+    options: Options,
 ) -> Solid:
-    """The mesh at the scale and pose that depth and silhouette ask for."""
-    rng = np.random.default_rng(options.seed)
-    observation = solid.observation
-    starts = shape.guesses(_evidence(seen, solid))
-    if options.pose_url is not None:
-        asked = _asked_pose(seen, solid, options, data, kind)
-        for start in starts:
-            start[:2], start[3] = asked[0], asked[1]
-        starts = starts[:1]
-    coarse = observation.thinned(*COARSE, rng)
-    fits = [judge(shape, coarse, fit_shape(shape, coarse, start, steps=20)) for start in starts]
-    best = min(fits, key=lambda fit: fit.score)
-    fine = observation.thinned(*FINE, rng)
-    params = fit_shape(shape, fine, best.params)
-    return replace(solid, fit=judge(shape, fine, params), extra={}).warned(
-        "the mesh is given; its scale is from depth and silhouette"
+    """The solid as a mesh of unknown scale, whether it fits or not: it was asked for."""
+    models = models_of(mesh.vertices, mesh.faces)
+    got, placed = _registered(seen, solid, others, mesh, models, None, options)
+    made = replace(
+        placed, fit=got.fit, extra={}, model=_known(got, source, mesh),
+        warnings=(*placed.warnings, "the mesh is given; its scale is from depth and silhouette"),
+    )  # fmt: skip
+    return made if got.believable else made.warned(_misfit(f"the mesh of {source}", got))
+
+
+def _misfit(what: str, got: Registered) -> str:
+    return (
+        f"{what} does not fit what is seen ({100 * got.fit.explained:.0f} % explained, "
+        f"{100 * got.mismatch:.0f} % of the picture disagrees): it may be another object's"
     )
 
 
+def _known(got: Registered, source: str, mesh: MeshFile) -> KnownModel:
+    pose = got.pose.copy()
+    pose[:3, :3] = pose[:3, :3] @ mesh.upright
+    return KnownModel(source, pose, got.metres_per_unit, got.mismatch)
+
+
+def _registered(
+    seen: Calibrated,
+    solid: Solid,
+    others: list[Mask],
+    mesh: MeshFile,
+    models: list[Model],
+    metres_per_unit: float | None,
+    options: Options,
+) -> tuple[Registered, Solid]:
+    """A mesh registered on the support that agrees best, and the solid on that support."""
+    start = None
+    if options.pose_url is not None:
+        start = _asked_pose(seen, solid, mesh, metres_per_unit, options)
+    solid = replace(solid, warnings=())  # doubts about its first shape do not apply
+    # That shape may have misled about what it stands on.
+    bases = [] if solid.support == DESK else [seen.desk_top]
+    target = target_of(seen, solid.segment.mask, others, solid.observation.base, options.seed)
+    got = register(target, models, metres_per_unit=metres_per_unit, start=start, bases=bases)
+    if start is not None and not got.believable:
+        free = register(target, models, metres_per_unit=metres_per_unit, bases=bases)
+        if free.mismatch < got.mismatch:
+            got = free
+            solid = solid.warned("the pose server's pose does not agree with the picture; another "
+                                 "one was looked for")  # fmt: skip
+    if bases and got.fit.params[2] == seen.desk_top != solid.observation.base:
+        low = replace(solid.observation, base=seen.desk_top)
+        solid = replace(solid, support=DESK, relation="on", observation=low)
+    return got, solid
+
+
 def _asked_pose(
-    seen: Calibrated, solid: Solid, options: Options, data: bytes, kind: str
-) -> tuple[np.ndarray, float]:
-    """Place x y (2,) and yaw that a pose server says, base frame."""
+    seen: Calibrated,
+    solid: Solid,
+    mesh: MeshFile,
+    metres_per_unit: float | None,
+    options: Options,
+) -> Array:
+    """Pose (4, 4) in the base frame, of the mesh with z up, as a pose server says it."""
     assert options.pose_url is not None  # asked by the caller
     pose = services.ask_pose(
         options.pose_url,
         {
-            "name": solid.name, "mesh": base64.b64encode(data).decode(), "format": kind,
+            "name": solid.name, "mesh": base64.b64encode(mesh.data).decode(), "format": mesh.kind,
+            "metres_per_unit": metres_per_unit,
             "color": services.picture(seen.capture.color),
             "depth": services.depth_picture(seen.depth),
             "mask": services.mask_picture(solid.segment.mask),
@@ -145,66 +165,100 @@ def _asked_pose(
         options.deadline,
     )  # fmt: skip
     base = seen.view.camera_to_base @ pose
-    return base[:2, 3], float(np.arctan2(base[1, 0], base[0, 0]))
+    base[:3, :3] = base[:3, :3] @ mesh.upright.T
+    return np.asarray(base)
 
 
-def asked_joints(
-    seen: Calibrated, solids: list[Solid], options: Options
-) -> tuple[list[Solid], list[Joint]]:
-    """Joints of furniture-sized blocks as an articulation server says them.
-
-    Raises:
-        ServiceError: it gives no usable answer.
-    """
-    assert options.articulation_url is not None  # asked by the caller
-    found, joints = [], []
-    for solid in solids:
-        if solid.kind not in ("drawer_unit", "cabinet", "box") or not isinstance(
-            solid.fit.family, Block
-        ):
-            found.append(solid)
-            continue
-        asked = services.ask_articulation(
-            options.articulation_url,
-            {
-                "name": solid.name,
-                "color": services.picture(seen.capture.color),
-                "depth": services.depth_picture(seen.depth),
-                "mask": services.mask_picture(solid.segment.mask),
-                "intrinsics": services.intrinsics(seen.view),
-            },
-            options.deadline,
+def _from_library(
+    seen: Calibrated, solid: Solid, others: list[Mask], entry: Entry, options: Options
+) -> Solid:
+    """The solid as a known thing of known size; as it was, with a warning, where that misfits."""
+    if entry.mesh is None:
+        known = fit_known_kind(seen, solid, entry.spec)
+        if known.fit.explained > POOR:
+            return _with_keys(known, entry)
+        return solid.warned(
+            f"{entry.name} of the library does not fit what is seen "
+            f"({100 * known.fit.explained:.0f} % explained): its shape is fitted instead"
         )
-        if asked is None:
-            found.append(solid)
-            continue
-        axis = seen.view.rotation @ asked.axis
-        anchor = (seen.view.camera_to_base @ np.array([*asked.origin, 1.0]))[:3]
-        joint = Joint(
-            solid.name, "slide" if asked.type == "prismatic" else "hinge", axis, anchor,
-            (asked.value, asked.limits[1]),
-        )  # fmt: skip
-        joints.append(joint)
-        found.append(_with_joint(solid, joint, asked))
-    return found, joints
+    got, placed = _registered_entry(seen, solid, others, entry, options)
+    if not got.believable:
+        return solid.warned(
+            _misfit(f"{entry.name} of the library", got) + "; its shape is fitted instead"
+        )
+    return _as_entry(placed, got, entry)
 
 
-def _with_joint(solid: Solid, joint: Joint, asked: services.AskedJoint) -> Solid:
-    """The block as furniture whose front is where the joint says."""
-    params = solid.fit.params.copy()
-    toward = joint.axis[:2] if joint.type == "slide" else None
-    if toward is None or np.linalg.norm(toward) < 1e-6:
-        toward = joint.anchor[:2] - params[:2]
-    heading = float(np.arctan2(toward[1], toward[0])) - params[3]
-    quarter = round(heading / (np.pi / 2)) % 4
-    if quarter % 2:
-        params[4], params[5] = params[5], params[4]
-    params[3] += quarter * np.pi / 2
-    turned = replace(solid, fit=replace(solid.fit, params=params))
-    if joint.type == "slide":
-        extra = unit_spec(turned.size, 2, min(max(asked.value, 0.0), asked.limits[1]))
-        extra["drawers"][0]["travel"] = min(asked.limits[1], 0.9 * turned.size[0])
+def _with_keys(known: Solid, entry: Entry) -> Solid:
+    """A known thing with what the library says besides its shape."""
+    return replace(known, extra={**known.extra, **extra_keys(entry.spec)})
+
+
+def _registered_entry(
+    seen: Calibrated, solid: Solid, others: list[Mask], entry: Entry, options: Options
+) -> tuple[Registered, Solid]:
+    assert entry.mesh is not None and isinstance(entry.spec, Mesh)  # asked by the caller
+    models = models_of(entry.mesh.vertices, entry.mesh.faces)
+    return _registered(seen, solid, others, entry.mesh, models, entry.spec.scale, options)
+
+
+def _as_entry(solid: Solid, got: Registered, entry: Entry) -> Solid:
+    assert entry.mesh is not None  # asked by the caller
+    keys = {k: v for k, v in extra_keys(entry.spec).items() if k not in SCALED_BY_FILE}
+    return replace(
+        solid, fit=got.fit, extra={"kind": "mesh", **keys},
+        model=_known(got, entry.name, entry.mesh),
+    )  # fmt: skip
+
+
+def _recognized(
+    seen: Calibrated, solids: list[Solid], library: Library, options: Options
+) -> list[Solid]:
+    """Found objects without a name as things of the library that the instruction names."""
+    done = list(solids)
+    taken = {solid.name for solid in solids if solid.segment.named}
+    for entry, words in library.mentioned(options.instruction):
+        for index, solid in enumerate(done):
+            if solid.segment.named or not _size_fits(solid, entry):
+                continue
+            others = [other.segment.mask for other in done if other is not solid]
+            known = _matching(seen, solid, others, entry, options)
+            if known is None:
+                continue
+            name = unique_name(safe_name("_".join(words)), taken)
+            taken.add(name)
+            segment = replace(known.segment, name=name, named=True, label=" ".join(words))
+            done[index] = replace(known, segment=segment)
+            done = [_moved_support(other, solid.name, name) for other in done]
+    return done
+
+
+def _moved_support(solid: Solid, before: str, after: str) -> Solid:
+    return replace(solid, support=after) if solid.support == before else solid
+
+
+def _matching(
+    seen: Calibrated, solid: Solid, others: list[Mask], entry: Entry, options: Options
+) -> Solid | None:
+    """The solid as a known thing, if it fits about as well as the shape that was found."""
+    if entry.mesh is None:
+        known = fit_known_kind(seen, solid, entry.spec)
+        if known.fit.explained < max(POOR, 0.9 * solid.fit.explained):
+            return None
+        return _with_keys(known, entry)
+    got, placed = _registered_entry(seen, solid, others, entry, options)
+    if not got.believable or got.fit.explained < 0.9 * solid.fit.explained:
+        return None
+    return _as_entry(placed, got, entry)
+
+
+def _size_fits(solid: Solid, entry: Entry) -> bool:
+    """Whether a known thing is about as large as what was found; spares costly comparisons."""
+    if entry.mesh is not None and isinstance(entry.spec, Mesh):
+        longest = float(np.ptp(entry.mesh.vertices, axis=0).max()) * entry.spec.scale
     else:
-        extra = cabinet_spec(turned.size, "left", float(np.degrees(max(asked.value, 0.0))))
-        extra["door"]["range_deg"] = float(np.degrees(asked.limits[1]))
-    return replace(turned, extra=extra).warned("its joint is from the articulation server")
+        data = entry.spec.model_dump()
+        sides = [data.get(key) for key in ("diameter", "height", "length")]
+        longest = max(data.get("size") or [side for side in sides if side is not None])
+    ratio = max(solid.size) / longest
+    return SIZE_RANGE[0] < ratio < SIZE_RANGE[1]

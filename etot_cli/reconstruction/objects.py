@@ -23,6 +23,21 @@ class Segment:
 
 
 @dataclass(frozen=True)
+class KnownModel:
+    """A known model that an object was registered with.
+
+    ``source``: its file or library entry; ``pose`` (4, 4): the frame of the model's file, scaled to
+    metres, in the base frame; ``metres_per_unit`` of the file; ``mismatch``: share of the picture
+    that disagrees, 0 is perfect.
+    """
+
+    source: str
+    pose: Array
+    metres_per_unit: float
+    mismatch: float
+
+
+@dataclass(frozen=True)
 class Solid:
     """An object with shape and pose.
 
@@ -34,6 +49,7 @@ class Solid:
         observation: what the fit explained.
         extra: scene keys that replace those of the fit's family (another kind, say).
         warnings: what is doubtful, in words.
+        model: the known model that gave its shape.
     """
 
     segment: Segment
@@ -43,6 +59,7 @@ class Solid:
     observation: Observation
     extra: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    model: KnownModel | None = None
 
     @property
     def name(self) -> str:

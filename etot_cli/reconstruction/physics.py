@@ -30,13 +30,15 @@ MATERIALS: dict[str, Material] = {
     "fruit": Material(820.0, 0.6),
     "light plastic": Material(400.0, 0.45),
     "hollow": Material(250.0, 0.6),
+    "pencil": Material(700.0, 0.5),
 }
 """``light plastic``: printed or foamed, as most small vessels are. ``hollow``: things with thin
-walls that are modelled as solid, such as play balls."""
+walls that are modelled as solid, such as play balls. ``pencil``: wood with a lead, or a plastic
+tube with a refill; a common pencil of 7 cm³ weighs 5 g."""
 DEFAULTS = {
     "sphere": "hollow", "box": "hollow", "cylinder": "wood", "cup": "light plastic",
     "bowl": "light plastic",
-    "pen": "wood", "capsule": "wood", "mesh": "hollow", "drawer_unit": "plastic",
+    "pen": "pencil", "capsule": "wood", "mesh": "hollow", "drawer_unit": "plastic",
     "cabinet": "plastic",
 }  # fmt: skip
 LIGHTEST = 0.005

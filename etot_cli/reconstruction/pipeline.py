@@ -13,10 +13,14 @@ from etot_cli.errors import EtotError, SpecError
 from etot_cli.reconstruction import assembly, services
 from etot_cli.reconstruction.articulation import Joint, articulate
 from etot_cli.reconstruction.calibration import Calibrated, calibrate
-from etot_cli.reconstruction.capture import disjoint, read_capture
+from etot_cli.reconstruction.capture import disjoint, read_capture, unique_name
+from etot_cli.reconstruction.completion import complete
 from etot_cli.reconstruction.fit.supports import fit_all
 from etot_cli.reconstruction.furnish import furnish
-from etot_cli.reconstruction.given import asked_joints, complete, given_shapes
+from etot_cli.reconstruction.given import given_shapes
+from etot_cli.reconstruction.joint_server import asked_joints
+from etot_cli.reconstruction.library import without, words_of
+from etot_cli.reconstruction.mask_checks import unmasked, usable_segments
 from etot_cli.reconstruction.masks import find_segments
 from etot_cli.reconstruction.naming import assign_names, color_of, hint_of, mentions
 from etot_cli.reconstruction.objects import Segment, Solid
@@ -29,7 +33,8 @@ class Options:
 
     ``auto``: find masks even where the capture has some. ``second``: a capture of the same scene
     with another joint state; by default the folder ``second`` in the capture, where there is one.
-    ``meshes``: mesh files by object name. The URLs let servers take stages over.
+    ``meshes``: mesh files by object name. ``library``: a file of known things. The URLs let servers
+    take stages over.
     """
 
     capture: Path
@@ -38,6 +43,7 @@ class Options:
     second: Path | None = None
     materials: dict[str, str] = field(default_factory=dict)
     meshes: dict[str, Path] = field(default_factory=dict)
+    library: Path | None = None
     masks_url: str | None = None
     mesh_url: str | None = None
     pose_url: str | None = None
@@ -72,10 +78,15 @@ def reconstruct(options: Options) -> Twin:
     clock = _Clock(timing)
     seen = calibrate(read_capture(options.capture, use_masks=not options.auto), seed=options.seed)
     clock.lap("calibration")
-    warnings = list(seen.warnings)
+    warnings, doubts = list(seen.warnings), list[str]()
     segments = _segments(seen, options)
+    if segments and segments[0].named:
+        segments, doubts = usable_segments(seen, segments)
+        warnings += doubts + (unmasked(seen, segments) if segments else [])
     if not segments:
-        raise SpecError("no object is seen on the desk", file=str(options.capture))
+        raise SpecError(
+            "; ".join(["no object is seen on the desk", *doubts]), file=str(options.capture)
+        )
     clock.lap("masks")
     solids, lost = _shapes(seen, segments, options)
     warnings += [f"{name}: too little of it is seen; left out" for name in lost]
@@ -114,7 +125,10 @@ def _shapes(
     hints = {s.name: hint for s in segments if s.named and (hint := hint_of(s.name))}
     solids = fit_all(seen, segments, rng=rng, hints=hints)
     lost = {segment.name for segment in segments} - {solid.name for solid in solids}
-    solids = [complete(seen, solid) for solid in solids]
+    solids = [
+        complete(seen, solid, [o.mask for o in segments if o.name != solid.name])
+        for solid in solids
+    ]
     return [furnish(seen, solid, hints.get(solid.name)) for solid in solids], sorted(lost)
 
 
@@ -152,7 +166,12 @@ def _named(seen: Calibrated, solids: list[Solid], instruction: str | None) -> li
     if not found:
         return solids
     colors = {s.name: color_of(seen.capture.color, s.segment.mask) for s in found}
+    # What a library has recognized took its words out of the instruction.
+    known = [solid.segment for solid in solids if solid.segment.named]
+    instruction = without(instruction, [words_of(item.label or item.name) for item in known])
     names = assign_names({s.name: s.kind for s in found}, colors, instruction)
+    taken = {item.name for item in known}
+    names = {before: unique_name(after, taken) for before, after in names.items()}
     renamed = []
     for solid in solids:
         name = names.get(solid.name, solid.name)

@@ -23,6 +23,8 @@ SURROUNDINGS = (121, 121)
 SHADOW_HUE = 7.0
 """A shadow keeps the desk's hue and saturation up to this distance."""
 DARKEST_SHADOW = 0.3
+WIDEST_TEAR = 12.0
+"""Farther than this from a reading nothing is known about steps [px]."""
 LEAST_BORDER = 12
 STRAIGHT = 3.0
 """Nine tenths of a straight border lie this near to a line [px]."""
@@ -131,12 +133,7 @@ def measure_surfaces(seen: Calibrated, *, smooth: int) -> Surfaces:
         normals = normals / length
     away = (normals * (seen.view.position - points)).sum(axis=2) < 0
     normals[away] *= -1
-    kernel = np.ones((3, 3), np.uint8)
-    far = np.where(valid, depth, 0)
-    near = np.where(valid, depth, 99.0).astype(np.float32)
-    step = cv2.dilate(far, kernel) - cv2.erode(near, kernel)
-    # The farther side of a jump is marked: the nearer one is the object that hides it.
-    jumps = valid & (step > JUMP + 3 * seen.noise) & (depth - cv2.erode(near, kernel) > step / 2)
+    jumps = _jumps(depth, JUMP + 3 * seen.noise)
     with np.errstate(invalid="ignore"):
         level = np.nan_to_num(normals[..., 2]) > LEVEL_COSINE
         slant = np.abs(((seen.view.position - points) * normals).sum(axis=2)) / np.linalg.norm(
@@ -144,6 +141,24 @@ def measure_surfaces(seen: Calibrated, *, smooth: int) -> Surfaces:
         )
         area = depth**2 / (seen.view.fx * seen.view.fy) / np.maximum(np.nan_to_num(slant), 0.15)
     return Surfaces(normals, jumps, level & valid, area, color_features(seen.capture.color))
+
+
+def _jumps(depth: NDArray[np.float32], least: float) -> Mask:
+    """Pixels (h, w) on the farther side of a step in depth; lost readings are as their nearest.
+
+    The nearer side of a step is the object that hides the farther one.
+    """
+    valid = depth > 0
+    away, cells = cv2.distanceTransformWithLabels(
+        (~valid).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    table = np.zeros(int(cells.max()) + 1, np.float32)
+    table[cells[valid]] = depth[valid]
+    filled = table[cells]
+    kernel = np.ones((3, 3), np.uint8)
+    nearest = cv2.erode(filled, kernel)
+    step = cv2.dilate(filled, kernel) - nearest
+    return np.asarray((step > least) & (filled - nearest > step / 2) & (away < WIDEST_TEAR))
 
 
 def color_features(color: NDArray[np.uint8]) -> NDArray[np.float32]:

@@ -80,7 +80,11 @@ class View:
 
     def cloud(self, depth: Array) -> Array:
         """Points (h, w, 3) of a depth picture (h, w) [m]; NaN where there is no reading."""
-        v, u = np.mgrid[0 : self.height, 0 : self.width].astype(np.float64)
+        x = (np.arange(self.width) - self.cx) / self.fx
+        y = (np.arange(self.height) - self.cy) / self.fy
         z = np.where(depth > 0, depth, np.nan)
-        local = np.stack([(u - self.cx) / self.fx * z, (v - self.cy) / self.fy * z, z], axis=-1)
-        return np.asarray(local @ self.rotation.T + self.position)
+        points = np.empty((self.height, self.width, 3))
+        for axis, (right, down, forward) in enumerate(self.rotation):
+            points[..., axis] = (right * x + (down * y + forward)[:, None]) * z
+        points += self.position
+        return points

@@ -20,6 +20,22 @@ class FitModel(Model):
     """Share of edge and surface points within tolerance."""
 
 
+class KnownModelModel(Model):
+    """A known mesh that an object was registered with."""
+
+    source: str
+    """Its file, its entry in the library, or the server."""
+    metres_per_unit: float = Field(gt=0)
+    """Unit of the mesh's file [m]; found from the picture where it was not known."""
+    pose: tuple[
+        tuple[float, float, float, float], tuple[float, float, float, float],
+        tuple[float, float, float, float], tuple[float, float, float, float],
+    ]  # fmt: skip
+    """The frame of the mesh's file, scaled to metres, in the base frame."""
+    mismatch: float = Field(ge=0)
+    """Share of its part of the picture that disagrees with the mesh; 0 is perfect."""
+
+
 class ReconstructedObjectModel(Model):
     """One object of the twin; base frame."""
 
@@ -37,6 +53,8 @@ class ReconstructedObjectModel(Model):
     settle_m: float | None
     """How far it moved until it lay still; null when the twin could not be built."""
     settle_deg: float | None
+    model: KnownModelModel | None
+    """The known mesh that gave its shape; null where its shape was fitted."""
     warnings: list[str]
     """What is doubtful about it."""
 

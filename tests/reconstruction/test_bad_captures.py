@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,9 +12,11 @@ import cv2
 import numpy as np
 import pytest
 
+from etot_cli.cli.app import run
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.calibration import calibrate
 from etot_cli.reconstruction.capture import read_capture
+from etot_cli.reconstruction.pipeline import Options, reconstruct
 
 
 def change(folder: Path, **values: Any) -> None:
@@ -29,6 +32,24 @@ def rewrite(folder: Path, name: str, image: Any) -> None:
 def turned_over(folder: Path) -> None:
     pose = np.array(json.loads((folder / "camera.json").read_text())["camera_to_base"])
     change(folder, camera_to_base=np.linalg.inv(pose).tolist())
+
+
+def upside_down(folder: Path) -> None:
+    """The camera turned to the other side of the desk, which stays where it is."""
+    pose = np.array(json.loads((folder / "camera.json").read_text())["camera_to_base"])
+    turn, middle = np.diag([1.0, -1.0, -1.0]), np.array([0.45, 0.0, 0.132])
+    pose[:3, :3] = turn @ pose[:3, :3]
+    pose[:3, 3] = turn @ (pose[:3, 3] - middle) + middle
+    change(folder, camera_to_base=pose.tolist())
+
+
+def in_units(folder: Path, metres: float) -> None:
+    """Depth written in other units than camera.json says: millimetres."""
+    depth = cv2.imread(str(folder / "depth.png"), cv2.IMREAD_UNCHANGED)
+    scale = json.loads((folder / "camera.json").read_text())["depth_scale"]
+    units = np.round(depth * (scale / metres)).clip(0, 65535)
+    rewrite(folder, "depth.png", units.astype(np.uint16))
+    change(folder, depth_scale=0.001)
 
 
 BAD: dict[str, tuple[Callable[[Path], object], str]] = {
@@ -47,6 +68,19 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda f: change(f, camera_to_base=(2 * np.eye(4)).tolist()), "is no rigid pose"
     ),
     "inverse pose": (turned_over, "below the desk|no desk is seen"),
+    "camera below": (upside_down, "camera.json: camera_to_base puts the camera below the desk"),
+    "pose in millimetres": (
+        lambda f: change(f, camera_to_base=(
+            np.diag([1, 1, 1, 0]) + np.outer([620, 50, 620, 1], [0, 0, 0, 1])
+        ).tolist()),
+        "878.2 m from the base; expected metres",
+    ),
+    "depth in metres": (
+        lambda f: in_units(f, 1.0), r"median is 0.001 m.*depth_scale 0.001 is wrong \(with 1 it"
+    ),
+    "depth in 0.1 mm": (lambda f: in_units(f, 0.0001), r"is wrong \(with 0.0001 it would be 0.7"),
+    "depth in 0.25 mm": (lambda f: in_units(f, 0.00025), "seen with 0.25 times the depth_scale"),
+    "depth in centimetres": (lambda f: in_units(f, 0.01), r"is wrong \(with 0.01 it would be 0.7"),
     "unit": (lambda f: change(f, depth_scale=1.0), r"depth_scale 1 is wrong \(with 0.0001"),
     "kind": (lambda f: change(f, depth_kind="disparity"), "expected z or ray"),
     "no colour": (lambda f: (f / "color.png").unlink(), "color.png: no such file"),
@@ -59,6 +93,18 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
             (f / "color.png").read_bytes()[:16] + b"\x00\x01\x00\x00" * 2 + bytes(40)
         ),
         "is 65536 × 65536",
+    ),
+    "too large": (
+        lambda f: rewrite(f, "color.png", np.zeros((2, 5000, 3), np.uint8)),
+        "color.png: is 5000 × 2; expected at most 4096 × 4096",
+    ),
+    "gray": (
+        lambda f: rewrite(f, "color.png", np.zeros((480, 640), np.uint8)),
+        r"color.png: is uint8 with 1 channel\(s\); expected 8-bit colour",
+    ),
+    "16-bit colour": (
+        lambda f: rewrite(f, "color.png", np.zeros((480, 640, 3), np.uint16)),
+        r"is uint16 with 3 channel\(s\); expected 8-bit colour",
     ),
     "empty depth": (
         lambda f: rewrite(f, "depth.png", np.zeros((480, 640), np.uint16)), "is empty"
@@ -73,6 +119,17 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "a wall": (
         lambda f: rewrite(f, "depth.png", np.full((480, 640), 9000, np.uint16)), "no desk is seen"
     ),
+    "colour as depth": (
+        lambda f: rewrite(f, "depth.png", np.zeros((480, 640, 3), np.uint16)),
+        r"depth.png: is uint16 with 3 channel\(s\); expected one channel of 16 bits",
+    ),
+    "mask of text": (
+        lambda f: (f / "masks" / "ball.png").write_text("ball"), "ball.png: is no PNG"
+    ),
+    "no folder of masks": (
+        lambda f: (shutil.rmtree(f / "masks"), (f / "masks").write_text("")),
+        "masks: is no folder; expected masks",
+    ),
     "small mask": (
         lambda f: rewrite(f, "masks/ball.png", np.zeros((5, 5), np.uint8)), "ball.png: is 5 × 5"
     ),
@@ -85,6 +142,67 @@ def test_one_clear_error(case: str, folder: Path) -> None:
     spoil(folder)
     with pytest.raises(SpecError, match=message):
         calibrate(read_capture(folder))
+
+
+@pytest.mark.parametrize("case", ["empty depth", "camera below", "small depth", "no fx"])
+def test_the_command_says_it_in_one_line_and_writes_nothing(
+    case: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    BAD[case][0](folder)
+    out = tmp_path / "out"
+    assert run(["reconstruct", str(folder), "--out", str(out)]) == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    (line,) = shown.err.strip().splitlines()
+    assert line.startswith(f"error: {folder}")
+    assert not out.exists()
+
+
+def test_masks_that_miss_leave_a_usable_part(folder: Path) -> None:
+    (folder / "masks" / "ball.png").unlink()
+    rewrite(folder, "masks/mug.jpg", np.zeros((480, 640), np.uint8))
+    elsewhere, bare = np.zeros((2, 480, 640), np.uint8)
+    elsewhere[10:60, 10:60] = bare[400:440, 100:160] = 255
+    rewrite(folder, "masks/ghost.png", elsewhere)
+    rewrite(folder, "masks/stain.png", bare)
+    twin = reconstruct(Options(capture=folder, settle=False))
+    assert {solid.name for solid in twin.solids} == {"mug", "crate", "marker"}
+    for words in (
+        "masks/mug.jpg is no .png file",
+        "mask 'ghost' is left out: it shows something at",
+        "mask 'stain' is left out: it shows nothing that rises",
+        "that has no mask: it is not in the twin",
+    ):
+        assert sum(words in text for text in twin.warnings) == 1, words
+
+
+def test_only_useless_masks_are_an_error(folder: Path) -> None:
+    for file in (folder / "masks").iterdir():
+        file.unlink()
+    bare = np.zeros((480, 640), np.uint8)
+    bare[400:440, 100:160] = 255
+    rewrite(folder, "masks/stain.png", bare)
+    with pytest.raises(SpecError, match=r"no object is seen on the desk; mask 'stain' is left out"):
+        reconstruct(Options(capture=folder))
+
+
+def test_overlapping_masks_are_a_warning(folder: Path) -> None:
+    crate, marker = (cv2.imread(str(folder / "masks" / f"{name}.png"), cv2.IMREAD_GRAYSCALE)
+                     for name in ("crate", "marker"))  # fmt: skip
+    rewrite(folder, "masks/crate.png", crate | marker)
+    twin = reconstruct(Options(capture=folder, settle=False))
+    assert any("mask 'crate' overlaps others by" in text for text in twin.warnings)
+    assert twin.document["objects"]["marker"]["on"] == "crate"
+
+
+def test_things_without_depth_are_fitted_to_their_outlines(folder: Path) -> None:
+    depth = cv2.imread(str(folder / "depth.png"), cv2.IMREAD_UNCHANGED)
+    ball = cv2.imread(str(folder / "masks" / "ball.png"), cv2.IMREAD_GRAYSCALE)
+    depth[ball > 0] = 0
+    rewrite(folder, "depth.png", depth)
+    found = next(s for s in reconstruct(Options(capture=folder)).solids if s.name == "ball")
+    assert found.size[0] == pytest.approx(0.076, rel=0.02)
+    assert any("no depth readings" in text for text in found.warnings)
 
 
 def test_no_folder(tmp_path: Path) -> None:
@@ -114,11 +232,13 @@ def test_a_tilted_pose_is_levelled_and_said_so(folder: Path) -> None:
     assert np.nanstd(seen.cloud[..., 2][seen.desk]) < 0.001
 
 
-def test_displaced_depth_is_moved_back(picture, tmp_path: Path) -> None:
+@pytest.mark.parametrize("shift", [(4.0, 2.0), (-3.0, 4.0), (0.0, -5.0)])
+def test_displaced_depth_is_moved_back(picture, tmp_path: Path, shift: tuple[float, float]) -> None:
     from etot_cli.world.capture import Noise, add_noise, write_capture
 
-    noise = Noise(shift=(4.0, 2.0), sigma=0.001)
+    noise = Noise(shift=shift, sigma=0.001)
     write_capture(add_noise(picture, noise, np.random.default_rng(0)), tmp_path, scale=0.001)
-    right, down = calibrate(read_capture(tmp_path)).shift
-    assert abs(right - 4) <= 1
-    assert abs(down - 2) <= 2
+    for use_masks in (True, False):
+        right, down = calibrate(read_capture(tmp_path, use_masks=use_masks)).shift
+        assert abs(right - shift[0]) <= 1
+        assert abs(down - shift[1]) <= 1

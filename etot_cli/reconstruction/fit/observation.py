@@ -8,6 +8,7 @@ object, or to the picture's border, are left out.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -48,6 +49,11 @@ class Observation:
     depth_sigma: float = 0.001
     complete: float = 1.0
     """Share of the mask's edge that is the object's own."""
+
+    @cached_property
+    def pixels(self) -> Array:
+        """Edge, free and inside pixels in this order, (n + k + m, 2)."""
+        return np.vstack([self.edges, self.free, self.inside])
 
     def thinned(self, edges: int, points: int, rng: np.random.Generator) -> Observation:
         """With at most so many edge points and surface points."""
@@ -137,7 +143,9 @@ def observe(
     free = np.column_stack(np.nonzero(grown & ~close & ~hiding)[::-1]).astype(np.float64)
     kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
     sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
-    inside = np.column_stack([u, v]).astype(np.float64)
+    # Pixels at the edge say no more than the edge itself, and the mask may err there.
+    within = sure if sure.any() else mask
+    inside = np.column_stack(np.nonzero(within)[::-1]).astype(np.float64)
     points = cloud[sure]
     points = points[np.isfinite(points[:, 2])]
     return Observation(view, found, free, inside, points, base,

@@ -5,25 +5,33 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.solver import TOLERANCE, minimize
 from etot_cli.reconstruction.shapes.base import Evidence, Family, convex_distance
 from etot_cli.reconstruction.view import Array, View
 
 FREE_WEIGHT = 0.5
 COARSE = (160, 160)
 """Edge and surface points while shapes are compared."""
+COMPARED = 1e-4
+"""Share of the cost below which gains do not matter while shapes are compared."""
+MOST_STARTS = 4
+"""A shape is fitted from at most so many first guesses."""
 FINE = (700, 700)
 """Edge and surface points of the final fit."""
 GOOD_SCORE = 2.0
 """With a score below this no more involved shapes are tried."""
 INVOLVED = 0.5
-"""An involved shape replaces a simple one when its score is below this share of the other's."""
+"""An involved shape replaces a simple one when it leaves less than this share of its misfit."""
+SIMPLICITY = 0.12
+"""Added to the score per unit of a family's complexity."""
 FINE_DEPTH = 0.0015
 """With a larger error of depth the thickness of a wall cannot be measured [m]."""
 IMPLAUSIBLE = 50.0
 """Added to the score of a shape that its family is not meant for."""
+FARTHEST_OFF = 9.0
+"""An error counts in the score as at most this many squares of twice its standard deviation."""
 EXPLAINED_PX = 2.0
 """An edge point this near to the outline counts as explained [px]."""
 EXPLAINED_M = 0.004
@@ -46,6 +54,11 @@ class Fit:
     explained: float
     score: float
 
+    @property
+    def misfit(self) -> float:
+        """The part of the score that is not the shape's complexity."""
+        return self.score - SIMPLICITY * self.family.complexity
+
 
 def silhouette_distance(hulls: list[Array], view: View, pixels: Array) -> Array:
     """Signed distance (n,) [px] of pixels (n, 2) from the union of projected hulls."""
@@ -61,6 +74,7 @@ def fit_shape(
     free_z: bool = False,
     fixed: tuple[str, ...] = (),
     steps: int = 40,
+    tolerance: float = TOLERANCE,
 ) -> Array:
     """Parameters that explain an observation best, from a start.
 
@@ -71,6 +85,7 @@ def fit_shape(
         free_z: also fit the height of the lowest point instead of keeping ``seen.base``.
         fixed: names of parameters that keep their start values.
         steps: most function evaluations, Jacobians not counted.
+        tolerance: share of the cost below which gains do not matter.
     """
     held = set(fixed) | (set() if free_z else {"z"})
     if seen.depth_sigma > FINE_DEPTH:
@@ -88,33 +103,27 @@ def fit_shape(
     def residuals(part: Array) -> Array:
         return residuals_of(family, seen, whole(part))
 
-    solution = least_squares(
-        residuals,
-        begin[free],
-        bounds=(low[free], high[free]),
-        loss="soft_l1",
-        f_scale=2.0,
-        x_scale=np.where([n == "yaw" or n == "angle" for n in family.names], 0.1, 0.02)[free],
-        max_nfev=steps,
-        diff_step=1e-6,
-    )
-    return whole(np.asarray(solution.x))
+    scale = np.where([n == "yaw" or n == "angle" for n in family.names], 0.1, 0.02)[free]
+    solution = minimize(
+        residuals, begin[free], scale=scale, low=low[free], high=high[free], steps=steps,
+        tolerance=tolerance,
+    )  # fmt: skip
+    return whole(solution.x)
 
 
 def residuals_of(family: Family, seen: Observation, params: Array) -> Array:
     """Weighted residuals of silhouette, free space, depth and prior."""
     hulls = family.hulls(params, seen.view)
     parts = []
-    pixels = np.vstack([seen.edges, seen.free, seen.inside])
-    distance = silhouette_distance(hulls, seen.view, pixels)
+    distance = silhouette_distance(hulls, seen.view, seen.pixels)
     e, f = len(seen.edges), len(seen.edges) + len(seen.free)
     # Each kind of evidence counts as much as its own number of points, evened out to 100.
     if e:
         parts.append(distance[:e] / seen.edge_sigma * np.sqrt(100 / e))
     if f > e:
         parts.append(np.minimum(distance[e:f], 0.0) * FREE_WEIGHT * np.sqrt(50 / (f - e)))
-    if len(pixels) > f:
-        count = len(pixels) - f
+    if len(seen.pixels) > f:
+        count = len(seen.pixels) - f
         parts.append(np.maximum(distance[f:], 0.0) * FREE_WEIGHT * np.sqrt(50 / count))
     if len(seen.points):
         depth = family.distance(params, seen.points) / seen.depth_sigma
@@ -136,14 +145,30 @@ def judge(family: Family, seen: Observation, params: Array) -> Fit:
         good, total = good + int((edge < EXPLAINED_PX).sum()), total + len(edge)
     stray = silhouette_distance(hulls, seen.view, seen.free) if len(seen.free) else np.zeros(0)
     spill = float(np.mean(np.maximum(-stray, 0.0) ** 2)) if len(stray) else 0.0
+    # The few points that tell similar shapes apart, such as those at the ends of a rod, must count.
     score = (
-        (edge_rms**2 + spill) / (2 * seen.edge_sigma) ** 2
-        + (depth_rms / (2 * seen.depth_sigma)) ** 2
-        + 0.12 * family.complexity
+        _bounded(edge, 2 * seen.edge_sigma)
+        + spill / (2 * seen.edge_sigma) ** 2
+        + _bounded(signed, 2 * seen.depth_sigma)
+        + SIMPLICITY * family.complexity
         + (0.0 if family.plausible(params) else IMPLAUSIBLE)
     )
     bias = float(np.median(signed)) if len(signed) else 0.0
     return Fit(family, params, edge_rms, depth_rms, bias, good / max(total, 1), score)
+
+
+def _bounded(errors: Array | None, unit: float) -> float:
+    """Mean square of errors in units of ``unit``; gross ones do not outweigh all others."""
+    if errors is None or not len(errors):
+        return 0.0
+    return float(np.minimum((errors / unit) ** 2, FARTHEST_OFF).mean())
+
+
+def _promising(family: Family, seen: Observation, guesses: list[Array]) -> list[Array]:
+    """The guesses that explain an observation best as they are, where there are many."""
+    if len(guesses) <= MOST_STARTS:
+        return guesses
+    return sorted(guesses, key=lambda guess: judge(family, seen, guess).score)[:MOST_STARTS]
 
 
 def trimmed_rms(values: Array, share: float = 0.95) -> float:
@@ -178,19 +203,19 @@ def best_fit(
     coarse = seen.thinned(*COARSE, rng)
     fine = seen.thinned(*FINE, rng)
     fits: list[Fit] = []
-    for level, tier in enumerate(families):
-        plain = min((fit.score for fit in fits), default=np.inf)
-        if plain < GOOD_SCORE:
+    for tier in families:
+        plain = min(fits, key=lambda fit: fit.score, default=None)
+        if plain is not None and plain.score < GOOD_SCORE:
             break
         for family in tier:
             options = []
-            for guess in family.guesses(evidence):
-                params = fit_shape(family, coarse, guess, steps=25)
+            for guess in _promising(family, coarse, family.guesses(evidence)):
+                params = fit_shape(family, coarse, guess, steps=25, tolerance=COMPARED)
                 options.append(judge(family, coarse, params))
             if options:
                 best_option = min(options, key=lambda fit: fit.score)
                 # An involved shape must explain much that a simple one leaves open.
-                if level == 0 or best_option.score < INVOLVED * plain:
+                if plain is None or best_option.misfit < INVOLVED * plain.misfit:
                     fits.append(best_option)
     fits.sort(key=lambda fit: fit.score)
     if not thorough:

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from etot_cli.reconstruction.calibration import Calibrated
 from etot_cli.reconstruction.fit.lip import rim_height
 from etot_cli.reconstruction.fit.pose import judge, residuals_of
+from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.upright import Cup, Cylinder
@@ -121,7 +121,6 @@ def _together(
     start = [*cup_start[:2], cup_start[3], cup_start[4], ball_start[3], cup_start[5], 0.0]
     if not rim:
         start += list(ball_start[:2])
-    solution = least_squares(
-        residuals, start, loss="soft_l1", f_scale=2.0, x_scale=0.02, max_nfev=60, diff_step=1e-6
-    )
-    return float(solution.cost), *split(np.asarray(solution.x))
+    begin = np.array(start)
+    solution = minimize(residuals, begin, scale=np.full(len(begin), 0.02), steps=60)
+    return solution.cost, *split(solution.x)

@@ -13,28 +13,17 @@ import numpy as np
 
 from etot_cli.reconstruction.calibration import Calibrated
 from etot_cli.reconstruction.fit.observation import Observation, observe
-from etot_cli.reconstruction.fit.pose import (
-    FINE,
-    FINE_DEPTH,
-    Fit,
-    best_fit,
-    fit_shape,
-    judge,
-)
+from etot_cli.reconstruction.fit.pose import Fit, best_fit
+from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
 from etot_cli.reconstruction.fit.rims import settle_on_rim
+from etot_cli.reconstruction.fit.strays import find_strays
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
-from etot_cli.reconstruction.shapes.base import Evidence
+from etot_cli.reconstruction.shapes.base import Evidence, convex_distance
 from etot_cli.reconstruction.shapes.catalog import tiers
 from etot_cli.reconstruction.shapes.furniture import OpenUnit
 from etot_cli.reconstruction.shapes.upright import Cup
+from etot_cli.reconstruction.view import View
 
-FIRST_DEPTH = 0.006
-CLEAN = 0.0002
-"""A desk plane with a smaller residual comes from a renderer [m]."""
-LEAST_DEPTH = 0.0007
-"""Depth is never taken to be better than this [m]."""
-BIASED = 0.0025
-"""Readings that lie off by more than this and 2 σ from what the silhouette says are biased [m]."""
 NEIGHBOUR = 9
 """Masks closer than this may belong to things that touch [px]."""
 EROSION = 3
@@ -44,12 +33,9 @@ TOUCHES = 0.02
 CLEARANCE = 0.004
 """Overlap with a support that counts as contact [m]."""
 CLASH = 2.0
-"""Added to the score of a shape that goes through another object."""
-WORST_DEPTH = 0.008
-"""Depth is never taken to be worse than this, lest a shape collapses [m]."""
-REWEIGHTINGS = 3
-RIVALS = 2
-"""So many of the best shapes are fitted to all points."""
+"""Added to the score of a shape that goes through another object, or stands on thin air."""
+OVERHANG = 0.008
+"""A thing's middle lies at most this far beyond the edge of what carries it [m]."""
 
 
 @dataclass(frozen=True)
@@ -101,12 +87,12 @@ def _lowest(seen: Calibrated, segment: Segment) -> float:
 def _observe(seen: Calibrated, segment: Segment, segments: list[Segment]) -> Observation:
     nearness = np.where(seen.depth > 0, seen.depth, np.inf)
     others = [other.mask for other in segments if other.name != segment.name]
-    noisy = seen.noise > CLEAN or seen.shift != (0, 0)
+    exact = exact_depth(seen)
     observation = observe(
         seen.view, segment.mask, others, nearness, seen.cloud, seen.desk_top,
-        erosion=EROSION if noisy else 1,
+        erosion=1 if exact else EROSION,
     )  # fmt: skip
-    return replace(observation, edge_sigma=0.8 if noisy else 0.5)
+    return replace(observation, edge_sigma=0.5 if exact else 0.8)
 
 
 def _fit_one(
@@ -117,12 +103,38 @@ def _fit_one(
     rng: np.random.Generator,
     hint: str | None,
 ) -> Solid | None:
+    choice = _choose(seen, segment, segments, done, rng, hint)
+    if choice is None:
+        return None
+    fits, support, placed = choice
+    strays = find_strays(seen, segment.mask, fits[0]) if exact_depth(seen) else None
+    if strays is not None:
+        own = replace(segment, mask=strays.own)
+        before = Segment(f"before {segment.name}", strays.before, named=False)
+        again = _choose(seen, own, [*segments, before], done, rng, hint)
+        if again is not None:
+            fits, support, placed = again
+            # A mask that was given stays as it is; one that was found is put right.
+            segment = segment if segment.named else own
+    fit, used, warnings = refine(seen, placed, fits, rng)
+    return Solid(segment, fit, support.name, support.relation, used, warnings=warnings)
+
+
+def _choose(
+    seen: Calibrated,
+    segment: Segment,
+    segments: list[Segment],
+    done: list[Solid],
+    rng: np.random.Generator,
+    hint: str | None,
+) -> tuple[list[Fit], Support, Observation] | None:
+    """The best shapes on the support that agrees best, and what they were fitted to."""
     observation = _observe(seen, segment, segments)
     if len(observation.edges) < 12 and len(observation.points) < 30:
         return None
     choices: list[tuple[list[Fit], Support, Observation]] = []
     for support in _supports(seen, segment, observation, done):
-        placed = replace(observation, base=support.height, depth_sigma=_first_sigma(seen))
+        placed = replace(observation, base=support.height, depth_sigma=first_sigma(seen))
         evidence = _evidence(seen, placed)
         # In a mouth of a cup only balls rest.
         tried = tiers("sphere" if support.relation == "rim" else hint)
@@ -131,17 +143,14 @@ def _fit_one(
             choices.append((fits, support, placed))
     if not choices:
         return None
-    fits, support, placed = min(
-        choices, key=lambda choice: choice[0][0].score + _clash(choice[0][0], choice[1], done)
+    return min(
+        choices,
+        key=lambda choice: (
+            choice[0][0].score
+            + _clash(choice[0][0], choice[1], done)
+            + _overhang(choice[0][0], choice[1], done, seen.view)
+        ),
     )
-    return _refine(seen, segment, placed, support, fits, rng)
-
-
-def _first_sigma(seen: Calibrated) -> float:
-    """How far depth is trusted before it has been compared with silhouettes [m]."""
-    if seen.noise < CLEAN and seen.shift == (0, 0):
-        return FIRST_DEPTH / 4
-    return float(np.clip(FIRST_DEPTH / 2 + 2 * (seen.noise - 0.0007), 0.003, 2 * FIRST_DEPTH))
 
 
 def _clash(fit: Fit, support: Support, done: list[Solid]) -> float:
@@ -160,37 +169,14 @@ def _clash(fit: Fit, support: Support, done: list[Solid]) -> float:
     return 0.0
 
 
-def _refine(
-    seen: Calibrated,
-    segment: Segment,
-    placed: Observation,
-    support: Support,
-    fits: list[Fit],
-    rng: np.random.Generator,
-) -> Solid:
-    """The final fit on a chosen support, with depth as far as it agrees with the silhouette."""
-    warnings: list[str] = []
-    fit, trusted = fits[0], placed
-    # How far depth is to be trusted shows in how well it agrees with the silhouette.
-    for _ in range(REWEIGHTINGS):
-        sigma = float(np.clip(1.2 * fit.depth_rms, max(LEAST_DEPTH, seen.noise / 2), WORST_DEPTH))
-        trusted = replace(placed, depth_sigma=sigma)
-        fine = trusted.thinned(*FINE, rng)
-        options = [
-            judge(each.family, fine, fit_shape(each.family, fine, each.params, steps=60))
-            for each in (fits[:RIVALS] if fit is fits[0] else [fit])
-        ]
-        fit = min(options, key=lambda option: option.score)
-    if abs(fit.depth_bias) > BIASED + 2 * seen.noise / 2:
-        warnings.append(
-            f"depth disagrees with the silhouette by {1000 * abs(fit.depth_bias):.0f} mm: the size "
-            "is mostly from the silhouette"
-        )
-    if trusted.depth_sigma > FINE_DEPTH and isinstance(fit.family, Cup):
-        warnings.append("wall and floor are from rule, not from data")
-    if not len(placed.points):
-        warnings.append("no depth readings: shape and size are from the silhouette alone")
-    return Solid(segment, fit, support.name, support.relation, fine, warnings=tuple(warnings))
+def _overhang(fit: Fit, support: Support, done: list[Solid], view: View) -> float:
+    """Penalty for a shape whose middle is not above what it is said to stand on."""
+    for solid in done:
+        if solid.name == support.name:
+            footprint = np.vstack(solid.fit.family.hulls(solid.fit.params, view))[:, :2]
+            middle = fit.family.center(fit.params)[None, :2]
+            return CLASH if convex_distance(middle, footprint)[0] > OVERHANG else 0.0
+    return 0.0
 
 
 def _evidence(seen: Calibrated, observation: Observation) -> Evidence:

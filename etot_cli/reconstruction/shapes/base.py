@@ -13,7 +13,6 @@ from typing import Any, ClassVar
 
 import cv2
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from etot_cli.reconstruction.view import Array, View
 
@@ -130,9 +129,9 @@ def box_corners(low: Sequence[float], high: Sequence[float]) -> Array:
 def box_distance(points: Array, low: Array, high: Array) -> Array:
     """Signed distance (n,) of points (n, d) from a box in d dimensions."""
     outside = np.abs(points - (low + high) / 2) - (high - low) / 2
-    return np.asarray(
-        np.linalg.norm(np.maximum(outside, 0.0), axis=1) + np.minimum(outside.max(axis=1), 0.0)
-    )
+    deepest = np.minimum(outside.max(axis=1), 0.0)
+    beyond = np.maximum(outside, 0.0, out=outside)
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", beyond, beyond)) + deepest)
 
 
 def convex_distance(points: Array, polygon: Array) -> Array:
@@ -140,12 +139,23 @@ def convex_distance(points: Array, polygon: Array) -> Array:
 
     Outside beyond a corner it is an underestimate, which a fit does not mind.
     """
-    try:
-        equations = ConvexHull(polygon).equations
-    except (QhullError, ValueError):
-        center = polygon.mean(axis=0)
-        return np.asarray(np.linalg.norm(points - center, axis=1))
-    return np.asarray((points @ equations[:, :2].T + equations[:, 2]).max(axis=1))
+    # Single precision is enough to say which corners there are, if they lie around the origin.
+    corners = cv2.convexHull(
+        (polygon - polygon[0]).astype(np.float32), clockwise=False, returnPoints=False
+    )
+    hull = polygon[corners[:, 0]]
+    along = np.empty_like(hull)
+    along[:-1], along[-1] = hull[1:] - hull[:-1], hull[0] - hull[-1]
+    length = np.hypot(along[:, 0], along[:, 1])
+    if len(hull) < 3 or length.min() <= 0:
+        return np.asarray(np.linalg.norm(points - polygon.mean(axis=0), axis=1))
+    planes = np.empty((len(hull), 3))
+    planes[:, 0], planes[:, 1] = along[:, 1] / length, -along[:, 0] / length
+    planes[:, 2] = -(planes[:, :2] * hull).sum(axis=1)
+    # One product with homogeneous points is much quicker than a product and a sum.
+    homogeneous = np.ones((3, len(points)))
+    homogeneous[:2] = points.T
+    return np.asarray((planes @ homogeneous).max(axis=0))
 
 
 def roof_rectangle(evidence: Evidence) -> tuple[Array, Array, float, float]:

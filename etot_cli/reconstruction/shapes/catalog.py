@@ -11,6 +11,8 @@ from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
 
 Tiers = list[list[Family]]
 MOST_DRAWERS = 3
+RODS = ("pen", "capsule")
+"""Kinds whose names people use for each other: a stick may be pointed or not."""
 
 
 def tiers(hint: str | None = None) -> Tiers:
@@ -18,7 +20,7 @@ def tiers(hint: str | None = None) -> Tiers:
 
     Args:
         hint: a kind that is known: only families of that kind are tried then (furniture may be
-            closed, which is a plain block as far as shape goes).
+            closed, which is a plain block as far as shape goes, and rods may be pointed or blunt).
     """
     simple: list[Family] = [Ball(), Block(), Cylinder(), Cup(), Capsule(), Pen()]
     units: list[Family] = [
@@ -33,5 +35,7 @@ def tiers(hint: str | None = None) -> Tiers:
         return [[Block()], doors]
     if hint in ("cup", "bowl"):
         return [[Cup()], [ConicalCup()]]
+    if hint in RODS:
+        return [[family for family in simple if family.kind in RODS]]
     chosen = [family for family in simple if family.kind == hint]
     return [chosen] if chosen else tiers()

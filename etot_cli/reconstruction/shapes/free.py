@@ -1,8 +1,7 @@
-"""Free-form shapes: a given mesh at unknown scale, or one completed from what is seen."""
+"""Free-form shapes: a given mesh, or one completed from what is seen."""
 
 from __future__ import annotations
 
-import io
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,10 +11,11 @@ from etot_cli.errors import SpecError
 from etot_cli.reconstruction.shapes.base import Evidence, Family, own_frame, rotate
 from etot_cli.reconstruction.view import Array, View
 
-MAX_FACES = 200_000
 SAMPLES = 4000
-LAYERS = 24
-SECTORS = 48
+MASSIVE = (0.1, 1.01)
+"""Volumes that a closed mesh may have, as shares of its hull's."""
+USUAL = 0.8
+"""Share of its hull that a mesh is taken to fill when its triangles do not tell."""
 
 
 class FreeForm(Family):
@@ -73,7 +73,11 @@ class FreeForm(Family):
 
     def volume(self, params: Array) -> float:
         """Volume of the material [m³]."""
-        return float(ConvexHull(self._hull).volume * params[4] ** 3 * 0.8)
+        whole = float(ConvexHull(self._hull).volume)
+        a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
+        own = abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
+        known = MASSIVE[0] * whole < own < MASSIVE[1] * whole
+        return float((own if known else USUAL * whole) * params[4] ** 3)
 
 
 def _sampled(vertices: Array, faces: Any) -> Array:
@@ -86,88 +90,3 @@ def _sampled(vertices: Array, faces: Any) -> Array:
     flip = u + v > 1
     u, v = np.where(flip, 1 - u, u), np.where(flip, 1 - v, v)
     return np.asarray(a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen])
-
-
-def load_mesh(data: bytes, kind: str, shown: str) -> FreeForm:
-    """A mesh file's bytes as a shape; y up is turned to z up for GLB, as its format says.
-
-    Raises:
-        SpecError: no usable mesh.
-    """
-    import trimesh
-
-    try:
-        mesh: Any = trimesh.load(io.BytesIO(data), file_type=kind, force="mesh")
-        vertices = np.asarray(mesh.vertices, dtype=np.float64)
-        faces = np.asarray(mesh.faces, dtype=np.int64)
-    except Exception as error:  # readers raise whatever they like
-        raise SpecError(f"not a readable mesh ({type(error).__name__})", file=shown) from None
-    if not 4 <= len(faces) <= MAX_FACES or not np.isfinite(vertices).all():
-        raise SpecError(
-            f"{len(faces)} faces; expected 4 to {MAX_FACES} with finite vertices", file=shown
-        )
-    if np.ptp(vertices, axis=0).min() <= 0:
-        raise SpecError("the mesh is flat", file=shown)
-    if kind == "glb":
-        vertices = vertices[:, [0, 2, 1]] * [1.0, -1.0, 1.0]
-    return FreeForm(vertices, faces)
-
-
-def completed(evidence: Evidence) -> FreeForm | None:
-    """A closed shape around what is seen: mirrored to its far side and extruded to its support."""
-    points, base = evidence.points, evidence.base
-    if len(points) < 60:
-        return None
-    low, high = np.percentile(points, [1, 99], axis=0)
-    points = points[((points >= low - 0.005) & (points <= high + 0.005)).all(axis=1)]
-    # The far side is taken to be like the near one.
-    center = (low[:2] + high[:2]) / 2
-    away = center - evidence.view.position[:2]
-    away /= max(float(np.linalg.norm(away)), 1e-6)
-    along = (points[:, :2] - center) @ away
-    mirrored = points.copy()
-    mirrored[:, :2] -= 2 * along[:, None] * away
-    everything = np.vstack([points, mirrored])
-    top = float(np.percentile(points[:, 2], 99.5))
-    if top - base < 0.005:
-        return None
-    angles = np.linspace(0, 2 * np.pi, SECTORS, endpoint=False)
-    rays = np.column_stack([np.cos(angles), np.sin(angles)])
-    rings = []
-    for level in np.linspace(base, top, LAYERS):
-        above = everything[everything[:, 2] >= level - 0.003][:, :2] - center
-        if len(above) < 8:
-            above = 0.002 * rays
-        rings.append(_radial(above, rays)[:, None] * rays + center)
-    return _lofted(rings, np.linspace(base, top, LAYERS))
-
-
-def _radial(flat: Array, rays: Array) -> Array:
-    """Reach (SECTORS,) of the convex hull of points (n, 2) along rays from the origin."""
-    try:
-        equations = ConvexHull(flat).equations
-    except (QhullError, ValueError):
-        return np.full(len(rays), 0.002)
-    with np.errstate(divide="ignore"):
-        reach = -equations[None, :, 2] / (rays @ equations[:, :2].T)
-    reach[(rays @ equations[:, :2].T) <= 1e-9] = np.inf
-    return np.asarray(np.clip(reach.min(axis=1), 0.001, 1.0))
-
-
-def _lofted(rings: list[Array], levels: Array) -> FreeForm:
-    vertices = [
-        np.column_stack([r, np.full(len(r), z)]) for r, z in zip(rings, levels, strict=True)
-    ]
-    flat = np.vstack([*vertices, [[*rings[0].mean(axis=0), levels[0]]],
-                      [[*rings[-1].mean(axis=0), levels[-1]]]])  # fmt: skip
-    faces: list[list[int]] = []
-    for layer in range(len(rings) - 1):
-        for i in range(SECTORS):
-            a, b = layer * SECTORS + i, layer * SECTORS + (i + 1) % SECTORS
-            faces += [[a, b, b + SECTORS], [a, b + SECTORS, a + SECTORS]]
-    bottom, cap = len(flat) - 2, len(flat) - 1
-    last = (len(rings) - 1) * SECTORS
-    for i in range(SECTORS):
-        j = (i + 1) % SECTORS
-        faces += [[bottom, j, i], [cap, last + i, last + j]]
-    return FreeForm(flat, np.array(faces))

@@ -1,0 +1,71 @@
+"""Completed free forms for things that none of the simple kinds explains."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.carving import carve
+from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.registration.evidence import target_of
+from etot_cli.reconstruction.registration.model import upright_model
+from etot_cli.reconstruction.registration.register import fit_of
+from etot_cli.reconstruction.shapes.base import rotate
+from etot_cli.reconstruction.surface_nets import surface_of
+from etot_cli.reconstruction.view import Array, Mask
+
+POOR = 0.6
+"""A simple shape that explains less than this share of what is seen gives way to a free one …"""
+POOR_EDGE = 5.0
+"""… and so does one whose outline is off by more than this [px]."""
+LEAST_POINTS = 100
+
+
+def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
+    """The solid as a completed free form, where no simple kind explains it.
+
+    Args:
+        seen: the calibrated capture.
+        solid: what was found.
+        others: pixels (h, w) of each other object.
+    """
+    fit = solid.fit
+    if fit.explained > POOR and fit.edge_rms < POOR_EDGE:
+        return solid
+    doubtful = solid.warned("its shape is poorly explained: treat size and pose with care")
+    if len(solid.observation.points) < LEAST_POINTS:
+        return doubtful
+    mask, base = solid.segment.mask, solid.observation.base
+    elsewhere = np.any(others, axis=0) if others else np.zeros_like(mask)
+    carved = carve(seen, mask, elsewhere, base)
+    if carved is None:
+        return doubtful
+    vertices, faces = surface_of(carved.filled, carved.origin, carved.cell)
+    if len(faces) < 4 or np.ptp(vertices, axis=0).min() < carved.cell / 2:
+        return doubtful
+    placed, params = _own_axes(vertices)
+    model = upright_model(placed, faces)
+    params[2], params[4] = base, model.form.unit
+    target = target_of(seen, mask, others, base)
+    free = fit_of(target, model, params)
+    if free.explained < fit.explained:
+        return doubtful
+    hidden = "mirrored" if carved.mirrored else "taken to end where nothing is seen"
+    return replace(solid, fit=free, extra={}, warnings=()).warned(
+        f"free form: its far side is {hidden} and its lower part extruded, not seen"
+    )
+
+
+def _own_axes(vertices: Array) -> tuple[Array, NDArray[np.float64]]:
+    """Vertices (n, 3) turned so that the narrowest rectangle around them lies along the axes.
+
+    Also the parameters ``x, y, z, yaw, scale`` that put them back; z and scale are still open.
+    """
+    flat = (vertices[:, :2] * 1000).astype(np.float32)
+    (x, y), _, angle = cv2.minAreaRect(flat)
+    yaw = float(np.radians(angle))
+    return rotate(vertices, -yaw), np.array([x / 1000, y / 1000, 0.0, yaw, 1.0])

@@ -1,0 +1,91 @@
+"""The final fit of an object, with depth trusted as far as it agrees with the silhouette."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.pose import FINE, FINE_DEPTH, Fit, fit_shape, judge
+from etot_cli.reconstruction.shapes.upright import Cup
+from etot_cli.reconstruction.view import Array
+
+FIRST_DEPTH = 0.006
+CLEAN = 0.0002
+"""A desk plane with a smaller residual comes from a renderer [m]."""
+LEAST_DEPTH = 0.0007
+"""Depth is never taken to be better than this [m]."""
+WORST_DEPTH = 0.008
+"""Depth is never taken to be worse than this, lest a shape collapses [m]."""
+BIASED = 0.0025
+"""Readings that lie off by more than this and 2 σ from what the silhouette says are biased [m]."""
+REWEIGHTINGS = 3
+RIVALS = 2
+"""So many of the best shapes are fitted to all points."""
+BLUR = 4.0
+"""Exact depth is made this much coarser to find a way out of a local minimum."""
+
+
+def exact_depth(seen: Calibrated) -> bool:
+    """Whether depth comes from a renderer rather than from a sensor."""
+    return seen.noise <= CLEAN and seen.shift == (0, 0)
+
+
+def first_sigma(seen: Calibrated) -> float:
+    """How far depth is trusted before it has been compared with silhouettes [m]."""
+    if exact_depth(seen):
+        return FIRST_DEPTH / 4
+    return float(np.clip(FIRST_DEPTH / 2 + 2 * (seen.noise - 0.0007), 0.003, 2 * FIRST_DEPTH))
+
+
+def refine(
+    seen: Calibrated, placed: Observation, fits: list[Fit], rng: np.random.Generator
+) -> tuple[Fit, Observation, tuple[str, ...]]:
+    """The best of several shapes, fitted to all that is seen of an object on its support.
+
+    Args:
+        seen: the calibrated capture.
+        placed: what is seen of the object.
+        fits: shapes, the best first.
+        rng: draws samples.
+
+    Returns:
+        the fit, what it was fitted to, and what is doubtful about it in words.
+    """
+    fit, trusted, fine = fits[0], placed, placed
+    # How far depth is to be trusted shows in how well it agrees with the silhouette.
+    for turn in range(REWEIGHTINGS):
+        sigma = float(np.clip(1.2 * fit.depth_rms, max(LEAST_DEPTH, seen.noise / 2), WORST_DEPTH))
+        trusted = replace(placed, depth_sigma=sigma)
+        fine = trusted.thinned(*FINE, rng)
+        rivals = fits[:RIVALS] if turn == 0 else [fit]
+        starts = [(rival, rival.params) for rival in rivals]
+        if turn == 0 and exact_depth(seen):
+            starts += [(rival, _blurred(rival, fine)) for rival in rivals]
+        options = [
+            judge(rival.family, fine, fit_shape(rival.family, fine, start, steps=60))
+            for rival, start in starts
+        ]
+        fit = min(options, key=lambda option: option.score)
+    warnings: list[str] = []
+    if abs(fit.depth_bias) > BIASED + 2 * seen.noise / 2:
+        warnings.append(
+            f"depth disagrees with the silhouette by {1000 * abs(fit.depth_bias):.0f} mm: the size "
+            "is mostly from the silhouette"
+        )
+    if trusted.depth_sigma > FINE_DEPTH and isinstance(fit.family, Cup):
+        warnings.append("wall and floor are from rule, not from data")
+    if not len(placed.points):
+        warnings.append("no depth readings: shape and size are from the silhouette alone")
+    return fit, fine, tuple(warnings)
+
+
+def _blurred(fit: Fit, seen: Observation) -> Array:
+    """Parameters that explain the silhouette, and depth only coarsely.
+
+    Exact readings hold a thin wall fast once they lie on its wrong side.
+    """
+    coarse = replace(seen, depth_sigma=max(BLUR * seen.depth_sigma, BLUR * LEAST_DEPTH))
+    return fit_shape(fit.family, coarse, fit.params)

@@ -1,0 +1,142 @@
+"""Robust least squares with few parameters: a trust-region search inside bounds.
+
+Fits of shapes have up to ten parameters and thousands of residuals. The normal equations of such a
+problem are tiny, so that a step costs little more than its residuals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from etot_cli.reconstruction.view import Array
+
+ROBUST = 2.0
+"""Residuals beyond this count less than their square."""
+DIFFERENCE = 5e-5
+"""Step of the numeric derivatives, as a share of a parameter's scale."""
+FIRST_RADIUS = 2.0
+"""Length of the longest first step, in scales of the parameters."""
+TOLERANCE = 1e-7
+"""A step that lowers the cost by a smaller share is the last one."""
+STEP_TOLERANCE = 1e-7
+"""So is a step that is shorter than this, in scales of the parameters."""
+POOR, GOOD = 0.25, 0.75
+"""Shares of the promised gain below which steps get shorter, and above which longer."""
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """Parameters ``x`` (n,) at which the search ended, and the cost there."""
+
+    x: Array
+    cost: float
+
+
+def minimize(
+    residuals: Callable[[Array], Array],
+    start: Array,
+    *,
+    scale: Array,
+    low: Array | None = None,
+    high: Array | None = None,
+    steps: int = 60,
+    tolerance: float = TOLERANCE,
+) -> Minimum:
+    """Parameters that make the sum of softened squares of residuals small.
+
+    The cost is Σ c² (√(1 + (r / c)²) − 1) with c = :data:`ROBUST`: squares near zero, straight
+    lines far off.
+
+    Args:
+        residuals: maps parameters (n,) to residuals (m,) in standard deviations.
+        start: first parameters (n,), inside the bounds.
+        scale: by how much each parameter (n,) may be expected to change.
+        low: lowest parameters (n,); none by default.
+        high: highest parameters (n,); none by default.
+        steps: most evaluations of the residuals, those for derivatives not counted.
+        tolerance: see :data:`TOLERANCE`.
+    """
+    low = np.full(len(start), -np.inf) if low is None else low
+    high = np.full(len(start), np.inf) if high is None else high
+    x = np.clip(np.asarray(start, dtype=np.float64), low, high)
+    values = residuals(x)
+    cost, radius = _cost(values), FIRST_RADIUS
+    gradient, curved = _model(residuals, x, values, scale, high)
+    for _ in range(steps - 1):
+        step = _step(gradient, curved, (low - x) / scale, (high - x) / scale, radius)
+        length = float(np.linalg.norm(step))
+        if length < STEP_TOLERANCE:
+            break
+        tried = residuals(x + scale * step)
+        gain = cost - _cost(tried)
+        promised = -float(gradient @ step + 0.5 * step @ curved @ step)
+        if gain < POOR * promised:
+            radius = 0.25 * length
+        elif gain > GOOD * promised and length > 0.9 * radius:
+            radius *= 2
+        if gain > 0:
+            x, values = np.clip(x + scale * step, low, high), tried
+            cost -= gain
+            if gain < tolerance * cost:
+                break
+            gradient, curved = _model(residuals, x, values, scale, high)
+    return Minimum(x, cost)
+
+
+def _cost(values: Array) -> float:
+    return float(ROBUST**2 * (np.sqrt(1.0 + (values / ROBUST) ** 2) - 1.0).sum())
+
+
+def _model(
+    residuals: Callable[[Array], Array], x: Array, values: Array, scale: Array, high: Array
+) -> tuple[Array, Array]:
+    """Gradient (n,) and approximate curvature (n, n) of the cost, per scale of the parameters."""
+    slopes = np.empty((len(x), len(values)))
+    for index in range(len(x)):
+        moved = x.copy()
+        change = DIFFERENCE * scale[index]
+        moved[index] += change if x[index] + change <= high[index] else -change
+        slopes[index] = (residuals(moved) - values) * (scale[index] / (moved[index] - x[index]))
+    spread = 1.0 + (values / ROBUST) ** 2
+    return slopes @ (values / np.sqrt(spread)), (slopes * spread**-1.5) @ slopes.T
+
+
+def _step(gradient: Array, curved: Array, low: Array, high: Array, radius: float) -> Array:
+    """The step (n,) inside bounds and radius that the quadratic model likes best, nearly."""
+    step = np.zeros(len(gradient))
+    free = ~(((low >= 0) & (gradient > 0)) | ((high <= 0) & (gradient < 0)))
+    # A parameter whose step a bound cuts off stays at the bound, and the others are asked again.
+    while free.any():
+        inner = curved[np.ix_(free, free)]
+        slope = gradient[free] + curved[np.ix_(free, ~free)] @ step[~free]
+        rest = radius**2 - float(step[~free] @ step[~free])
+        step[free] = _inside_ball(slope, inner, np.sqrt(max(rest, 0.0)))
+        cut = free & ((step < low) | (step > high))
+        step = np.clip(step, low, high)
+        if not cut.any():
+            break
+        free &= ~cut
+    return step
+
+
+def _inside_ball(gradient: Array, curved: Array, radius: float) -> Array:
+    """The minimum (n,) of a quadratic model in a ball of the given radius."""
+    values, axes = np.linalg.eigh(curved)
+    values = np.maximum(values, 1e-12 * max(float(values[-1]), 1e-12))
+    along = axes.T @ gradient
+    step = along / values
+    if float(step @ step) > radius**2:
+        # Damping from which on the step fits into the ball, by bisection of its logarithm.
+        lowest, highest = 1e-12 * values[-1], float(np.linalg.norm(along)) / max(radius, 1e-12)
+        for _ in range(40):
+            damping = float(np.sqrt(lowest * highest))
+            step = along / (values + damping)
+            if float(step @ step) > radius**2:
+                lowest = damping
+            else:
+                highest = damping
+        step = along / (values + highest)
+    return np.asarray(-axes @ step)

@@ -1,0 +1,102 @@
+"""What rises above the desk, and whether it is large enough for an object."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.labels import label_components, opened
+from etot_cli.reconstruction.view import Mask
+
+LEAST_HEIGHT = 0.001
+"""Foreground rises at least this far above the desk where depth is exact [m]."""
+NOISY_HEIGHT = 0.005
+"""… and this far elsewhere [m]."""
+TALLEST = 0.6
+"""What is higher above the desk is no object on it [m]."""
+ROBOT_RADIUS = 0.13
+"""The robot's base stands within this radius of its axis [m]."""
+BEYOND = 0.03
+"""Objects may reach this far over the desk's edge [m]."""
+LEAST_PIXELS = 150
+"""An object shows at least this much of itself [px]."""
+LEAST_TALL = 0.006
+"""Lower things are folds and stains [m]."""
+THINNEST = 7.0
+"""Thinner things are fringes [px]."""
+FOREIGN = 20.0
+"""Colours this far from the desk's are no desk."""
+FEET = 45
+"""An object's lower part may be hidden from depth up to this far below the rest [px]."""
+_CELLS = 400
+
+
+def raised_pixels(seen: Calibrated, threshold: float, *, noisy: bool) -> tuple[Mask, Mask]:
+    """Pixels (h, w) of what rises above the desk's level, and those above the desk itself.
+
+    Args:
+        seen: the calibrated capture.
+        threshold: least height above the desk [m].
+        noisy: whether depth has lost readings.
+    """
+    cloud = seen.cloud
+    hull = (seen.outline * 1000).astype(np.float32).reshape(-1, 1, 2)
+    grid: Any = np.zeros((_CELLS, _CELLS), np.uint8)
+    low, high = seen.outline.min(axis=0) - 0.1, seen.outline.max(axis=0) + 0.1
+    cell = (high - low) / (_CELLS - 1)
+    corners = ((hull[:, 0] / 1000 - low) / cell).round().astype(np.int32)
+    cv2.fillConvexPoly(grid, cv2.convexHull(corners), 1)
+    reach = max(1, round(BEYOND / float(cell.min())))
+    grid = cv2.dilate(grid, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
+    known = np.isfinite(cloud[..., 2])
+    index = np.zeros((*known.shape, 2), np.int64)
+    index[known] = np.clip((cloud[known][:, :2] - low) / cell, 0, _CELLS - 1).astype(np.int64)
+    above_desk = grid[index[..., 1], index[..., 0]] > 0
+    away = np.hypot(cloud[..., 0], cloud[..., 1]) > ROBOT_RADIUS
+    found = known & away & (seen.height > threshold) & (seen.height < TALLEST)
+    if noisy:
+        picture: Any = found.astype(np.uint8)
+        picture = cv2.morphologyEx(picture, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+        # Readings lost on dark or grazing surfaces are holes, not gaps between objects.
+        closed = cv2.morphologyEx(picture, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
+        picture = np.where(known & (seen.height < threshold / 2), picture, closed)
+        found = picture > 0
+    return np.asarray(found), known & above_desk
+
+
+def with_feet(
+    raised: Mask, above_desk: Mask, seen: Calibrated, color: NDArray[np.float32], shade: Mask
+) -> Mask:
+    """Adds what is not desk by colour below what is raised: feet are lost in the noise of depth."""
+    desk = np.median(color[seen.desk], axis=0)
+    spread = np.percentile(np.linalg.norm(color[seen.desk] - desk, axis=1), 90)
+    other = np.linalg.norm(color - desk, axis=2) > max(FOREIGN, 1.5 * float(spread))
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FEET + 1,) * 2)
+    near = cv2.dilate((raised & above_desk).astype(np.uint8), kernel) > 0
+    known = above_desk | ~np.isfinite(seen.height)
+    extra = opened(other & near & known & ~raised & ~shade, 3)
+    labels = label_components(extra, 20)
+    grown = cv2.dilate(raised.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    touching = np.unique(labels[grown & (labels > 0)])
+    return np.asarray(raised | np.isin(labels, touching[touching > 0]))
+
+
+def is_thing(seen: Calibrated, mask: Mask) -> bool:
+    """Whether a mask is large, thick and high enough for an object."""
+    if mask.sum() < LEAST_PIXELS:
+        return False
+    heights = seen.height[mask]
+    heights = heights[np.isfinite(heights)]
+    tall = float(np.percentile(heights, 90)) if len(heights) else 0.0
+    rows, columns = np.nonzero(mask)
+    inscribed = float(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 3).max())
+    at_border = (
+        rows.min() == 0 or columns.min() == 0
+        or rows.max() == mask.shape[0] - 1 or columns.max() == mask.shape[1] - 1
+    )  # fmt: skip
+    least = 3 * LEAST_TALL if at_border else LEAST_TALL
+    return 2 * inscribed >= THINNEST and tall > least

@@ -1,0 +1,175 @@
+"""A known mesh, and the ways in which it can lie on a level support.
+
+A :class:`Model` is the mesh in one resting orientation: base centre at the origin, own z up,
+largest side 1, so that its scale is its size in metres. Its surface is sampled with normals, which
+is what registration works on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from etot_cli.reconstruction.shapes.base import own_frame
+from etot_cli.reconstruction.shapes.free import FreeForm
+from etot_cli.reconstruction.view import Array
+
+SAMPLES = 16_000
+"""Points on the surface; 1.5 mm apart on a thing the size of a mug."""
+SAME_TURN = 25.0
+"""Resting orientations closer than this are one [deg]."""
+LEAST_TIP = 0.4
+"""A thing that tips over at a smaller angle does not rest [deg]."""
+COPLANAR = 1.0
+"""Facets of the hull whose normals differ by less are one [deg]."""
+MOST_TURNS = 7
+"""So many ways of resting are tried, the upright one among them."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A mesh in a resting orientation.
+
+    ``form``: the shape with its parameters ``x, y, z, yaw, scale``; ``turn`` (3, 3): rotation from
+    the file's axes to its own; ``origin`` (3,): where the file's origin lies, own frame; ``points``
+    and ``normals`` (n, 3) of the surface, own frame; ``outward``: whether normals are known to
+    point out of the material.
+    """
+
+    form: FreeForm
+    turn: Array
+    origin: Array
+    points: Array
+    normals: Array
+    outward: bool
+
+    def facing(self, params: Array, position: Array) -> NDArray[np.intp]:
+        """Indices of the surface points that face a camera at ``position`` (3,), base frame.
+
+        Without this the two sides of a thin wall are mistaken for each other. All points of a mesh
+        whose triangles do not tell its outside.
+        """
+        if not self.outward:
+            return np.arange(len(self.points))
+        eye = own_frame(position[None], params, float(params[3]))[0] / params[4]
+        return np.flatnonzero(((eye - self.points) * self.normals).sum(axis=1) > 0)
+
+    def scale_of(self, metres_per_unit: float) -> float:
+        """The parameter ``scale`` of a mesh whose file has this unit."""
+        return metres_per_unit * self.form.unit
+
+    def pose(self, params: Array) -> tuple[Array, float]:
+        """Pose (4, 4) of the file's frame in the base frame, and metres per unit of the file."""
+        c, s = np.cos(params[3]), np.sin(params[3])
+        yaw = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        pose = np.eye(4)
+        pose[:3, :3] = yaw @ self.turn
+        pose[:3, 3] = params[:3] + params[4] * (yaw @ self.origin)
+        return pose, float(params[4] / self.form.unit)
+
+
+def upright_model(vertices: Array, faces: NDArray[np.int64]) -> Model:
+    """A mesh as it stands: vertices (n, 3) with z up, faces (m, 3)."""
+    return models_of(vertices, faces, [np.eye(3)])[0]
+
+
+def models_of(
+    vertices: Array, faces: NDArray[np.int64], turns: list[Array] | None = None
+) -> list[Model]:
+    """A mesh in all ways in which it rests, as it stands in its file first.
+
+    Args:
+        vertices: (n, 3) in the file's units, z up.
+        faces: (m, 3).
+        turns: rotations (3, 3) to take instead of those in which it rests.
+    """
+    points, normals = _sampled(vertices, faces)
+    sense = _winding(vertices, faces)
+    found = []
+    for turn in turns or resting_turns(vertices):
+        turned = vertices @ turn.T
+        low, high = turned.min(axis=0), turned.max(axis=0)
+        middle = np.array([*(low + high)[:2] / 2, low[2]])
+        form = FreeForm(turned, faces)
+        placed = (points @ turn.T - middle) / form.unit
+        found.append(Model(form, turn, -middle / form.unit, placed,
+                           (sense or 1) * normals @ turn.T, sense != 0))  # fmt: skip
+    return found
+
+
+def _winding(vertices: Array, faces: NDArray[np.int64]) -> int:
+    """1 where triangles run counter-clockwise seen from outside, −1 where clockwise, 0 unknown."""
+    import trimesh
+
+    mesh: Any = trimesh.Trimesh(vertices, faces)  # joins vertices that lie in one place
+    if not mesh.is_winding_consistent:
+        return 0
+    return 1 if mesh.volume > 0 else -1
+
+
+def resting_turns(vertices: Array) -> list[Array]:
+    """Rotations (3, 3) that bring a thing to rest, the identity first, then the steadiest."""
+    import trimesh
+
+    hull: Any = trimesh.convex.convex_hull(vertices)
+    center = np.asarray(hull.center_mass)
+    tolerance = 1e-3 * float(np.ptp(vertices, axis=0).max())
+    found: list[tuple[float, Array]] = []
+    seen: list[Array] = []
+    order = np.argsort(-np.asarray(hull.area_faces))
+    for normal in np.asarray(hull.face_normals)[order]:
+        if any(normal @ other > np.cos(np.radians(COPLANAR)) for other in seen):
+            continue
+        seen.append(normal)
+        heights = vertices @ normal
+        ground = vertices[heights > heights.max() - tolerance]
+        tip = _tip_angle(ground, normal, center, float(heights.max() - center @ normal))
+        if tip > LEAST_TIP:
+            found.append((tip, _turn_down(normal)))
+    found.sort(key=lambda item: -item[0])
+    kept = [np.eye(3)]
+    for _, turn in found:
+        # Yaw is found later, so only what points up tells orientations apart.
+        if all(turn[2] @ other[2] < np.cos(np.radians(SAME_TURN)) for other in kept):
+            kept.append(turn)
+    return kept[:MOST_TURNS]
+
+
+def _tip_angle(ground: Array, normal: Array, center: Array, height: float) -> float:
+    """By how much a thing on the side with this outward normal may lean [deg]; 0: it falls."""
+    flat = ground @ _turn_down(normal)[:2].T
+    middle = _turn_down(normal)[:2] @ center
+    try:
+        equations = ConvexHull(flat).equations
+    except (QhullError, ValueError):
+        return 0.0
+    margin = float(-(equations[:, :2] @ middle + equations[:, 2]).max())
+    return float(np.degrees(np.arctan2(margin, max(height, 1e-9)))) if margin > 0 else 0.0
+
+
+def _turn_down(normal: Array) -> Array:
+    """A rotation (3, 3) that turns a direction (3,) to −z the short way."""
+    down = np.array([0.0, 0.0, -1.0])
+    axis, cosine = np.cross(normal, down), float(normal @ down)
+    if cosine < -0.999999:
+        return np.diag([1.0, -1.0, -1.0])
+    cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1.0 + cosine))
+
+
+def _sampled(vertices: Array, faces: Any) -> tuple[Array, Array]:
+    """Points (n, 3) spread evenly over the surface, and unit normals of their faces."""
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    cross = np.cross(b - a, c - a)
+    area = np.linalg.norm(cross, axis=1)
+    rng = np.random.default_rng(0)
+    chosen = rng.choice(len(faces), SAMPLES, p=area / area.sum())
+    u, v = rng.random((2, SAMPLES, 1))
+    flip = u + v > 1
+    u, v = np.where(flip, 1 - u, u), np.where(flip, 1 - v, v)
+    points = a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen]
+    return np.asarray(points), np.asarray(cross[chosen] / area[chosen, None])
