@@ -10,12 +10,12 @@ import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError, SpecError
-from etot_cli.reconstruction import assembly
-from etot_cli.reconstruction.exports import export_twin, free_form_mesh
-from etot_cli.reconstruction.naming import color_of
+from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.overlay import draw_overlay
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct, settle_twin
+from etot_cli.reconstruction.twin import assembly
+from etot_cli.reconstruction.twin.exports import export_twin, free_form_mesh
+from etot_cli.reconstruction.twin.overlay import draw_overlay
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.reconstruct_report import (

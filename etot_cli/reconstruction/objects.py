@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.fit.pose import Fit
-from etot_cli.reconstruction.view import Array, Mask
 
 DESK = "desk"
 

@@ -10,20 +10,21 @@ from typing import Any
 import numpy as np
 
 from etot_cli.errors import EtotError, SpecError
-from etot_cli.reconstruction import assembly, services
-from etot_cli.reconstruction.articulation import Joint, articulate
-from etot_cli.reconstruction.calibration import Calibrated, calibrate
-from etot_cli.reconstruction.capture import disjoint, read_capture, unique_name
-from etot_cli.reconstruction.completion import complete
+from etot_cli.reconstruction import services
+from etot_cli.reconstruction.articulation.furnish import furnish
+from etot_cli.reconstruction.articulation.server import asked_joints
+from etot_cli.reconstruction.articulation.two_frames import Joint, articulate
+from etot_cli.reconstruction.capture.calibration import Calibrated, calibrate
+from etot_cli.reconstruction.capture.folder import disjoint, read_capture, unique_name
 from etot_cli.reconstruction.fit.supports import fit_all
-from etot_cli.reconstruction.furnish import furnish
-from etot_cli.reconstruction.given import given_shapes
-from etot_cli.reconstruction.joint_server import asked_joints
-from etot_cli.reconstruction.library import without, words_of
-from etot_cli.reconstruction.mask_checks import unmasked, usable_segments
-from etot_cli.reconstruction.masks import find_segments
-from etot_cli.reconstruction.naming import assign_names, color_of, hint_of, mentions
+from etot_cli.reconstruction.free_form.completion import complete
+from etot_cli.reconstruction.known.given import given_shapes
+from etot_cli.reconstruction.known.library import without, words_of
+from etot_cli.reconstruction.masks.automatic import find_segments
+from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
+from etot_cli.reconstruction.masks.naming import assign_names, color_of, hint_of, mentions
 from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.reconstruction.twin import assembly
 from etot_cli.specs.scene import Scene
 
 

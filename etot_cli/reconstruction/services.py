@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import EtotError, ServiceError
-from etot_cli.reconstruction.capture import LEAST_MASK, mask_of, safe_name, unique_name
-from etot_cli.reconstruction.pictures import decode_png, encode_png
-from etot_cli.reconstruction.view import Array, Mask, View
+from etot_cli.reconstruction.capture.folder import LEAST_MASK, mask_of, safe_name, unique_name
+from etot_cli.reconstruction.capture.pictures import decode_png, encode_png
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 
 DEADLINE = 120.0
 """A whole stage, retries included, takes no longer [s]."""

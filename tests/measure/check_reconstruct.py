@@ -24,7 +24,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "2")
 import numpy as np
 
 from etot_cli.commands.reconstruct import run_reconstruct
-from etot_cli.reconstruction.capture import read_masks
+from etot_cli.reconstruction.capture.folder import read_masks
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.scene import Scene

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.reconstruction.calibration import calibrate
-from etot_cli.reconstruction.capture import read_capture
+from etot_cli.reconstruction.capture.calibration import calibrate
+from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import others

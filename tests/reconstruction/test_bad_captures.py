@@ -14,8 +14,8 @@ import pytest
 
 from etot_cli.cli.app import run
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.calibration import calibrate
-from etot_cli.reconstruction.capture import read_capture
+from etot_cli.reconstruction.capture.calibration import calibrate
+from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.pipeline import Options, reconstruct
 
 

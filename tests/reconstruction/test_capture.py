@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.capture import disjoint, mask_of, read_capture, safe_name
-from etot_cli.reconstruction.view import View
+from etot_cli.reconstruction.capture.folder import disjoint, mask_of, read_capture, safe_name
+from etot_cli.reconstruction.capture.view import View
 from etot_cli.world.capture import (
     KINECT,
     Picture,

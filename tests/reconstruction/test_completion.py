@@ -12,12 +12,12 @@ import pytest
 import trimesh
 
 from etot_cli.cli.app import run
-from etot_cli.reconstruction.calibration import calibrate
-from etot_cli.reconstruction.capture import read_capture
-from etot_cli.reconstruction.carving import carve
+from etot_cli.reconstruction.capture.calibration import calibrate
+from etot_cli.reconstruction.capture.folder import read_capture
+from etot_cli.reconstruction.free_form.carving import carve
+from etot_cli.reconstruction.free_form.surface_nets import surface_of
+from etot_cli.reconstruction.free_form.symmetry import find_mirrors
 from etot_cli.reconstruction.pipeline import Options, reconstruct
-from etot_cli.reconstruction.surface_nets import surface_of
-from etot_cli.reconstruction.symmetry import find_mirrors
 from etot_cli.world.build import imported
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render

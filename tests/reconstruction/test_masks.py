@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.reconstruction.calibration import calibrate
-from etot_cli.reconstruction.capture import read_capture
-from etot_cli.reconstruction.fragments import adopt_fringes, join_fragments
-from etot_cli.reconstruction.mask_checks import unmasked, usable_segments
-from etot_cli.reconstruction.masks import find_segments
+from etot_cli.reconstruction.capture.calibration import calibrate
+from etot_cli.reconstruction.capture.folder import read_capture
+from etot_cli.reconstruction.masks.automatic import find_segments
+from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
+from etot_cli.reconstruction.masks.fragments import adopt_fringes, join_fragments
 from etot_cli.reconstruction.objects import Segment
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import CLEAN_SCALE, KINECT, Picture, add_noise, write_capture

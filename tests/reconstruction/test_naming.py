@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from etot_cli.reconstruction.naming import assign_names, color_of, hint_of, mentions
+from etot_cli.reconstruction.masks.naming import assign_names, color_of, hint_of, mentions
 
 GRAY, BLUE, GREEN = (0.93, 0.93, 0.91), (0.16, 0.33, 0.72), (0.25, 0.6, 0.25)
 

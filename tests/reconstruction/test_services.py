@@ -14,7 +14,7 @@ import pytest
 
 from etot_cli.errors import ServiceError
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.pictures import encode_png
+from etot_cli.reconstruction.capture.pictures import encode_png
 from tests.reconstruction.stage_server import Reply, saying, sending, serving
 
 COLOR = np.full((48, 64, 3), 120, np.uint8)

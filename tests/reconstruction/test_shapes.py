@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from etot_cli.reconstruction.capture.view import View
 from etot_cli.reconstruction.fit.pose import convex_distance
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 from etot_cli.reconstruction.shapes.rod import Capsule, Pen
 from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
-from etot_cli.reconstruction.view import View
 from etot_cli.specs.scene import Scene
 
 POSE = np.array(

@@ -18,7 +18,7 @@ import trimesh
 
 from etot_cli.cli.app import run
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.pictures import decode_png
+from etot_cli.reconstruction.capture.pictures import decode_png
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.specs.load import load_scene
 from etot_cli.world.capture import Picture, camera_to_base, write_capture

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.reconstruction.fit.observation import Observation, observe
 from etot_cli.reconstruction.shapes.base import Evidence, Family
-from etot_cli.reconstruction.view import Array, Mask, View
 
 DESK = 0.1
 POSE = np.array(

@@ -1,0 +1,1 @@
+"""Pose and size: silhouette, depth and support relations in one fit."""

@@ -10,10 +10,10 @@ from typing import Any
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.base import circle
-from etot_cli.reconstruction.view import Array
 
 STEP = 0.0005
 BESIDE = 1.5

@@ -13,7 +13,7 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.view import Array, Mask, View
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 
 NEIGHBOURS = ((1, 0), (-1, 0), (0, 1), (0, -1))
 MARGIN = 0.004

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.fit.solver import TOLERANCE, minimize
 from etot_cli.reconstruction.shapes.base import Evidence, Family, convex_distance
-from etot_cli.reconstruction.view import Array, View
 
 FREE_WEIGHT = 0.5
 COARSE = (160, 160)

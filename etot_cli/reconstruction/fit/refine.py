@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.fit.pose import FINE, FINE_DEPTH, Fit, fit_shape, judge
 from etot_cli.reconstruction.shapes.upright import Cup
-from etot_cli.reconstruction.view import Array
 
 FIRST_DEPTH = 0.006
 CLEAN = 0.0002

@@ -10,14 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.lip import rim_height
 from etot_cli.reconstruction.fit.pose import judge, residuals_of
 from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.upright import Cup, Cylinder
-from etot_cli.reconstruction.view import Array
 
 WALL_PRIOR = (0.003, 0.001)
 """Mean and standard deviation of a wall that is not seen [m]."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from etot_cli.reconstruction.view import Array
+from etot_cli.reconstruction.capture.view import Array
 
 ROBUST = 2.0
 """Residuals beyond this count less than their square."""

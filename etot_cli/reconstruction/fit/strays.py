@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.pose import Fit
-from etot_cli.reconstruction.view import Mask
 
 OFF = 0.01
 """Readings at least this far from the surface are not the object's [m]."""

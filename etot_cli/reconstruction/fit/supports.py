@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import View
 from etot_cli.reconstruction.fit.observation import Observation, observe
 from etot_cli.reconstruction.fit.pose import Fit, best_fit
 from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
@@ -22,7 +23,6 @@ from etot_cli.reconstruction.shapes.base import Evidence, convex_distance
 from etot_cli.reconstruction.shapes.catalog import tiers
 from etot_cli.reconstruction.shapes.furniture import OpenUnit
 from etot_cli.reconstruction.shapes.upright import Cup
-from etot_cli.reconstruction.view import View
 
 NEIGHBOUR = 9
 """Masks closer than this may belong to things that touch [px]."""

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import small_gicp
 
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.registration.evidence import Target, mismatch
 from etot_cli.reconstruction.registration.model import Model
-from etot_cli.reconstruction.view import Array
 
 HEADINGS = 12
 """Yaws that are tried for each way of resting."""

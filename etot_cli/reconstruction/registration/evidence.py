@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.reconstruction.fit.observation import Observation, observe
 from etot_cli.reconstruction.fit.pose import FINE
 from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.raster import Window, coarse_depth, window_around
 from etot_cli.reconstruction.shapes.base import rotate
-from etot_cli.reconstruction.view import Array, Mask, View
 
 MARGIN = 24
 """Pixels around the object's mask that are looked at."""

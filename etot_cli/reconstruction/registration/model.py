@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.shapes.base import own_frame
 from etot_cli.reconstruction.shapes.free import FreeForm
-from etot_cli.reconstruction.view import Array
 
 SAMPLES = 16_000
 """Points on the surface; 1.5 mm apart on a thing the size of a mug."""

@@ -11,12 +11,12 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.spatial import cKDTree
 
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.registration.evidence import Target
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.raster import outline_distance, read_distance
 from etot_cli.reconstruction.shapes.base import own_frame, rotate
-from etot_cli.reconstruction.view import Array
 
 RIM = 1.5
 """Surface points this near to the drawn outline lie on it [px]."""

@@ -12,7 +12,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.view import Array, View
+from etot_cli.reconstruction.capture.view import Array, View
 
 ZOOM = 3
 """Pixels of the drawn outline per pixel of the picture."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import EXPLAINED_M, EXPLAINED_PX, Fit, trimmed_rms
 from etot_cli.reconstruction.registration.align import Candidate, candidates
 from etot_cli.reconstruction.registration.evidence import Target, mismatch
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.polish import measured, polish
-from etot_cli.reconstruction.view import Array
 
 FINALISTS = 6
 """So many alignments are looked at more closely …"""

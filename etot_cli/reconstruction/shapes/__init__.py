@@ -1,0 +1,1 @@
+"""The families of shapes that are fitted, simple ones first."""

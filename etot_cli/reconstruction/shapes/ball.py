@@ -6,8 +6,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import CIRCLE, Evidence, Family, ground_rectangle
-from etot_cli.reconstruction.view import Array, View
 
 
 class Ball(Family):

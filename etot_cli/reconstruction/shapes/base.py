@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.view import Array, View
+from etot_cli.reconstruction.capture.view import Array, View
 
 SIDES = 64
 """Points on a circle; the polygon is 0.1 % smaller at most."""

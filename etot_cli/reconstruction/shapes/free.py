@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from etot_cli.errors import SpecError
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import Evidence, Family, own_frame, rotate
-from etot_cli.reconstruction.view import Array, View
 
 SAMPLES = 4000
 MASSIVE = (0.1, 1.01)

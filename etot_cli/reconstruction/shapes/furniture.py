@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import (
     Evidence,
     Family,
@@ -18,7 +19,6 @@ from etot_cli.reconstruction.shapes.base import (
     roof_rectangle,
     rotate,
 )
-from etot_cli.reconstruction.view import Array, View
 
 UNIT_WALL = 0.006
 """Panels of a drawer unit [m]; the default of the scene's kind."""

@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import (
     CIRCLE,
     Evidence,
@@ -15,7 +16,6 @@ from etot_cli.reconstruction.shapes.base import (
     own_frame,
     rotate,
 )
-from etot_cli.reconstruction.view import Array, View
 
 SLENDER = 2.2
 """Longer than this many times its diameter a thing may be a rod."""

@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import (
     Evidence,
     Family,
@@ -14,7 +15,6 @@ from etot_cli.reconstruction.shapes.base import (
     convex_distance,
     ground_rectangle,
 )
-from etot_cli.reconstruction.view import Array, View
 
 TYPICAL_WALL = 0.003
 """Wall of a cup where none is seen [m]."""

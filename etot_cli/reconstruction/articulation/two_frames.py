@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import fit_shape, judge
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
-from etot_cli.reconstruction.view import Array
 
 SAME_PLACE = 0.12
 """The centres of one piece of furniture in both frames lie this near [m]."""

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.capture.view import Mask, View
 from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.view import Mask, View
 
 PALETTE = (
     (255, 0, 160), (0, 200, 255), (60, 220, 60), (255, 150, 0), (150, 80, 255), (240, 230, 0),

@@ -13,10 +13,10 @@ import cv2
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.surface_nets import without_pinches
-from etot_cli.reconstruction.symmetry import find_mirrors
-from etot_cli.reconstruction.view import Array, Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.free_form.surface_nets import without_pinches
+from etot_cli.reconstruction.free_form.symmetry import find_mirrors
 
 CELLS = 52
 """Cells along the longest side."""

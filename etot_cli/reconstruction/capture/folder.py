@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.pictures import read_png
-from etot_cli.reconstruction.view import Array, Mask, View
+from etot_cli.reconstruction.capture.pictures import read_png
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 
 NEAREST, FARTHEST = 0.1, 5.0
 """The median depth of a desk scene lies between these [m]; else the unit is wrong."""

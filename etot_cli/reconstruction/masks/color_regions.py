@@ -6,11 +6,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.fragments import rejoined
-from etot_cli.reconstruction.labels import Labels, label_components, nearest_label, opened
-from etot_cli.reconstruction.surfaces import Surfaces
-from etot_cli.reconstruction.view import Array, Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.surfaces import Surfaces
+from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.masks.fragments import rejoined
+from etot_cli.reconstruction.masks.labels import Labels, label_components, nearest_label, opened
 
 LEAST_PIXELS = 150
 """A part that is smaller belongs to the one beside it [px]."""

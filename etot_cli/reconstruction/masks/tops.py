@@ -5,11 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.fragments import ONE_COLOR, join_fragments
-from etot_cli.reconstruction.labels import grow_labels, label_components, opened
-from etot_cli.reconstruction.surfaces import Surfaces
-from etot_cli.reconstruction.view import Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.surfaces import Surfaces
+from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.fragments import ONE_COLOR, join_fragments
+from etot_cli.reconstruction.masks.labels import grow_labels, label_components, opened
 
 TALLEST = 0.6
 """No top is higher above the desk [m]."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.mesh_files import MeshFile, parse_mesh
+from etot_cli.reconstruction.known.mesh_files import MeshFile, parse_mesh
 from etot_cli.specs.document import Node, Place, read_document
 from etot_cli.specs.files import resolve_files
 from etot_cli.specs.include import expand, project_root

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.articulation import Joint
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.articulation.two_frames import Joint
+from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import cabinet_spec, unit_spec

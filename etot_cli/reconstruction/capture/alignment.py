@@ -5,8 +5,8 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.capture import Capture
-from etot_cli.reconstruction.view import Array, Mask
+from etot_cli.reconstruction.capture.folder import Capture
+from etot_cli.reconstruction.capture.view import Array, Mask
 
 MAX_SHIFT = 8
 """Largest displacement of depth against colour that is taken back [px]."""

@@ -8,9 +8,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.labels import label_components, opened
-from etot_cli.reconstruction.view import Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.labels import label_components, opened
 
 LEAST_HEIGHT = 0.001
 """Foreground rises at least this far above the desk where depth is exact [m]."""

@@ -9,11 +9,13 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.boundaries import refine_masks
-from etot_cli.reconstruction.calibration import Calibrated, flattened
-from etot_cli.reconstruction.color_regions import part_by_color
+from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
+from etot_cli.reconstruction.capture.surfaces import measure_surfaces, shaded_desk
+from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.refine import exact_depth
-from etot_cli.reconstruction.foreground import (
+from etot_cli.reconstruction.masks.boundaries import refine_masks
+from etot_cli.reconstruction.masks.color_regions import part_by_color
+from etot_cli.reconstruction.masks.foreground import (
     LEAST_HEIGHT,
     LEAST_PIXELS,
     NOISY_HEIGHT,
@@ -21,12 +23,10 @@ from etot_cli.reconstruction.foreground import (
     raised_pixels,
     with_feet,
 )
-from etot_cli.reconstruction.fragments import TEAR, adopt_fringes, join_fragments
-from etot_cli.reconstruction.labels import grow_labels, label_components
+from etot_cli.reconstruction.masks.fragments import TEAR, adopt_fringes, join_fragments
+from etot_cli.reconstruction.masks.labels import grow_labels, label_components
+from etot_cli.reconstruction.masks.tops import part_by_tops
 from etot_cli.reconstruction.objects import Segment
-from etot_cli.reconstruction.surfaces import measure_surfaces, shaded_desk
-from etot_cli.reconstruction.tops import part_by_tops
-from etot_cli.reconstruction.view import Mask
 
 HOVERING = 0.05
 """A thing whose lowest visible point is higher than this and touches nothing hangs in the air."""

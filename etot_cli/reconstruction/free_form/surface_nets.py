@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.view import Array
+from etot_cli.reconstruction.capture.view import Array
 
 LEVEL = 0.5
 """Cells filled by more than this are inside."""

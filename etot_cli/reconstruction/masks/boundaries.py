@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.view import Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
 
 INNER = 4
 """Pixels this far inside a mask are the object's for sure."""

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.view import Mask
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
 
 Labels = NDArray[np.int32]
 UNKNOWN_GAP = 0.02

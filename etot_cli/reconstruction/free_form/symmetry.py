@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from etot_cli.reconstruction.view import Array, Mask
+from etot_cli.reconstruction.capture.view import Array, Mask
 
 HEADINGS = 30
 OFFSETS = 21

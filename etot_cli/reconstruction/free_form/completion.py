@@ -8,15 +8,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.carving import carve
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.free_form.carving import carve
+from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.registration.evidence import target_of
 from etot_cli.reconstruction.registration.model import upright_model
 from etot_cli.reconstruction.registration.register import fit_of
 from etot_cli.reconstruction.shapes.base import rotate
-from etot_cli.reconstruction.surface_nets import surface_of
-from etot_cli.reconstruction.view import Array, Mask
 
 POOR = 0.6
 """A simple shape that explains less than this share of what is seen gives way to a free one …"""

@@ -12,11 +12,11 @@ from typing import Any
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import cabinet_spec, unit_spec
-from etot_cli.reconstruction.view import Array, View
 
 LEAST_SIDE = 0.09
 """Nothing smaller is taken for furniture without a name that says so [m]."""

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.view import Array
+from etot_cli.reconstruction.capture.view import Array
 
 MAX_FACES = 200_000
 MAX_BYTES = 50 * 1024 * 1024

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.reconstruction.capture import safe_name, unique_name
-from etot_cli.reconstruction.view import Mask
+from etot_cli.reconstruction.capture.folder import safe_name, unique_name
+from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.world.colors import BASIC_COLORS, nearest_basic
 
 NOUNS: dict[str, tuple[str, ...]] = {

@@ -5,11 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.foreground import LEAST_HEIGHT, TALLEST, is_thing, raised_pixels
-from etot_cli.reconstruction.labels import label_components
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.foreground import LEAST_HEIGHT, TALLEST, is_thing, raised_pixels
+from etot_cli.reconstruction.masks.labels import label_components
 from etot_cli.reconstruction.objects import Segment
-from etot_cli.reconstruction.view import Mask
 
 LEAST_READINGS = 30
 """With fewer readings depth says nothing about a mask."""

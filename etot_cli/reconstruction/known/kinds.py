@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from etot_cli.reconstruction.calibration import Calibrated
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import Fit, fit_shape, judge
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
@@ -17,7 +18,6 @@ from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 from etot_cli.reconstruction.shapes.rod import Capsule, Pen
 from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
-from etot_cli.reconstruction.view import Array
 from etot_cli.specs import scene as specs
 from etot_cli.specs.scene import SceneObject
 

@@ -11,16 +11,16 @@ import numpy as np
 
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.capture import safe_name, unique_name
-from etot_cli.reconstruction.known_kinds import SCALED_BY_FILE, extra_keys, fit_known_kind
-from etot_cli.reconstruction.library import Entry, Library, read_library
-from etot_cli.reconstruction.mesh_files import MAX_BYTES, SUFFIXES, MeshFile, parse_mesh
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.folder import safe_name, unique_name
+from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.known.kinds import SCALED_BY_FILE, extra_keys, fit_known_kind
+from etot_cli.reconstruction.known.library import Entry, Library, read_library
+from etot_cli.reconstruction.known.mesh_files import MAX_BYTES, SUFFIXES, MeshFile, parse_mesh
 from etot_cli.reconstruction.objects import DESK, KnownModel, Solid
 from etot_cli.reconstruction.registration.evidence import target_of
 from etot_cli.reconstruction.registration.model import Model, models_of
 from etot_cli.reconstruction.registration.register import POOR, Registered, register
-from etot_cli.reconstruction.view import Array, Mask
 from etot_cli.specs.scene import Mesh
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ import cv2
 import numpy as np
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.alignment import SHIFT_NOTED, displaced, measure_shift
-from etot_cli.reconstruction.capture import Capture
-from etot_cli.reconstruction.view import Array, Mask, View
+from etot_cli.reconstruction.capture.alignment import SHIFT_NOTED, displaced, measure_shift
+from etot_cli.reconstruction.capture.folder import Capture
+from etot_cli.reconstruction.capture.view import Array, Mask, View
 
 REACH = 1.1
 """Only points this near to the robot's axis can be the desk it works on [m]."""

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import convex_hull_mask
-from etot_cli.reconstruction.view import Mask
 
 TEAR = 13
 """Lost readings tear things apart by this much [px]."""

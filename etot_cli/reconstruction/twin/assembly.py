@@ -11,10 +11,10 @@ import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError
-from etot_cli.reconstruction.calibration import Calibrated
-from etot_cli.reconstruction.naming import color_of
+from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import DESK, Solid
-from etot_cli.reconstruction.physics import guess
+from etot_cli.reconstruction.twin.physics import guess
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects

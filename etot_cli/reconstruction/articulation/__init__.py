@@ -1,0 +1,1 @@
+"""Movable parts, their joints and limits."""

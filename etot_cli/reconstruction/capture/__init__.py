@@ -1,0 +1,1 @@
+"""A capture: its files, the camera, and whether depth, colour and desk agree."""

@@ -1,0 +1,1 @@
+"""Solids for what no family of shapes explains."""

@@ -1,0 +1,1 @@
+"""Which pixels belong to which object, and what the objects are called."""

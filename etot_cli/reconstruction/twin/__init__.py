@@ -1,0 +1,1 @@
+"""The scene and its files: physics, YAML, meshes, MJCF, overlay."""
