@@ -241,7 +241,7 @@ def _better(first: Performed, second: Performed) -> Performed:
 
 def _shoved(before: SceneState, recorder: Recorder, action: Action) -> float:
     """Largest displacement of an object that the action has no business with [m]."""
-    acted = {action.target, action.target.split(".")[0], before.holding}
+    acted = {action.target, action.target.split(".")[0], before.holding} - {None}
     carried = {
         other
         for other, state in before.states.items()

@@ -1,6 +1,6 @@
-"""Measures reconstruction against its demands: ``python -m tests.measure.check_reconstruct``.
+"""Measures reconstruction against its demands: ``make check-reconstruct``.
 
-Prints the table; ``--markdown FILE`` writes it too. Scenes are the shipped ones (rendered from
+Prints the table and puts it into docs/results.md. Scenes are the shipped ones (rendered from
 their own cameras), others that nothing was tuned on, and a real capture where it is at hand.
 """
 
@@ -29,9 +29,13 @@ from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
-from tests.reconstruction.scenes import others
+from tests.measure.markdown import replace_section, table
+from tests.reconstruction.scenes import free_forms, others
 
 ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "results.md"
+TITLE = "Reconstruction"
+TIME_LIMIT_S, COACD_TIME_LIMIT_S = 10.0, 30.0
 REAL = ROOT.parent / "shared" / "real" / "task5"
 SQUARE = ("sphere", "cylinder", "cup", "bowl")
 
@@ -328,18 +332,51 @@ def articulation_row(work: Path) -> Row:
     return Row("drawer and door, two frames", demand, "; ".join(parts), not misses, misses)
 
 
+def process_rows(work: Path) -> list[Row]:
+    """Wall time and peak memory of whole ``etot reconstruct`` processes, start-up included."""
+    free = work / "free-forms"
+    write_capture(capture(free_forms(work)), free)
+    cases = [("one frame, without CoACD", name, folder, TIME_LIMIT_S)
+             for name, folder in (("real", REAL), ("stack with noise", work / "stack-noisy"))
+             if folder.is_dir()]  # fmt: skip
+    cases.append(("one frame, with CoACD", "two free forms", free, COACD_TIME_LIMIT_S))
+    rows = []
+    for title, name, folder, limit in cases:
+        wall, peak = _timed(folder, work / f"timed-{name}")
+        met = wall <= limit and peak < 1.5
+        rows.append(Row(f"{title}: {name}", f"≤ {limit:g} s, < 1.5 GiB",
+                        f"{wall:.1f} s, {peak:.2f} GiB", met))  # fmt: skip
+    return rows
+
+
+def _timed(folder: Path, out: Path) -> tuple[float, float]:
+    """Wall time [s] and peak memory [GiB] of one process with an empty cache."""
+    command = [sys.executable, "-m", "etot_cli.cli.app", "reconstruct", str(folder),
+               "--auto-masks", "-q", "--out", str(out)]  # fmt: skip
+    environment = {**os.environ, "ETOT_CACHE": str(out / "cache")}
+    environment.pop("OMP_NUM_THREADS", None)
+    begun = time.perf_counter()
+    process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.DEVNULL)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    wall = time.perf_counter() - begun
+    if process.returncode not in (0, 1):
+        raise RuntimeError(f"{' '.join(command)} ended with {process.returncode}")
+    return wall, used.ru_maxrss / 1024**2
+
+
 def main() -> int:
     """Prints the table; exit code 1 when a demand is missed."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--markdown", type=Path, help="also write the table here")
+    parser.add_argument("--no-write", action="store_true", help="leave docs/results.md as it is")
     parser.add_argument("--only", help="only cases whose name contains this")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         rows = measure(Path(folder), arguments.only)
     text = as_markdown(rows)
     print(text)
-    if arguments.markdown:
-        arguments.markdown.write_text(text)
+    if not (arguments.no_write or arguments.only):
+        replace_section(PAGE, TITLE, text)
     return 0 if all(row.met for row in rows) else 1
 
 
@@ -360,6 +397,7 @@ def measure(work: Path, only: str | None) -> list[Row]:
             )  # fmt: skip
     cases.append(("articulation", lambda: [articulation_row(work)]))
     cases.append(("real", real_rows))
+    cases.append(("process", lambda: process_rows(work)))
     cases += [(f"plan {auto}", lambda a=auto: [plan_row(a, work)]) for auto in (False, True)]
     for name, run in cases:
         if only and only not in name:
@@ -376,12 +414,11 @@ def measure(work: Path, only: str | None) -> list[Row]:
 
 def as_markdown(rows: list[Row]) -> str:
     """The rows as a table."""
-    lines = ["| case | demand | measured | met |", "|---|---|---|---|"]
+    cells = []
     for row in rows:
         misses = f" Missed: {'; '.join(row.misses)}." if row.misses else ""
-        lines.append(f"| {row.case} | {row.demand} | {row.found}.{misses} | "
-                     f"{'yes' if row.met else 'no'} |")  # fmt: skip
-    return "\n".join(lines) + "\n"
+        cells.append([row.case, row.demand, f"{row.found}.{misses}", "yes" if row.met else "NO"])
+    return table(["case", "demand", "measured", "demand met"], cells)
 
 
 if __name__ == "__main__":

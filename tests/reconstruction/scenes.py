@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from etot_cli.specs.scene import Camera, Scene
+from tests.reconstruction import meshes
 
 FRONT = {"position": [0.98, 0.05, 0.72], "look_at": [0.44, 0.0, 0.14]}
 HIGH = {"position": [0.80, 0.05, 0.78], "look_at": [0.46, 0.0, 0.14]}
@@ -182,3 +184,14 @@ def articulated() -> dict[str, tuple[Scene, str, tuple[float, float]]]:
         "drawer": (drawer, "chest.top", (0.0, 0.12)),
         "door": (door, "locker.door", (np.radians(10), np.radians(60))),
     }
+
+
+def free_forms(folder: Path) -> Scene:
+    """Two things that no simple kind describes; their meshes are written into the folder."""
+    places = {"angle_block": ([0.40, -0.22], 20), "toy": ([0.45, 0.20], 250)}
+    objects = {}
+    for name, (place, yaw) in places.items():
+        meshes.ALL[name]().export(folder / f"{name}.obj")
+        objects[name] = {"kind": "mesh", "file": f"{name}.obj", "at": place, "yaw_deg": yaw,
+                         "mass": 0.15, "color": "orange"}  # fmt: skip
+    return scene(objects).model_copy(update={"directory": str(folder)})

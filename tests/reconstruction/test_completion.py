@@ -22,7 +22,7 @@ from etot_cli.world.build import imported
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import angle_block, prism, roof, toy
-from tests.reconstruction.scenes import scene
+from tests.reconstruction.scenes import free_forms, scene
 
 SIZE = 0.04
 """Largest error of a side, relative …"""
@@ -31,7 +31,6 @@ PLACE = 0.003
 VOLUME = {"angle_block": 0.10, "toy": 0.15, "roof": 0.10}
 """Of a ball-like head the far side is not seen, and it has no counterpart to mirror."""
 SHAPES = {"angle_block": angle_block, "toy": toy}
-PLACES = {"angle_block": ([0.40, -0.22], 20), "toy": ([0.45, 0.20], 250)}
 
 
 @pytest.fixture(scope="module")
@@ -42,14 +41,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def two(home: Path) -> Picture:
     """Two things that no simple kind describes."""
-    for name, make in SHAPES.items():
-        make().export(home / f"{name}.obj")
-    objects = {
-        name: {"kind": "mesh", "file": f"{name}.obj", "at": place, "yaw_deg": yaw, "mass": 0.15,
-               "color": "orange"}
-        for name, (place, yaw) in PLACES.items()
-    }  # fmt: skip
-    what = scene(objects).model_copy(update={"directory": str(home)})
+    what = free_forms(home)
     picture = render(what)
     write_capture(picture, home / "two")
     return picture

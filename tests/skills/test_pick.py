@@ -144,3 +144,12 @@ def test_bystanders_stay_where_they_are() -> None:
     run = episode(ball=BALL | {"at": [0.40, 0.09]}, near=near)
     run.must("[PICK UP, ball]")
     assert run.done[-1].record.displacement["near"] < 0.03
+
+
+def test_what_comes_along_makes_a_grasp_rough() -> None:
+    """A ball wedged in a cup's mouth takes the cup along for a moment: that counts against it."""
+    cup = CUP | {"diameter": 0.0905, "height": 0.0645, "wall": 0.0065, "at": [0.42, 0.20]}
+    run = episode(4, cup=cup, ball=BALL | {"diameter": 0.0832, "on": "cup", "at": None})
+    performed = run.do("[PICK UP, ball]")
+    assert performed.record.effect
+    assert performed.roughness >= performed.record.displacement["cup"]
