@@ -71,6 +71,16 @@ def test_a_clean_picture(two: Picture, home: Path, name: str) -> None:
     assert any("not seen" in text for text in solid.warnings)
 
 
+def test_masks_that_are_found_show_all_of_an_angle(two: Picture, home: Path) -> None:
+    """No arm of it may be taken out of the mask for the sake of a simple shape."""
+    twin = reconstruct(Options(capture=home / "two", auto=True, settle=False))
+    forms = [solid for solid in twin.solids if solid.kind == "mesh"]
+    true = two.truth["objects"]["angle_block"]
+    assert len(forms) == 1
+    assert side_errors(forms[0].size, true["size"]) < SIZE
+    assert forms[0].fit.explained > 0.97
+
+
 def test_noise(two: Picture, home: Path) -> None:
     """Where noise hides what tells it from a box, a box it is; else it is completed."""
     noisy = add_noise(two, KINECT, np.random.default_rng(3))

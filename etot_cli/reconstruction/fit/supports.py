@@ -34,6 +34,8 @@ CLEARANCE = 0.004
 """Overlap with a support that counts as contact [m]."""
 CLASH = 2.0
 """Added to the score of a shape that goes through another object, or stands on thin air."""
+CONVINCING = 0.9
+"""Pixels are only taken out of a mask for a shape that explains so much of the others."""
 OVERHANG = 0.008
 """A thing's middle lies at most this far beyond the edge of what carries it [m]."""
 
@@ -112,7 +114,7 @@ def _fit_one(
         own = replace(segment, mask=strays.own)
         before = Segment(f"before {segment.name}", strays.before, named=False)
         again = _choose(seen, own, [*segments, before], done, rng, hint)
-        if again is not None:
+        if again is not None and again[0][0].explained >= CONVINCING:
             fits, support, placed = again
             # A mask that was given stays as it is; one that was found is put right.
             segment = segment if segment.named else own

@@ -8,8 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.articulation.furnish import LEAST_SIDE
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.objects import Solid
@@ -18,8 +20,14 @@ from etot_cli.reconstruction.registration.model import upright_model
 from etot_cli.reconstruction.registration.register import fit_of
 from etot_cli.reconstruction.shapes.base import rotate
 
-POOR = 0.6
-"""A simple shape that explains less than this share of what is seen gives way to a free one …"""
+POOR, POOR_EXACT = 0.6, 0.95
+"""A simple shape that explains less than this share of what is seen gives way to a free one …
+
+The second value is for exact depth and things too small for furniture, whose handles and edges no
+simple shape has.
+"""
+DOUBTFUL = 0.75
+"""Shares below this are worth a warning."""
 POOR_EDGE = 5.0
 """… and so does one whose outline is off by more than this [px]."""
 LEAST_POINTS = 100
@@ -34,9 +42,11 @@ def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
         others: pixels (h, w) of each other object.
     """
     fit = solid.fit
-    if fit.explained > POOR and fit.edge_rms < POOR_EDGE:
-        return solid
+    strict = exact_depth(seen) and min(solid.size) <= LEAST_SIDE
+    least = POOR_EXACT if strict else POOR
     doubtful = solid.warned("its shape is poorly explained: treat size and pose with care")
+    if fit.explained > least and fit.edge_rms < POOR_EDGE:
+        return solid if fit.explained > DOUBTFUL else doubtful
     if len(solid.observation.points) < LEAST_POINTS:
         return doubtful
     mask, base = solid.segment.mask, solid.observation.base
