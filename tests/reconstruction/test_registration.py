@@ -190,6 +190,17 @@ def test_known_kinds_keep_their_size(table: Scene, folder: Path, picture: Pictur
         assert np.linalg.norm(found[name].center - true) < 0.002
 
 
+def test_another_size_than_the_picture_s_is_noticed(folder: Path) -> None:
+    text = "objects:\n  mug: {kind: cup, diameter: 0.0925, height: 0.0985}\n"
+    known = library(folder, text, "tall.yaml")
+    found = solids(reconstruct(Options(capture=folder, library=known, settle=False)))
+    assert found["mug"].size[2] == 0.0985
+    assert any("picture alone says" in text for text in found["mug"].warnings)
+    right = library(folder, text.replace("0.0985", "0.0785"), "right.yaml")
+    found = solids(reconstruct(Options(capture=folder, library=right, settle=False)))
+    assert not any("picture alone says" in text for text in found["mug"].warnings)
+
+
 BAD = {
     "no objects": ("models: {}", r"known\.yaml:1: missing key 'objects'"),
     "a list": ("objects: []", r"known\.yaml:1: objects: found .*, expected known things by name"),

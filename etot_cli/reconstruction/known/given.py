@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 SIZE_RANGE = (0.5, 2.0)
 """A known thing may be what was found when their longest sides differ by no more than this."""
+OTHER_SIZE = 0.12
+"""A fitted size that differs by more than this share from the known one is worth a warning."""
 
 
 def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> list[Solid]:
@@ -176,7 +178,7 @@ def _from_library(
     if entry.mesh is None:
         known = fit_known_kind(seen, solid, entry.spec)
         if known.fit.explained > POOR:
-            return _with_keys(known, entry)
+            return _with_keys(_compared(known, solid), entry)
         return solid.warned(
             f"{entry.name} of the library does not fit what is seen "
             f"({100 * known.fit.explained:.0f} % explained): its shape is fitted instead"
@@ -187,6 +189,19 @@ def _from_library(
             _misfit(f"{entry.name} of the library", got) + "; its shape is fitted instead"
         )
     return _as_entry(placed, got, entry)
+
+
+def _compared(known: Solid, seen: Solid) -> Solid:
+    """The known thing, with a warning where the picture alone gives quite another size."""
+    if known.kind != seen.kind:
+        return known
+    theirs, ours = (np.array([*sorted(item.size[:2]), item.size[2]]) for item in (known, seen))
+    if np.abs(ours / theirs - 1).max() < OTHER_SIZE:
+        return known
+    millimetres = " × ".join(f"{1000 * side:.0f}" for side in seen.size)
+    return known.warned(
+        f"the picture alone says {millimetres} mm: is the library's size the right one?"
+    )
 
 
 def _with_keys(known: Solid, entry: Entry) -> Solid:
