@@ -26,6 +26,21 @@ def test_pick_up() -> None:
     assert verdict == Verdict(Outcome.SUCCESS, None, ("apple",))
 
 
+@pytest.mark.parametrize(("away", "outcome"), [(0.0, Outcome.SUCCESS), (0.05, Outcome.FAILURE)])
+def test_what_is_back_in_its_place_is_unharmed(away: float, outcome: Outcome) -> None:
+    """A cup that a wedged ball lifts for a moment, and one that it leaves elsewhere."""
+    before = scenes.pens_and_apple()
+    x, y, z = before.states["white_holder"].position
+    after = changed(
+        before, apple={"in_hand": True, "on": (), "position": APPLE_UP},
+        white_holder={"position": (x + away, y, z)},
+    )  # fmt: skip
+    lifted = record(before, after, displacement={"apple": 0.1, "white_holder": 0.06})
+    verdict = judge("[PICK UP, apple]", lifted)
+    assert verdict.outcome is outcome
+    assert "white_holder" in verdict.changes
+
+
 def test_pick_up_that_left_it_on_the_desk() -> None:
     before = scenes.apple_and_holder()
     touched = record(before, contacts=(contact("apple", "gripper"),))

@@ -21,7 +21,7 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord
 
 SHOVED = 0.03
-"""An object displaced further than this has been disturbed [m]."""
+"""An object that ends up further away than this has been disturbed [m]."""
 CHANGED = 0.005
 """An object displaced further than this has changed at all [m]."""
 FELL = 0.01
@@ -134,9 +134,11 @@ def _is_shoved(name: str, action: Action, record: RolloutRecord) -> bool:
     inserted = action.verb is Verb.PUT_INTO and (
         name == owner_of(action.target) or name in contents(record.before, action.target)
     )
-    if not inserted and displacement(name, record) > SHOVED:
-        return True
     before, after = record.before.states[name], record.after.states[name]
+    # What came along for a moment and is back where it was (a cup that a wedged ball lifts) is
+    # none the worse; what fell over or off on the way shows in its relations.
+    if not inserted and math.dist(before.position, after.position) > SHOVED:
+        return True
     return any(
         abs(after.openness.get(part, value) - value) > PART_MOVED
         for part, value in before.openness.items()
