@@ -50,7 +50,7 @@ def put_on_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
     attached = pilot.attach(name)
     space = None if action.target == DESK else world.surfaces[action.target].space
     if space is not None:
-        explain = partial(_no_spot, name, action.target)
+        explain = partial(_no_spot, name, f"{action.target}, held as it is")
         return partial(_ways_through_front, pilot, attached, space, explain)
     base = resting_rotation(pilot, attached)
     low, high = pilot.checker.extent(name, base)
@@ -113,10 +113,12 @@ def put_into_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
     if region is None:
         return failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
     attached = pilot.attach(name)
-    explain = partial(_no_way_in, name, action.target)
     out = pilot.data.body(region.body).xmat.reshape(3, 3) @ np.array(region.opening)
     if abs(out[2]) < LEVEL_OPENING:
+        # The hand, not the object, is what most often has no room there.
+        explain = partial(_no_way_in, name, f"{action.target} from the front, held as it is")
         return partial(_ways_through_front, pilot, attached, region, explain)
+    explain = partial(_no_way_in, name, action.target)
     return partial(_ways_into, pilot, attached, region, explain)
 
 
