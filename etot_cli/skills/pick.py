@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.collision import Attached
+from etot_cli.skills.grasp_motion import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.kinematics import Pose
 from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.skills.solids import Solids
@@ -21,10 +21,6 @@ from etot_cli.world.state import CauseKind
 
 Vector = NDArray[np.float64]
 
-STANDOFF = 0.09
-"""Length of the straight approach [m]."""
-LIFT = 0.10
-"""Height of the lift [m]."""
 APPROACH_SPEED = 0.15
 LIFT_SPEED = 0.15
 HOLD_TIME = 0.4
@@ -38,18 +34,6 @@ TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
 SAME_PLACE, SAME_TURN = 0.02, 0.1
 """Grasps closer to each other than this [m, rad] are much the same."""
-CONTACT_CLEARANCE = 0.0008
-"""Clearance of the hand at the grasp itself [m]."""
-
-
-@dataclass(frozen=True)
-class PreparedGrasp:
-    """A reachable, collision-free grasp: joint values before, along the approach and the lift."""
-
-    grasp: Grasp
-    before: Vector
-    approach: Vector
-    lift: Vector
 
 
 def pick_ways(pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None) -> Ways:
@@ -64,10 +48,10 @@ def _lane_ways(pilot: Pilot, name: str, found: GraspSet, lane: int) -> Iterator[
     unreachable = 0
     for candidate in _of_lane(_variants(found), lane):
         pilot.checker.freeze(pilot.data)
-        result = _prepare(pilot, name, candidate, blockers)
+        result = prepare_grasp(pilot, name, candidate, blockers)
         if result is None:
             # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
-            result = _prepare(pilot, name, _spun(candidate), blockers)
+            result = prepare_grasp(pilot, name, _spun(candidate), blockers)
         if result is None:
             unreachable += 1
         elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
@@ -131,75 +115,6 @@ def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:
     )
 
 
-def _prepare(
-    pilot: Pilot, name: str, grasp: Grasp, blockers: Blockers
-) -> PreparedGrasp | bool | None:
-    """A prepared grasp, False where something is in the way, None where the arm cannot get."""
-    checker, arm = pilot.checker, pilot.arm
-    checker.set_fingers(grasp.opening)
-    approach = grasp.tool.rotation[:, 2]
-    # The grasp itself first: where the hand has no room there, the way to it need not be found.
-    at_grasp = arm.reach(grasp.tool, pilot.commanded)
-    if not at_grasp.reached:
-        return None
-    allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
-    hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
-    if hits:
-        blockers.add(hits)
-        return False
-    way = straight(grasp.tool, grasp.tool.moved(-STANDOFF * approach))
-    back, count = arm.line(way, at_grasp.joints)
-    if count < len(way):
-        return None
-    line = np.vstack([back[-2::-1], at_grasp.joints])
-    for joints in (back[-1], back[count // 2]):
-        hits = checker.hits(joints, clearance=CONTACT_CLEARANCE, allow=allow)
-        if hits:
-            blockers.add(hits)
-            return False
-    lift = _lift(pilot, name, grasp, line[-1], blockers)
-    if lift is None:
-        return False
-    return PreparedGrasp(grasp, back[-1], line, lift)
-
-
-def _lift(
-    pilot: Pilot, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
-) -> Vector | None:
-    """Joint values of the way up with the object, or None when it would hit something."""
-    checker, arm = pilot.checker, pilot.arm
-    attached = Attached(name, grasp.tool.inverse() @ pilot.object_pose(name))
-    checker.set_fingers(min(grasp.width, grasp.opening))
-    up = np.array([0.0, 0.0, LIFT])
-    path, count = arm.line(straight(grasp.tool, grasp.tool.moved(up)), joints)
-    if count < 2:
-        return None
-    resting = {*_supports(pilot, name)}
-    for row in (path[-1], path[len(path) // 2]):
-        hits = checker.hits(
-            row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
-        )
-        if hits:
-            blockers.add(hits)
-            checker.freeze(pilot.data)
-            return None
-    checker.freeze(pilot.data)
-    return path
-
-
-def _supports(pilot: Pilot, name: str) -> set[str]:
-    """Objects that touch it now, from below or the side, and so may do during the lift."""
-    world, data = pilot.world, pilot.data
-    found: set[str] = set()
-    for one, two in data.contact.geom:
-        first, second = world.geom_object[int(one)], world.geom_object[int(two)]
-        if first == name:
-            found.add(second)
-        elif second == name:
-            found.add(first)
-    return found
-
-
 def _explain(name: str, opening: float, found: GraspSet, evidence: Evidence) -> SkillOutcome:
     blocking, unreachable = evidence.most(excluding=[name]), evidence.unreachable
     # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
@@ -254,13 +169,13 @@ def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutc
             pilot.data.time - recorder.start_time,
         )
     carried = pilot.attach(name)
-    pilot.follow_line(prepared.lift, LIFT, LIFT_SPEED)
+    pilot.follow_line(prepared.lift, prepared.lift_length, LIFT_SPEED)
     pilot.wait(HOLD_TIME)
     recorder.mark(pilot.data)
     expected = pilot.tool() @ carried.in_tool
     slipped = float(np.linalg.norm(expected.position - pilot.object_pose(name).position))
-    rise = float(pilot.object_pose(name).position[2] - before.position[2])
-    if pilot.held() != name or slipped > SLIP_LIMIT or rise < 0.3 * LIFT:
+    carried_m = float(np.linalg.norm(pilot.object_pose(name).position - before.position))
+    if pilot.held() != name or slipped > SLIP_LIMIT or carried_m < 0.3 * LIFT:
         return failed(
             CauseKind.SLIP,
             [name],
@@ -292,6 +207,3 @@ def struck_objects(pilot: Pilot) -> list[str]:
             if robot in ("robot", "gripper") and other in world.entries:
                 found[other] = None
     return list(found)
-
-
-__all__ = ["LIFT", "PreparedGrasp", "execute_grasp", "pick_ways", "struck_objects"]

@@ -246,6 +246,15 @@ def test_what_goes_in_through_a_front_is_held_from_the_side() -> None:
     assert revision(asked) is None, "an asked pose is not replaced"
 
 
+def test_what_is_taken_out_through_a_front_is_held_from_the_side() -> None:
+    start = changed(scenes.microwave(), tennis_ball={"inside": "microwave", "on": ("microwave",)})
+    before = changed(start, microwave={"openness": {"door": 1.0}})
+    plan = "[OPEN, microwave] [PICK UP, tennis_ball]{0} [PUT ON, desk]"
+    reason = cause(CauseKind.NO_GRASP, "microwave", "tennis_ball")
+    step = failed(start, plan.format(""), 1, reason, before)
+    assert revision(step) == plan.format(" (horizontal)")
+
+
 def test_what_the_goal_wants_in_place_comes_back() -> None:
     plain = scenes.apple_and_holder()
     start = changed(plain, apple={"inside": "holder", "on": ("holder",)})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from etot_cli.world.state import CauseKind
-from tests.skills.helpers import BALL, BOX, CUP, PEN, UNIT, drawers, episode, make_pilot
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode, make_pilot
 
 SEEDS = range(3)
 THINGS = {
@@ -153,3 +153,27 @@ def test_what_comes_along_makes_a_grasp_rough() -> None:
     performed = run.do("[PICK UP, ball]")
     assert performed.record.effect
     assert performed.roughness >= performed.record.displacement["cup"]
+
+
+FURNACE = OVEN | {
+    "size": [0.30, 0.36, 0.28], "at": [0.55, 0.10], "yaw_deg": 180,
+    "door": {"hinge": "right", "range_deg": 114, "open_deg": 112},
+}  # fmt: skip
+RACK = {"kind": "shelf", "size": [0.22, 0.36, 0.45], "mass": 6.0, "at": [0.52, 0.15],
+        "yaw_deg": 180, "boards": ["lower", "middle", "top"]}  # fmt: skip
+MUG = CUP | {"diameter": 0.075, "height": 0.10, "at": None}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_comes_out_of_a_cabinet_through_the_front(seed: int) -> None:
+    run = episode(seed, oven=FURNACE, mug=MUG | {"inside": "oven"})
+    after = run.must("[PICK UP, mug] (horizontal)")
+    assert after.states["mug"].in_hand and after.states["mug"].inside is None
+    assert run.done[-1].clean, "the oven stays as it is"
+
+
+@pytest.mark.parametrize("board", ["lower", "middle"])
+def test_comes_off_a_covered_board(board: str) -> None:
+    run = episode(rack=RACK, mug=MUG | {"on": f"rack.{board}"})
+    after = run.must("[PICK UP, mug] (horizontal)")
+    assert after.states["mug"].in_hand

@@ -35,6 +35,7 @@ PLANS = {
     "seven_joints": [
         "[PICK UP, carton]", "[PUT ON, rack]", "[PICK UP, ball]", "[PUT INTO, bowl]",
     ],
+    "take_out": ["[OPEN, oven]", "[PICK UP, mug] (horizontal)", "[PUT ON, desk]"],
     "three_drawers": [
         "[OPEN, dresser]", "[PICK UP, battery]", "[PUT INTO, dresser]", "[CLOSE, dresser]",
     ],

@@ -18,6 +18,7 @@ from etot_cli.reasoning.builtin.relations import (
     OPEN_ENOUGH,
     bearers,
     distance,
+    has_front,
     is_inside,
     owner_of,
     radius,
@@ -44,6 +45,10 @@ REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""
 _COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCKED})
 """Causes of a failed pick that an opened part may be behind, even when it is not named."""
+
+
+_NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
+"""Causes that a roof above the place may be behind."""
 
 
 class Correction(NamedTuple):
@@ -222,7 +227,7 @@ class _Case:
             return
         if self.cause.kind is CauseKind.SLIP:
             pose, how = GraspPose.VERTICAL, "from above"
-        elif self.cause.kind is CauseKind.NO_ROOM and self._goes_in_level():
+        elif self.cause.kind in _NO_ROOM_ABOVE and self._is_roofed():
             pose, how = GraspPose.HORIZONTAL, "from the side"
         else:
             return
@@ -230,12 +235,14 @@ class _Case:
         actions = (*self.actions[:pick], posed, *self.actions[pick + 1 :])
         yield Correction(actions, f"{action.target} is grasped {how}")
 
-    def _goes_in_level(self) -> bool:
-        """Whether the target of the action can only be got at through a front."""
-        owner, _, board = self.action.target.partition(".")
-        part = self.failed.start.part(self.action.target)
-        info = self.failed.start.infos.get(owner)
-        return part.front if part is not None else info is not None and board in info.boards
+    def _is_roofed(self) -> bool:
+        """Whether the place that the action puts to or takes from is got at through a front."""
+        scene = self.failed.record.before
+        places = {self.action.target}
+        if self.action.verb is Verb.PICK_UP:
+            state = scene.states.get(self.action.target)
+            places = {*state.on, state.inside or ""} if state is not None else set()
+        return any(has_front(scene, place) for place in places)
 
     def _of_put(self) -> Iterator[Correction]:
         index, owner = self.failed.index, owner_of(self.action.target)

@@ -147,3 +147,14 @@ def distance(first: ObjectState, second: ObjectState) -> float:
 def radius(info: ObjectInfo) -> float:
     """Half the larger extent of an object's outline [m]."""
     return max(info.size[:2]) / 2
+
+
+def has_front(scene: SceneState, address: str) -> bool:
+    """Whether the address is that of a cabinet or a shelf's board, got at through a front."""
+    owner, _, board = address.partition(".")
+    info = scene.infos.get(owner)
+    if info is None:
+        return False
+    return board in info.boards or any(
+        part.front for part in info.parts if address in (part.address, owner)
+    )

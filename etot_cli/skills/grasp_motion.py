@@ -1,0 +1,155 @@
+"""Working out how the hand gets to a grasp and away with the object."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.collision import Attached
+from etot_cli.skills.grasps import Grasp
+from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.pilot import Pilot
+from etot_cli.world.relations import to_region
+
+Vector = NDArray[np.float64]
+
+UP = np.array([0.0, 0.0, 1.0])
+STANDOFF = 0.09
+"""Length of the straight approach [m]."""
+LIFT = 0.10
+"""Height of the lift [m]."""
+CONTACT_CLEARANCE = 0.0008
+"""Clearance of the hand at the grasp itself [m]."""
+LEVEL = 0.5
+"""A hand whose approach falls or rises less than this (sine) can take things out of a front."""
+CLEAR = 0.015
+"""Height to which an object is raised before it is taken out level [m]."""
+OUT_LENGTHS = (0.24, 0.16)
+"""How far it is taken out [m], the farthest first."""
+
+
+@dataclass(frozen=True)
+class PreparedGrasp:
+    """A reachable, collision-free grasp: joint values before, along the approach and the lift."""
+
+    grasp: Grasp
+    before: Vector
+    approach: Vector
+    lift: Vector
+    lift_length: float
+    """[m]"""
+
+
+def prepare_grasp(
+    pilot: Pilot, name: str, grasp: Grasp, blockers: Blockers
+) -> PreparedGrasp | bool | None:
+    """A prepared grasp, False where something is in the way, None where the arm cannot get."""
+    checker, arm = pilot.checker, pilot.arm
+    checker.set_fingers(grasp.opening)
+    approach = grasp.tool.rotation[:, 2]
+    # The grasp itself first: where the hand has no room there, the way to it need not be found.
+    at_grasp = arm.reach(grasp.tool, pilot.commanded)
+    if not at_grasp.reached:
+        return None
+    allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
+    hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
+    if hits:
+        blockers.add(hits)
+        return False
+    way = straight(grasp.tool, grasp.tool.moved(-STANDOFF * approach))
+    back, count = arm.line(way, at_grasp.joints)
+    if count < len(way):
+        return None
+    line = np.vstack([back[-2::-1], at_grasp.joints])
+    for joints in (back[-1], back[count // 2]):
+        hits = checker.hits(joints, clearance=CONTACT_CLEARANCE, allow=allow)
+        if hits:
+            blockers.add(hits)
+            return False
+    lift = _lift(pilot, name, grasp, line[-1], blockers)
+    if lift is None:
+        return False
+    return PreparedGrasp(grasp, back[-1], line, *lift)
+
+
+def _lift(
+    pilot: Pilot, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
+) -> tuple[Vector, float] | None:
+    """Joint values of the way up with the object and its length [m], or None when it would hit
+    something. From under a roof a level hand takes the object out through the front.
+    """
+    checker = pilot.checker
+    checker.set_fingers(min(grasp.width, grasp.opening))
+    approach = grasp.tool.rotation[:, 2]
+    try:
+        if abs(approach[2]) < LEVEL and _is_roofed(pilot, name):
+            raised = grasp.tool.moved(CLEAR * UP)
+            for length in OUT_LENGTHS:
+                outside = raised.moved(-length * approach)
+                out = [*straight(grasp.tool, raised), *straight(raised, outside)]
+                path = _carried(pilot, name, grasp, out, joints, blockers, thorough=True)
+                if path is not None:
+                    return path, CLEAR + length
+        up = straight(grasp.tool, grasp.tool.moved(LIFT * UP))
+        path = _carried(pilot, name, grasp, up, joints, blockers, thorough=False)
+        return None if path is None else (path, LIFT)
+    finally:
+        checker.freeze(pilot.data)
+
+
+def _is_roofed(pilot: Pilot, name: str) -> bool:
+    """Whether an object is where one gets at it through a front only."""
+    world, data = pilot.world, pilot.data
+    spaces = [surface.space for surface in world.surfaces.values() if surface.space is not None]
+    return any(
+        abs(float(data.body(space.body).xmat.reshape(3, 3)[2] @ np.array(space.opening))) < LEVEL
+        and bool(np.all(np.abs(to_region(data, space, data.body(name).xpos)) < space.half))
+        for space in (*world.regions.values(), *spaces)
+    )
+
+
+def _carried(
+    pilot: Pilot,
+    name: str,
+    grasp: Grasp,
+    poses: Sequence[Pose],
+    joints: Vector,
+    blockers: Blockers,
+    *,
+    thorough: bool,
+) -> Vector | None:
+    """Joint values along tool poses with the object in the hand; None when it would hit something.
+
+    ``thorough``: every pose is looked at and has to be reached, not only the middle and the end.
+    """
+    checker = pilot.checker
+    attached = Attached(name, grasp.tool.inverse() @ pilot.object_pose(name))
+    path, count = pilot.arm.line(poses, joints)
+    if count < (len(poses) if thorough else 2):
+        return None
+    resting = {*_supports(pilot, name)}
+    for row in path if thorough else (path[-1], path[len(path) // 2]):
+        hits = checker.hits(
+            row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
+        )
+        if hits:
+            blockers.add(hits)
+            return None
+    return path
+
+
+def _supports(pilot: Pilot, name: str) -> set[str]:
+    """Objects that touch it now, from below or the side, and so may do during the lift."""
+    world, data = pilot.world, pilot.data
+    found: set[str] = set()
+    for one, two in data.contact.geom:
+        first, second = world.geom_object[int(one)], world.geom_object[int(two)]
+        if first == name:
+            found.add(second)
+        elif second == name:
+            found.add(first)
+    return found
