@@ -27,7 +27,7 @@ from etot_cli.reporting.reconstruct_report import (
     ReconstructReport,
 )
 from etot_cli.specs.load import load_scene
-from etot_cli.world.build.imported import convex_pieces
+from etot_cli.world.build.meshes import convex_pieces
 
 __all__ = ["Options", "run_reconstruct"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"

@@ -257,6 +257,10 @@ class MjcfPart(Spec):
     """Box site spanning the free space inside the part."""
     front_site: str | None = None
     """Box site around what a gripper may push, hook or grasp; default: the part's geoms."""
+    open: Annotated[float, Field(ge=0.0, le=2.0)] | None = None
+    """How far a slide is open at the start [m]; default: closed."""
+    open_deg: Annotated[float, Field(ge=0.0, le=360.0)] | None = None
+    """How far a hinge is open at the start."""
 
 
 class Mjcf(ObjectBase):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
-from etot_cli.world.build import imported
+from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
 from etot_cli.world.build.surroundings import add_surroundings, set_options
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
@@ -90,7 +90,7 @@ def build_world(scene: specs.Scene) -> World:
     entries = {}
     for name, (entry, spec) in drafts.items():
         if isinstance(spec, specs.Mjcf):
-            parts, regions, surfaces = imported.mjcf_parts(model, spec, name)
+            parts, regions, surfaces = mjcf_parts(model, spec, name)
             size = _extents(model, name)
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         entries[name] = _with_mass(entry, model)

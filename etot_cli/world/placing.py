@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.specs.objects import Mjcf, MjcfPart
 from etot_cli.world.build.objects import resting_quaternion
-from etot_cli.world.index import ObjectEntry, Region
+from etot_cli.world.index import ObjectEntry, Part, Region
 from etot_cli.world.model import World
 from etot_cli.world.state import DESK
 
@@ -31,7 +32,7 @@ def place_objects(world: World, data: mujoco.MjData) -> None:
     for name, entry in world.entries.items():
         spec = world.scene.objects[name]
         for part in entry.parts:
-            data.joint(part.joint).qpos[0] = _initial_joint(spec, part.info.name, part.lower)
+            data.joint(part.joint).qpos[0] = _initial_joint(spec, part)
     # Out of each other's way until their turn comes.
     free = [name for name, entry in world.entries.items() if entry.free]
     for rank, name in enumerate(free):
@@ -42,18 +43,34 @@ def place_objects(world: World, data: mujoco.MjData) -> None:
     mujoco.mj_forward(model, data)
 
 
-def _initial_joint(spec: Any, part: str, default: float) -> float:
-    drawers = getattr(spec, "drawers", ())
-    for drawer in drawers:
-        if drawer.name == part:
+def _initial_joint(spec: Any, part: Part) -> float:
+    """A part's joint value at the start [m or rad].
+
+    Raises:
+        WorldError: a part of an MJCF object is to be open in a way that its joint does not allow.
+    """
+    name = part.info.name
+    for drawer in getattr(spec, "drawers", ()):
+        if drawer.name == name:
             return float(drawer.open)
     door = getattr(spec, "door", None)
-    if door is not None and door.name == part:
+    if door is not None and door.name == name:
         return float(np.radians(door.open_deg))
-    state = getattr(spec, "open", None)
-    if isinstance(state, dict) and part in state:
-        return float(state[part])
-    return default
+    given = spec.parts.get(name) if isinstance(spec, Mjcf) else None
+    return part.lower if given is None else _given_opening(given, part)
+
+
+def _given_opening(given: MjcfPart, part: Part) -> float:
+    slide = part.info.joint_type == "slide"
+    where = f"{part.info.owner}.parts.{part.info.name}"
+    if (given.open_deg if slide else given.open) is not None:
+        wanted, found = ("open", "open_deg") if slide else ("open_deg", "open")
+        raise WorldError(f"{where}.{found}: the joint is a {part.info.joint_type}; use {wanted!r}")
+    value = (given.open or 0.0) if slide else float(np.radians(given.open_deg or 0.0))
+    if value > part.info.travel + 1e-9:
+        most = f"{part.info.travel:.4g} m" if slide else f"{np.degrees(part.info.travel):.4g}°"
+        raise WorldError(f"{where}: is to be open further than its joint's range, {most}")
+    return float(part.lower + np.sign(part.upper - part.lower) * value)
 
 
 def _supports_first(world: World, names: list[str]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -10,7 +11,9 @@ import pytest
 
 from etot_cli.skills.action import Action, Keepout, Verb
 from etot_cli.world.state import CauseKind, ObjectState
-from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
+from tests.world.helpers import make_scene
+from tests.world.test_imported import DOOR, LOCKER
 
 SEEDS = range(3)
 
@@ -164,6 +167,16 @@ def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) ->
     assert state.inside == "oven" and not state.toppled
     door = after.infos["oven"].parts[0]
     assert after.openness(door) > 0.85, "the door stays as it was"
+
+
+def test_goes_into_a_cabinet_from_a_file(tmp_path: Path) -> None:
+    (tmp_path / "locker.xml").write_text(LOCKER.format(axis="0 0 1"))
+    locker = {"kind": "mjcf", "file": "locker.xml", "at": [0.56, 0.10], "yaw_deg": 180,
+              "fixed": True, "parts": {"door": DOOR["door"] | {"open_deg": 110}}}  # fmt: skip
+    scene = make_scene(tmp_path, locker=locker, mug=MUG | {"at": [0.30, -0.30]})
+    run = Episode(scene)
+    after = run.must("[PICK UP, mug] (horizontal)", "[PUT INTO, locker]")
+    assert after.states["mug"].inside == "locker"
 
 
 def test_hand_from_above_has_no_room_in_a_cabinet() -> None:

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from etot_cli.errors import WorldError
-from etot_cli.world.build import imported
+from etot_cli.world.build import meshes
 from etot_cli.world.model import World, build_world
 from tests.world.helpers import BALL, Stage, make_scene, set_up
 
@@ -79,8 +79,8 @@ def test_second_build_takes_the_pieces_from_the_cache(
 ) -> None:
     RING.export(tmp_path / "ring.stl")
     calls = []
-    decompose = imported._decompose
-    monkeypatch.setattr(imported, "_decompose", lambda *args: calls.append(1) or decompose(*args))
+    decompose = meshes._decompose
+    monkeypatch.setattr(meshes, "_decompose", lambda *args: calls.append(1) or decompose(*args))
     first = mesh_world(tmp_path, "ring.stl")
     entries = list(cache.iterdir())
     assert len(calls) == 1 and len(entries) == 1
@@ -305,3 +305,62 @@ def test_two_objects_from_one_file_do_not_clash(tmp_path: Path) -> None:
     )
     assert {"a", "b", "a.tray", "b.tray"} == set(world.parts)
     assert world.parts["a"].joint != world.parts["b"].joint
+
+
+LOCKER = """<mujoco model="locker">
+  <worldbody>
+    <body name="case">
+      <geom type="box" size="0.15 0.18 0.005" pos="0 0 0.005" friction="0.6 0.005 0.0001"/>
+      <geom type="box" size="0.15 0.18 0.005" pos="0 0 0.275" friction="0.6 0.005 0.0001"/>
+      <geom type="box" size="0.005 0.18 0.13" pos="-0.145 0 0.14"/>
+      <geom type="box" size="0.145 0.005 0.13" pos="0.005 0.175 0.14"/>
+      <geom type="box" size="0.145 0.005 0.13" pos="0.005 -0.175 0.14"/>
+      <site name="room" type="box" size="0.135 0.165 0.13" pos="0 0 0.14"/>
+      <body name="door" pos="0.156 0.18 0.14">
+        <joint name="hinge" type="hinge" axis="{axis}" range="0 114.6" damping="0.3" armature="0.02"
+               frictionloss="0.2"/>
+        <geom type="box" size="0.005 0.18 0.14" pos="0 -0.18 0" mass="0.8"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>"""
+DOOR = {"door": {"joint": "hinge", "container_site": "room"}}
+
+
+def test_door_on_an_upright_hinge_closes_a_side(tmp_path: Path) -> None:
+    turned = {"parts": DOOR, "yaw_deg": 130}
+    world = set_up(mjcf_scene(tmp_path, LOCKER.format(axis="0 0 1"), **turned)).world
+    assert world.parts["thing"].info.front
+    assert world.regions["thing"].opening == pytest.approx((1.0, 0.0, 0.0))
+    lid = set_up(mjcf_scene(tmp_path, LOCKER.format(axis="1 0 0"), **turned)).world
+    assert not lid.parts["thing"].info.front
+    assert lid.regions["thing"].opening == (0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(("opened", "share"), [({}, 0.0), ({"open_deg": 57.3}, 0.5)])
+def test_part_of_an_mjcf_object_may_stand_open(
+    tmp_path: Path, opened: dict[str, float], share: float
+) -> None:
+    parts = {"door": DOOR["door"] | opened}
+    stage = set_up(mjcf_scene(tmp_path, LOCKER.format(axis="0 0 1"), parts=parts))
+    assert stage.see("thing").openness["door"] == pytest.approx(share, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("text", "parts", "message"),
+    [
+        (LOCKER, {"door": DOOR["door"] | {"open": 0.1}}, "joint is a hinge; use"),
+        (LOCKER, {"door": DOOR["door"] | {"open_deg": 150}}, "further than its joint's range, 114"),
+        (CHEST, {"tray": PARTS["tray"] | {"open": 0.2}}, "further than its joint's range, 0.12 m"),
+    ],
+)  # fmt: skip
+def test_part_that_cannot_stand_so_is_refused(
+    tmp_path: Path, text: str, parts: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(WorldError, match=message):
+        set_up(mjcf_scene(tmp_path, text.replace("{axis}", "0 0 1"), parts=parts))
+
+
+def test_hinge_through_the_middle_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(WorldError, match="passes through the middle"):
+        set_up(mjcf_scene(tmp_path, LOCKER.format(axis="0 1 0"), parts=DOOR))

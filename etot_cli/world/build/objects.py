@@ -9,7 +9,7 @@ import mujoco
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
-from etot_cli.world.build import furniture, imported, shapes, vessels
+from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
 from etot_cli.world.build.material import ROLLING_DEFAULT, Look
 from etot_cli.world.colors import nearest_basic, rgb
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
@@ -65,11 +65,11 @@ def add_object(
         parts, regions, surfaces = furniture.add_shelf(body, spec, look, name)
         size = spec.size
     elif isinstance(spec, specs.Mesh):
-        size = tuple(imported.add_mesh(mj, body, spec, look, name, scene.directory))
+        size = tuple(meshes.add_mesh(mj, body, spec, look, name, scene.directory))
         if spec.hollow:
             regions = (vessels.hollow_region(size, name),)
     else:
-        imported.attach_mjcf(mj, body, spec, name, scene.directory)
+        mjcf.attach_mjcf(mj, body, spec, name, scene.directory)
         size = (0.1, 0.1, 0.1)
     if fixed:
         body.pos = _fixed_position(scene, name, spec, size)

@@ -1,0 +1,161 @@
+"""Parts, containers and surfaces of objects that are given as MJCF files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.errors import WorldError
+from etot_cli.specs import scene as specs
+from etot_cli.world.index import Face, Graspable, Part, Region, Surface
+from etot_cli.world.state import PartInfo
+
+UPRIGHT_HINGE = 0.7
+"""Hinges that stand at least this upright (cosine) are those of doors."""
+
+
+def mjcf_parts(
+    model: mujoco.MjModel, spec: specs.Mjcf, name: str
+) -> tuple[tuple[Part, ...], tuple[Region, ...], tuple[Surface, ...]]:
+    """Reads parts, containers and surfaces of an attached MJCF object from the compiled model."""
+    parts: list[Part] = []
+    regions: list[Region] = []
+    surfaces: list[Surface] = []
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    for part_name, part in spec.parts.items():
+        joint = model.joint(f"{name}/{part.joint}")
+        body = model.body(int(joint.bodyid[0])).name
+        kind = "slide" if joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE else "hinge"
+        lower, upper = (float(value) for value in joint.range)
+        # The opening direction is away from whichever limit is nearer to zero.
+        closed, opened = (lower, upper) if abs(lower) <= abs(upper) else (upper, lower)
+        address = name if len(spec.parts) == 1 else f"{name}.{part_name}"
+        outer, inner = _faces(model, name, part, joint, body)
+        opening = _side_opening(data, name, part, joint, body, outer)
+        info = PartInfo(
+            name, part_name, address, kind, abs(opened - closed),
+            part.container_site is not None, front=opening is not None,
+        )  # fmt: skip
+        grasps = _grasps(model, f"{name}/{part.front_site}", outer) if part.front_site else ()
+        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, grasps))
+        if part.container_site:
+            region = _region(model, f"{name}/{part.container_site}", address)
+            regions.append(region if opening is None else replace(region, opening=opening))
+    if spec.container_site:
+        regions.append(_region(model, f"{name}/{spec.container_site}", name))
+    if spec.surface_site:
+        site = model.site(f"{name}/{spec.surface_site}")
+        center = tuple(site.pos + np.array([0, 0, site.size[2]]))
+        surfaces.append(
+            Surface(name, model.body(int(site.bodyid[0])).name, center,
+                    (float(site.size[0]), float(site.size[1])))
+        )  # fmt: skip
+    return tuple(parts), tuple(regions), tuple(surfaces)
+
+
+def _side_opening(
+    data: mujoco.MjData, name: str, part: specs.MjcfPart, joint: Any, body: str, outer: Face
+) -> tuple[float, float, float] | None:
+    """Where a container behind a door is open to, in its own frame; None where it is from above.
+
+    A door on an upright hinge closes a side, one on a level hinge is a lid. Poses are those of the
+    model's own, closed state.
+    """
+    if part.container_site is None or int(joint.type[0]) != mujoco.mjtJoint.mjJNT_HINGE:
+        return None
+    door = data.body(body).xmat.reshape(3, 3)
+    if abs(float((door @ np.array(joint.axis))[2])) < UPRIGHT_HINGE:
+        return None
+    site = data.model.site(f"{name}/{part.container_site}")
+    holder = data.body(int(site.bodyid[0])).xmat.reshape(3, 3)
+    return _triple(np.round(holder.T @ door @ np.array(outer.normal), 9))
+
+
+def _region(model: mujoco.MjModel, site_name: str, address: str) -> Region:
+    site = model.site(site_name)
+    is_round = int(site.type[0]) == mujoco.mjtGeom.mjGEOM_CYLINDER
+    x, y, z = (float(value) for value in site.size)
+    half = (x, x, y) if is_round else (x, y, z)
+    body = model.body(int(site.bodyid[0])).name
+    return Region(address, body, tuple(site.pos), half, is_round)
+
+
+def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspable, ...]:
+    """Ways to close the gripper on a part's ``front_site``, the thinnest side first.
+
+    Along the face the hand comes from the front; across it, from any side. Whether the fingers
+    find room behind it is for the collision checks to say.
+    """
+    site = model.site(site_name)
+    center, half = np.array(site.pos), np.array(site.size)
+    normal = np.array(outer.normal)
+    grasps = []
+    for index in np.argsort(half, kind="stable"):
+        closing = np.eye(3)[index]
+        if abs(closing @ normal) > 0.5:
+            others = [i for i in range(3) if i != index]
+            approaches = [-sign * np.eye(3)[i] for i in reversed(others) for sign in (1.0, -1.0)]
+        else:
+            approaches = [-normal]
+        along = np.cross(closing, approaches[0])
+        grasps.append(
+            Graspable(
+                _triple(center), _triple(closing), _triple(along),
+                float(np.abs(along) @ half), float(2 * half[index]),
+                tuple(_triple(item) for item in approaches),
+            )
+        )  # fmt: skip
+    return tuple(grasps)
+
+
+def _triple(values: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _faces(
+    model: mujoco.MjModel, name: str, part: specs.MjcfPart, joint: Any, body: str
+) -> tuple[Face, Face]:
+    """Front and back faces of a part: of its ``front_site``, else of its outermost box of geoms."""
+    axis = np.array(joint.axis)
+    if part.front_site:
+        site = model.site(f"{name}/{part.front_site}")
+        center, half = np.array(site.pos), np.array(site.size)
+    else:
+        boxes = [
+            (np.array(model.geom(i).pos), model.geom_aabb[i])
+            for i in range(model.ngeom)
+            if model.body(int(model.geom_bodyid[i])).name == body
+        ]
+        low = np.min([pos + box[:3] - box[3:] for pos, box in boxes], axis=0)
+        high = np.max([pos + box[:3] + box[3:] for pos, box in boxes], axis=0)
+        center, half = (low + high) / 2, (high - low) / 2
+    if int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
+        normal = axis * np.sign(joint.range[1] + joint.range[0] or 1.0)
+    else:
+        lever = center - np.array(joint.pos)
+        normal = np.cross(axis, lever - axis * (axis @ lever))
+        if np.linalg.norm(normal) < 1e-6:
+            raise WorldError(
+                f"{name}: the hinge {part.joint!r} passes through the middle of what it moves, so "
+                "which way that opens is not known; give the part a 'front_site' beside the hinge"
+            )
+        normal *= np.sign(joint.range[1] + joint.range[0] or 1.0) / np.linalg.norm(normal)
+    k = int(np.argmax(np.abs(normal)))
+    u, v = (np.eye(3)[i] * half[i] for i in range(3) if i != k)
+    direction = np.eye(3)[k] * np.sign(normal[k])
+    outer = center + direction * half[k]
+    if not part.front_site and int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
+        # Without a marked front only pushing from outside is known.
+        inner = outer - direction * 2 * half[k]
+    else:
+        inner = center - direction * half[k]
+    return (
+        Face(tuple(outer), tuple(direction), tuple(u), tuple(v)),
+        Face(tuple(inner), tuple(-direction), tuple(u), tuple(v)),
+    )
