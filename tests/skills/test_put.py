@@ -171,9 +171,9 @@ def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) ->
 
 def test_goes_into_a_cabinet_from_a_file(tmp_path: Path) -> None:
     (tmp_path / "locker.xml").write_text(LOCKER.format(axis="0 0 1"))
-    locker = {"kind": "mjcf", "file": "locker.xml", "at": [0.56, 0.10], "yaw_deg": 180,
+    locker = {"kind": "mjcf", "file": "locker.xml", "at": [0.40, 0.42], "yaw_deg": -90,
               "fixed": True, "parts": {"door": DOOR["door"] | {"open_deg": 110}}}  # fmt: skip
-    scene = make_scene(tmp_path, locker=locker, mug=MUG | {"at": [0.30, -0.30]})
+    scene = make_scene(tmp_path, locker=locker, mug=MUG)
     run = Episode(scene)
     after = run.must("[PICK UP, mug] (horizontal)", "[PUT INTO, locker]")
     assert after.states["mug"].inside == "locker"
