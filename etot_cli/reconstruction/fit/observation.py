@@ -27,6 +27,8 @@ HIDING = 0.2
 """Of the border with something in front, the share from which it may hide a part."""
 SEAM = 4
 """Masks of things that touch may be this far apart [px]."""
+LOST = 9
+"""Readings that are lost at an edge are replaced by others up to this far away [px]."""
 FREE_RING = 25
 """How far around a mask free space is sampled [px]."""
 
@@ -169,12 +171,17 @@ def convex_hull_mask(mask: Mask) -> Mask:
 
 
 def _spread(nearness: Array, mask: Mask, kernel: object) -> Array:
-    """Depth of a mask's pixels, carried a few pixels beyond its edge; inf elsewhere."""
-    masked = np.where(mask & np.isfinite(nearness), nearness, 0.0).astype(np.float32)
-    weight = (masked > 0).astype(np.float32)
-    total = cv2.filter2D(masked, -1, np.asarray(kernel, np.float32))
-    count = cv2.filter2D(weight, -1, np.asarray(kernel, np.float32))
+    """Depth of a mask's pixels, carried a few pixels beyond its edge; inf elsewhere.
+
+    It is carried farther across readings that are lost, as they are on both sides of an edge.
+    """
+    read = np.isfinite(nearness)
+    masked = np.where(mask & read, nearness, 0.0).astype(np.float32)
+    far = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * LOST + 1,) * 2)
     spread = np.full(mask.shape, np.inf)
-    known = count > 0.5
-    spread[known] = total[known] / count[known]
+    for reach, allowed in ((far, ~read), (kernel, True)):
+        total = cv2.filter2D(masked, -1, np.asarray(reach, np.float32))
+        count = cv2.filter2D((masked > 0).astype(np.float32), -1, np.asarray(reach, np.float32))
+        known = (count > 0.5) & allowed
+        spread[known] = total[known] / count[known]
     return spread

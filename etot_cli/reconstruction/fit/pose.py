@@ -20,8 +20,8 @@ MOST_STARTS = 4
 """A shape is fitted from at most so many first guesses."""
 FINE = (700, 700)
 """Edge and surface points of the final fit."""
-GOOD_SCORE = 2.0
-"""With a score below this no more involved shapes are tried."""
+GOOD_MISFIT = 0.4
+"""With a misfit below this no more involved shapes are tried."""
 INVOLVED = 0.5
 """An involved shape replaces a simple one when it leaves less than this share of its misfit."""
 SIMPLICITY = 0.12
@@ -205,7 +205,7 @@ def best_fit(
     fits: list[Fit] = []
     for tier in families:
         plain = min(fits, key=lambda fit: fit.score, default=None)
-        if plain is not None and plain.score < GOOD_SCORE:
+        if plain is not None and plain.misfit < GOOD_MISFIT:
             break
         for family in tier:
             options = []

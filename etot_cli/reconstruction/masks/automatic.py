@@ -19,6 +19,7 @@ from etot_cli.reconstruction.masks.foreground import (
     LEAST_HEIGHT,
     LEAST_PIXELS,
     NOISY_HEIGHT,
+    hides_its_foot,
     is_thing,
     raised_pixels,
     with_feet,
@@ -88,7 +89,7 @@ def _stands(seen: Calibrated, piece: Mask, pieces: list[Mask]) -> bool:
     heights = heights[np.isfinite(heights)]
     # Of a chest seen from above its open drawer, only a corner of the foot may be in sight.
     low = int((heights < HOVERING).sum())
-    if low > 0.02 * len(heights) or low >= LEAST_PIXELS:
+    if low > 0.02 * len(heights) or low >= LEAST_PIXELS or hides_its_foot(seen, piece):
         return True
     grown = cv2.dilate(piece.astype(np.uint8), np.ones((2 * TEAR + 1,) * 2, np.uint8)) > 0
     return any((grown & other).any() for other in pieces if other is not piece)

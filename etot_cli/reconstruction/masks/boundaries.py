@@ -7,6 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
@@ -21,6 +22,10 @@ EXACT = 0.0015
 """With a smaller residual of the desk plane depth is believed against colour [m]."""
 FLAT = 0.003
 """Heights that are the desk's [m]."""
+UNLIKE = 14.0
+"""A colour this far from all of an object's is not its own."""
+SAMPLES = 400
+"""So many pixels show the colours of an object."""
 MARGIN = 40
 ROUNDS = 4
 REFINEMENTS = 2
@@ -52,7 +57,7 @@ def refine_masks(
             own = np.median(color[mask][:, :2], axis=0)
             apart = bool(np.linalg.norm(own - desk) > COLOURFUL)
             others = [other for i, other in enumerate(result) if i != index]
-            result[index] = _refine(seen, mask, others, shade, apart=apart)
+            result[index] = _refine(seen, mask, others, color, shade, apart=apart)
             settled[index] = bool((result[index] ^ mask).sum() < SETTLED * mask.sum())
         taken = np.zeros(seen.depth.shape, dtype=bool)
         for index in small_first:
@@ -61,7 +66,10 @@ def refine_masks(
     return result
 
 
-def _refine(seen: Calibrated, mask: Mask, others: list[Mask], shade: Mask, *, apart: bool) -> Mask:
+def _refine(
+    seen: Calibrated, mask: Mask, others: list[Mask], color: NDArray[np.float32], shade: Mask,
+    *, apart: bool,
+) -> Mask:  # fmt: skip
     rows, columns = np.nonzero(mask)
     height, width = mask.shape
     y0, y1 = max(rows.min() - MARGIN, 0), min(rows.max() + MARGIN + 1, height)
@@ -82,6 +90,9 @@ def _refine(seen: Calibrated, mask: Mask, others: list[Mask], shade: Mask, *, ap
     trimap[reach > 0] = cv2.GC_PR_BGD
     trimap[(filled > 0) & (reach > 0)] = cv2.GC_PR_FGD
     trimap[(foreign > 0) & (core == 0)] = cv2.GC_BGD
+    # A strip of what is behind must not teach the object its colour.
+    strip = _of_others(color[window], (reach > 0) & (core == 0), core > 0, foreign > 0)
+    trimap[strip] = cv2.GC_BGD
     if seen.noise < EXACT:
         # Where depth says desk, also in a shadow of the object's own grey, there is desk.
         with np.errstate(invalid="ignore"):
@@ -110,4 +121,18 @@ def _refine(seen: Calibrated, mask: Mask, others: list[Mask], shade: Mask, *, ap
         return mask
     result = np.zeros_like(mask)
     result[window] = found
+    return result
+
+
+def _of_others(color: NDArray[np.float32], doubtful: Mask, own: Mask, foreign: Mask) -> Mask:
+    """Doubtful pixels (h, w) whose colour is one of the foreign pixels and none of the own ones."""
+    result = np.zeros_like(doubtful)
+    if not (doubtful.any() and own.any() and foreign.any()):
+        return result
+    asked = color[doubtful]
+    from_own, from_foreign = (
+        cKDTree(color[known][:: max(1, int(known.sum()) // SAMPLES)]).query(asked)[0]
+        for known in (own, foreign)
+    )
+    result[doubtful] = (from_own > UNLIKE) & (from_foreign < from_own / 2)
     return result

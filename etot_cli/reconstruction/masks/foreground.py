@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.masks.labels import label_components, opened
 
 LEAST_HEIGHT = 0.001
@@ -32,7 +32,10 @@ FOREIGN = 20.0
 """Colours this far from the desk's are no desk."""
 FEET = 45
 """An object's lower part may be hidden from depth up to this far below the rest [px]."""
+COVERED = 0.6
+"""What stands on the desk with its foot out of sight hides so much of its own footprint."""
 _CELLS = 400
+_PROBES = 2000
 
 
 def raised_pixels(seen: Calibrated, threshold: float, *, noisy: bool) -> tuple[Mask, Mask]:
@@ -44,18 +47,9 @@ def raised_pixels(seen: Calibrated, threshold: float, *, noisy: bool) -> tuple[M
         noisy: whether depth has lost readings.
     """
     cloud = seen.cloud
-    hull = (seen.outline * 1000).astype(np.float32).reshape(-1, 1, 2)
-    grid: Any = np.zeros((_CELLS, _CELLS), np.uint8)
-    low, high = seen.outline.min(axis=0) - 0.1, seen.outline.max(axis=0) + 0.1
-    cell = (high - low) / (_CELLS - 1)
-    corners = ((hull[:, 0] / 1000 - low) / cell).round().astype(np.int32)
-    cv2.fillConvexPoly(grid, cv2.convexHull(corners), 1)
-    reach = max(1, round(BEYOND / float(cell.min())))
-    grid = cv2.dilate(grid, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
     known = np.isfinite(cloud[..., 2])
-    index = np.zeros((*known.shape, 2), np.int64)
-    index[known] = np.clip((cloud[known][:, :2] - low) / cell, 0, _CELLS - 1).astype(np.int64)
-    above_desk = grid[index[..., 1], index[..., 0]] > 0
+    above_desk = np.zeros(known.shape, dtype=bool)
+    above_desk[known] = _over_desk(seen, cloud[known][:, :2])
     away = np.hypot(cloud[..., 0], cloud[..., 1]) > ROBOT_RADIUS
     found = known & away & (seen.height > threshold) & (seen.height < TALLEST)
     if noisy:
@@ -68,6 +62,20 @@ def raised_pixels(seen: Calibrated, threshold: float, *, noisy: bool) -> tuple[M
     return np.asarray(found), known & above_desk
 
 
+def _over_desk(seen: Calibrated, places: Array) -> Mask:
+    """Which of the places (n, 2) [m] lie over the desk's visible part or a little beside it."""
+    grid: Any = np.zeros((_CELLS, _CELLS), np.uint8)
+    low, high = seen.outline.min(axis=0) - 0.1, seen.outline.max(axis=0) + 0.1
+    cell = (high - low) / (_CELLS - 1)
+    corners = ((seen.outline - low) / cell).round().astype(np.int32)
+    cv2.fillConvexPoly(grid, cv2.convexHull(corners), 1)
+    reach = max(1, round(BEYOND / float(cell.min())))
+    grid = cv2.dilate(grid, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
+    # Far away is clipped to the grid's border, which is free.
+    index = np.clip((places - low) / cell, 0, _CELLS - 1).astype(np.int64)
+    return np.asarray(grid[index[:, 1], index[:, 0]] > 0)
+
+
 def with_feet(
     raised: Mask, above_desk: Mask, seen: Calibrated, color: NDArray[np.float32], shade: Mask
 ) -> Mask:
@@ -77,7 +85,11 @@ def with_feet(
     other = np.linalg.norm(color - desk, axis=2) > max(FOREIGN, 1.5 * float(spread))
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FEET + 1,) * 2)
     near = cv2.dilate((raised & above_desk).astype(np.uint8), kernel) > 0
-    known = above_desk | ~np.isfinite(seen.height)
+    # A foot is as low as the desk: beyond the desk's edge a lost reading is the floor's.
+    v, u = np.nonzero(~np.isfinite(seen.height))
+    places = seen.view.on_plane(np.column_stack([u, v]).astype(np.float64), seen.desk_top)[:, :2]
+    known = above_desk.copy()
+    known[v, u] = np.isfinite(places[:, 0]) & _over_desk(seen, np.nan_to_num(places, nan=1e6))
     extra = opened(other & near & known & ~raised & ~shade, 3)
     labels = label_components(extra, 20)
     grown = cv2.dilate(raised.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
@@ -100,3 +112,20 @@ def is_thing(seen: Calibrated, mask: Mask) -> bool:
     )  # fmt: skip
     least = 3 * LEAST_TALL if at_border else LEAST_TALL
     return 2 * inscribed >= THINNEST and tall > least
+
+
+def hides_its_foot(seen: Calibrated, mask: Mask) -> bool:
+    """Whether a thing may stand on the desk although nothing of it is seen down there.
+
+    Seen from above, an open drawer is in front of the foot. What hangs in the air shows the desk
+    where its own points come to lie when they are let down.
+    """
+    v, u = np.nonzero(mask & np.isfinite(seen.height))
+    step = max(1, len(v) // _PROBES)
+    points = seen.cloud[v[::step], u[::step]]
+    points[:, 2] = seen.desk_top
+    column, row = np.round(seen.view.project(points)).astype(np.int64).T
+    inside = (column >= 0) & (column < seen.view.width) & (row >= 0) & (row < seen.view.height)
+    if not inside.any():
+        return False
+    return bool(mask[row[inside], column[inside]].mean() > COVERED)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +45,8 @@ def join_fragments(
             for first in range(second):
                 if source[first] == source[second]:
                     continue
-                if _one_thing(pieces[first], pieces[second], color):
+                others = [p for k, p in enumerate(pieces) if k not in (first, second)]
+                if _one_thing(pieces[first], pieces[second], color, others):
                     taken = np.any([p for p in pieces if p is not pieces[first]], axis=0)
                     union = pieces[first] | pieces[second]
                     pieces[first] = union | (_bridged(union) & ~taken)
@@ -94,7 +97,10 @@ def _disc(radius: int) -> NDArray[np.uint8]:
     return np.asarray(kernel, np.uint8)
 
 
-def _one_thing(large: Mask, small: Mask, color: NDArray[np.float32]) -> bool:
+def _one_thing(
+    large: Mask, small: Mask, color: NDArray[np.float32], others: Sequence[Mask] = ()
+) -> bool:
+    """Whether two masks are of one thing; ``others`` may stand in front of the gap between."""
     near = cv2.dilate(small.astype(np.uint8), _disc(TEAR)) > 0
     beside = near & large
     if not beside.any():
@@ -118,7 +124,15 @@ def _one_thing(large: Mask, small: Mask, color: NDArray[np.float32]) -> bool:
     if apart > ROUND and together < apart:
         return False
     alike = np.linalg.norm(color[between] - tone, axis=1) < ONE_COLOR
-    return bool(alike.mean() > 0.6)
+    # What has the colour of something else that borders on the gap only hides what is there.
+    hidden = np.zeros(len(alike), dtype=bool)
+    rim = cv2.dilate(between.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    for other in others:
+        if (other & rim).any():
+            tint = np.median(color[other], axis=0)
+            hidden |= np.linalg.norm(color[between] - tint, axis=1) < ONE_COLOR
+    seen = alike[alike | ~hidden]
+    return bool(len(seen) and seen.mean() > 0.6)
 
 
 def _compact(mask: Mask) -> float:

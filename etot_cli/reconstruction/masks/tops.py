@@ -9,7 +9,12 @@ from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import Surfaces
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.masks.fragments import ONE_COLOR, join_fragments
-from etot_cli.reconstruction.masks.labels import grow_labels, label_components, opened
+from etot_cli.reconstruction.masks.labels import (
+    grow_labels,
+    label_components,
+    nearest_label,
+    opened,
+)
 
 TALLEST = 0.6
 """No top is higher above the desk [m]."""
@@ -102,7 +107,14 @@ def _falls_away(seen: Calibrated, top: Mask, height: float) -> bool:
     kernel = np.ones((7, 7), np.uint8)
     filled = cv2.morphologyEx(top.astype(np.uint8), cv2.MORPH_CLOSE, kernel)
     ring = (cv2.dilate(filled, np.ones((RING, RING), np.uint8)) > 0) & (filled == 0)
-    with np.errstate(invalid="ignore"):
-        lower = ring & (seen.height < height - LOWER)
-        higher = ring & (seen.height > height + LOWER)
+    # Readings are lost where it falls away most: the nearest one beyond stands for them.
+    known = np.isfinite(seen.height)
+    beyond = np.nonzero(known & (filled == 0) & ~top)
+    numbers = np.zeros(top.shape, np.int32)
+    numbers[beyond] = np.arange(1, len(beyond[0]) + 1)
+    nearest = nearest_label(numbers)[ring & ~known]
+    around = np.concatenate(
+        [seen.height[ring & known], seen.height[beyond][nearest[nearest > 0] - 1]]
+    )
+    lower, higher = around < height - LOWER, around > height + LOWER
     return bool(lower.sum() > FALLS_AWAY * max(int((lower | higher).sum()), 1))

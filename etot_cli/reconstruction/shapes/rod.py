@@ -20,6 +20,8 @@ from etot_cli.reconstruction.shapes.base import (
 SLENDER = 2.2
 """Longer than this many times its diameter a thing may be a rod."""
 
+BLUNTEST = 0.7
+"""A point is at least this long, in diameters; what is shorter is an end like others."""
 BLUNT = 0.001
 """No point is sharper than this radius [m]."""
 
@@ -93,7 +95,7 @@ class Pen(Capsule):
 
     kind: ClassVar[str] = "pen"
     names: ClassVar[tuple[str, ...]] = (*Capsule.names, "tip")
-    complexity: ClassVar[float] = 6.5
+    complexity: ClassVar[float] = 6.1
 
     def _directed(self, guess: Array) -> list[Array]:
         tip = min(1.2 * guess[5], 0.3 * guess[4])
@@ -104,7 +106,7 @@ class Pen(Capsule):
     def bounds(self, start: Array) -> tuple[Array, Array]:
         """Lowest and highest parameters."""
         low, high = super().bounds(start)
-        high[6] = 0.5 * start[4]
+        low[6], high[6] = BLUNTEST * start[5], 0.5 * start[4]
         return low, high
 
     def hulls(self, params: Array, view: View) -> list[Array]:
