@@ -28,7 +28,7 @@ import numpy as np
 from etot_cli.commands.reconstruct import run_reconstruct
 from etot_cli.reconstruction.capture.folder import read_masks
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
-from etot_cli.specs.load import load_scene
+from etot_cli.specs.load import load_task
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
 from tests.measure.markdown import replace_section, table
@@ -113,10 +113,8 @@ def _size_and_yaw(size: Any, yaw: float, true: dict[str, Any]) -> tuple[float, f
 
 
 def shipped() -> dict[str, Scene]:
-    """The scenes that come with the project."""
-    paths = sorted((ROOT / "scenes").glob("*.yaml"))
-    found = {path.stem: load_scene(path) for path in paths}
-    return {name: scene for name, scene in found.items() if scene.objects}
+    """The scenes of the shipped tasks, with what a task changes of its scene file."""
+    return {path.stem: load_task(path).scene for path in sorted((ROOT / "tasks").glob("*.yaml"))}
 
 
 def render(scene: Scene, folder: Path, *, noisy: bool, seed: int = 0) -> None:

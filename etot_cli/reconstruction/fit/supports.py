@@ -36,6 +36,8 @@ CLASH = 2.0
 """Added to the score of a shape that goes through another object, or stands on thin air."""
 CONVINCING = 0.9
 """Pixels are only taken out of a mask for a shape that explains so much of the others."""
+SAME_SHARE = 0.03
+"""Shares explained that differ by less than this say nothing about which shape is right."""
 OVERHANG = 0.008
 """A thing's middle lies at most this far beyond the edge of what carries it [m]."""
 
@@ -74,7 +76,38 @@ def fit_all(
         solid = _fit_one(seen, segment, segments, done, rng, hints.get(segment.name))
         if solid is not None:
             done.append(solid)
+            done = _reopened(seen, segments, done, rng, hints)
     return settle_on_rim(seen, done)
+
+
+def _reopened(
+    seen: Calibrated,
+    segments: list[Segment],
+    done: list[Solid],
+    rng: np.random.Generator,
+    hints: dict[str, str],
+) -> list[Solid]:
+    """The solids, with a cylinder made a cup where what was fitted last rests better in its mouth.
+
+    A cup whose mouth is covered looks like a solid cylinder; only what covers it tells them apart.
+    """
+    last = done[-1]
+    below = next((solid for solid in done if solid.name == last.support), None)
+    if below is None or below.kind != "cylinder":
+        return done
+    if hints.get(below.name):
+        return done
+    others = [solid for solid in done if solid is not below and solid is not last]
+    cup = _fit_one(seen, below.segment, segments, others, rng, "cup")
+    if cup is None or cup.fit.explained < below.fit.explained - SAME_SHARE:
+        return done
+    open_below = [cup if solid is below else solid for solid in done[:-1]]
+    again = _fit_one(seen, last.segment, segments, open_below, rng, hints.get(last.name))
+    if again is None or again.relation != "rim":
+        return done
+    settled = settle_on_rim(seen, [*open_below, again])
+    better = settled[-1].fit.explained > last.fit.explained
+    return [*open_below, again] if better else done
 
 
 def _lowest(seen: Calibrated, segment: Segment) -> float:
