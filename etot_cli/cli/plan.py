@@ -28,9 +28,9 @@ from etot_cli.cli.options import (
 )
 from etot_cli.cli.session import Session
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
+from etot_cli.specs.bounds import MAX_WORLDS
 
 MAX_JOBS = 256
-MAX_WORLDS = 1000
 MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
 
 
@@ -92,15 +92,16 @@ def plan(
         ),
     ] = None,
     worlds: Annotated[
-        int,
+        int | None,
         typer.Option(
             "--worlds",
             min=1,
             max=MAX_WORLDS,
             metavar="N",
-            help="Varied worlds that each action is tried in; the plan that holds in more wins.",
+            help="Varied worlds that each action is tried in; the plan that holds in more wins. "
+            "[default: as the task says, else 1]",
         ),
-    ] = 1,
+    ] = None,
     vlm_url: VlmUrl = None,
     model: VlmModelName = None,
     judge: Annotated[

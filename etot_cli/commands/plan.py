@@ -46,7 +46,8 @@ class PlanOptions:
     reasoner: str = "builtin"
     vary: bool = False
     jobs: int = 1
-    worlds: int = 1
+    worlds: int | None = None
+    """As the task says when None."""
     without: frozenset[Ablation] = frozenset()
     limits: Limits = field(default_factory=Limits)
     vlm: Mapping[str, Any] = field(default_factory=dict)
@@ -90,7 +91,7 @@ def run_plan(
                 scene,
                 seed=options.seed,
                 jobs=options.jobs,
-                worlds=options.worlds,
+                worlds=options.worlds or task.worlds,
                 record=session is not None and session.needs_trajectories,
             )
         with closing(simulator), watch.phase("search"):
@@ -143,7 +144,7 @@ def _report(
             reasoner=options.reasoner,
             vary=options.vary,
             jobs=options.jobs,
-            worlds=options.worlds,
+            worlds=options.worlds or (task.worlds if task else 1),
             without=[ablation.value for ablation in Ablation if ablation in options.without],
             max_nodes=options.limits.max_nodes,
             time_limit_s=options.limits.time_limit_s,

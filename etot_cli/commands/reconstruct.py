@@ -16,6 +16,7 @@ from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct, settle_
 from etot_cli.reconstruction.twin import assembly
 from etot_cli.reconstruction.twin.exports import export_twin, free_form_mesh
 from etot_cli.reconstruction.twin.overlay import draw_overlay
+from etot_cli.reconstruction.twin.physics import WORLDS
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.reconstruct_report import (
@@ -171,10 +172,14 @@ def _task_text(twin: Twin, instruction: str) -> str:
     document = {
         "instruction": instruction,
         "scene": SCENE,
+        "worlds": WORLDS,
         "success": [
             {"present": name} for name, entry in twin.document["objects"].items()
             if entry["kind"] not in assembly.FURNITURE
         ] or [{"present": next(iter(twin.document["objects"]))}],
     }  # fmt: skip
-    head = "# Made by etot reconstruct. 'success' only says that nothing may be lost: add yours.\n"
+    head = (
+        "# Made by etot reconstruct. 'success' only says that nothing may be lost: add yours.\n"
+        f"# Masses and friction are guesses: plans are tried in {WORLDS} worlds that vary them.\n"
+    )
     return head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True)

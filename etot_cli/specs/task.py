@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from etot_cli.specs.base import Name, Spec, Title
+from etot_cli.specs.bounds import MAX_WORLDS
 from etot_cli.specs.quantity import Coordinate, Meaning
 from etot_cli.specs.scene import Scene
 
@@ -87,6 +88,8 @@ class Task(Spec):
     success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
     goal: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     disturbance: Disturbance | None = None
+    worlds: Annotated[int, Field(ge=1, le=MAX_WORLDS)] = 1
+    """In how many varied worlds ``plan`` tries every action, unless told otherwise."""
     file: str = ""
     """The task file as the user named it; set by the loader, refused in YAML."""
 

@@ -27,7 +27,7 @@ BELOW: dict[str, set[str]] = {
         "reporting",
         "reconstruction",
     },
-    "cli": {"planning", "reasoning", "reporting", "commands"},
+    "cli": {"specs", "planning", "reasoning", "reporting", "commands"},
 }
 """Rooms that each room may import besides itself and ``errors``. Rooms still to come may stand on
 everything."""

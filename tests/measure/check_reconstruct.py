@@ -273,15 +273,17 @@ def _planar_residuals(got: Any, want: Any) -> Any:
     return np.linalg.norm(a @ (left @ flip @ right) - b, axis=1)
 
 
-def plan_row(auto: bool, work: Path) -> Row:
+def plan_row(auto: bool, work: Path, material: str | None = None) -> Row:
     """The real capture through ``etot reconstruct`` and ``etot plan``."""
     case = f"real capture → plan, {'automatic' if auto else 'given'} masks"
+    case += f", pen of {material}" if material else ""
     demand = "feasible, the apple moved away first"
     if not REAL.is_dir():
         return Row(case, demand, "not at hand", True)
-    out = work / f"twin-{auto}"
+    out = work / f"twin-{auto}-{material}"
     words = "Reorient the pen and place it into a holder."
-    run_reconstruct(Options(capture=REAL, auto=auto, instruction=words), out)
+    materials = {"pen": material} if material else {}
+    run_reconstruct(Options(capture=REAL, auto=auto, instruction=words, materials=materials), out)
     command = [sys.executable, "-m", "etot_cli.cli.app"]
     plan = subprocess.run(
         [*command, "plan", str(out / "task.yaml"), "--out", str(out / "plan"), "--json"],
@@ -296,6 +298,8 @@ def plan_row(auto: bool, work: Path) -> Row:
         return Row(case, demand, f"plan: {text}", False, [text])
     actions = report["plan"]
     text = f"{report['status']}: {' '.join(actions)}"
+    if report["survival"]:
+        text += f"; holds in {report['survival']['alive']} of {report['survival']['worlds']} worlds"
     first = bool(actions) and "pen" not in next((a for a in actions if "PICK UP" in a), "pen")
     met = report["status"] == "feasible" and first
     return Row(case, demand, text, met, [] if met else [text])
@@ -403,7 +407,12 @@ def measure(work: Path, only: str | None) -> list[Row]:
     cases.append(("articulation", lambda: [articulation_row(work)]))
     cases.append(("real", real_rows))
     cases.append(("process", lambda: process_rows(work)))
-    cases += [(f"plan {auto}", lambda a=auto: [plan_row(a, work)]) for auto in (False, True)]
+    # What a pen weighs is a guess: the plan must not hang on it.
+    cases += [
+        (f"plan {auto} {material}", lambda a=auto, m=material: [plan_row(a, work, m)])
+        for auto in (False, True)
+        for material in (None, "wood", "plastic")
+    ]
     for name, run in cases:
         if only and only not in name:
             continue

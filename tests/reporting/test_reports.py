@@ -81,6 +81,14 @@ def test_plan_report_of_a_search_with_everything_in_it() -> None:
     assert set(document["timing"]["phases"]) == {"load", "world", "search"}  # type: ignore[index]
 
 
+@pytest.mark.parametrize(("asked", "opened"), [(None, 3), (2, 2)])
+def test_worlds_are_the_tasks_unless_asked_for(asked: int | None, opened: int) -> None:
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), worlds=3)
+    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=asked), rooms=rooms.rooms())
+    assert rooms.worlds == opened
+    assert report.options.worlds == opened
+
+
 def test_infeasible_and_limit_reports() -> None:
     infeasible = validate(planned(ToySimulator(fails("a")), ToyReasoner(["a"])))
     assert (infeasible["status"], infeasible["plan"]) == ("infeasible", [])

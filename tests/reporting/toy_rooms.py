@@ -24,6 +24,7 @@ class ToyRooms:
         simulator: handed out by ``open_simulator``.
         reasoner: handed out as ``builtin``.
         success: the task's conditions.
+        worlds: what the task says about varied worlds.
         interrupt_in: ``load``, ``open`` or ``search``: where Ctrl-C is pressed.
     """
 
@@ -33,14 +34,17 @@ class ToyRooms:
         reasoner: ToyReasoner,
         *,
         success: tuple[Condition, ...] = SUCCESS,
+        worlds: int = 1,
         interrupt_in: str = "",
     ) -> None:
         self.simulator = simulator
         self._reasoner = reasoner
         self._success = success
+        self._task_worlds = worlds
         self._interrupt_in = interrupt_in
         self.varied_with: int | None = None
         self.recorded: bool | None = None
+        self.worlds: int | None = None
 
     def rooms(self) -> Rooms:
         return Rooms(
@@ -56,7 +60,11 @@ class ToyRooms:
         if path.name == "missing.yaml":
             raise SpecError("no such file", file=str(path))
         return Task(
-            name="toy", instruction="Leave the cup alone.", scene=Scene(), success=self._success
+            name="toy",
+            instruction="Leave the cup alone.",
+            scene=Scene(),
+            success=self._success,
+            worlds=self._task_worlds,
         )
 
     def _vary(self, scene: Scene, seed: int) -> Scene:
@@ -65,7 +73,7 @@ class ToyRooms:
 
     def _open(self, scene: Scene, *, seed: int, jobs: int, worlds: int, record: bool) -> Simulator:
         self._interrupt("open")
-        self.recorded = record
+        self.recorded, self.worlds = record, worlds
         if self._interrupt_in == "search":
             return _Interrupting(self.simulator)
         return self.simulator

@@ -297,6 +297,10 @@ success:
             TASK + "  - upright: cup\ndisturbance: {when: now, inside: cup}",
             "disturbance.when: found 'now', expected committed or after_action",
         ),
+        (
+            TASK + "  - upright: cup\nworlds: 0",
+            "task.yaml:8: worlds: found 0, expected a whole number of at least 1",
+        ),
         ("scene: 5\ninstruction: x\nsuccess: []", "task.yaml:1: scene: expected a scene: the name"),
     ],
 )

@@ -14,7 +14,7 @@ from etot_cli.errors import EtotError
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import DESK, Solid
-from etot_cli.reconstruction.twin.physics import guess
+from etot_cli.reconstruction.twin.physics import FRICTION_DOUBT, MASS_DOUBT, guess
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects
@@ -68,6 +68,7 @@ def scene_document(
         "description": "Reconstructed from one RGB-D frame; masses and frictions are guesses.",
         "desk": _desk(seen, solids),
         "cameras": {"capture": camera},
+        "variation": {"mass": MASS_DOUBT, "friction": FRICTION_DOUBT},
         "objects": {
             solid.name: _object(seen, solid, by_name, materials.get(solid.name)) for solid in solids
         },

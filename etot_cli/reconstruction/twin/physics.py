@@ -41,6 +41,13 @@ DEFAULTS = {
     "pen": "pencil", "capsule": "wood", "mesh": "hollow", "drawer_unit": "plastic",
     "cabinet": "plastic",
 }  # fmt: skip
+MASS_DOUBT = 0.4
+"""Relative; wood alone reaches from 400 to 750 kg/m³, and walls and fillings are not seen."""
+FRICTION_DOUBT = 0.3
+"""Relative."""
+WORLDS = 8
+"""A plan for a twin has to hold in so many worlds: masses and friction are guesses, and what works
+with one guess alone proves little."""
 LIGHTEST = 0.005
 THICK_WALL = 0.005
 """Vessels with thicker walls are solid ware rather than light prints and foams [m]."""
