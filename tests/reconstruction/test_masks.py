@@ -114,11 +114,11 @@ def ring(outer: float, inner: float, *, lower: bool) -> np.ndarray:
 
 def test_walls_of_a_cup_are_joined_and_balls_are_not() -> None:
     walls = [ring(40, 18, lower=True), ring(40, 18, lower=False)]
-    assert len(join_fragments(walls, TONE)) == 1
-    assert len(join_fragments(walls, TONE, [0, 0])) == 2
+    assert len(join_fragments(walls, TONE)[0]) == 1
+    assert len(join_fragments(walls, TONE, [0, 0])[0]) == 2
     v, u = np.mgrid[0 : SIZE[0], 0 : SIZE[1]]
     balls = [np.hypot(u - x, v - 60) < 25 for x in (50, 106)]
-    assert len(join_fragments(balls, TONE)) == 2
+    assert len(join_fragments(balls, TONE)[0]) == 2
 
 
 def test_a_strip_of_a_thing_goes_to_it() -> None:

@@ -113,11 +113,10 @@ def test_real_capture_with_given_masks() -> None:
 
 
 @pytest.mark.skipif(not REAL.is_dir(), reason="the real capture is not at hand")
-def test_plan_for_the_real_capture_does_not_hang_on_what_the_pen_weighs(tmp_path: Path) -> None:
-    """A light pen does not topple the light holder in the nominal world, but in others."""
+def test_plan_for_the_real_capture_holds_in_most_worlds(tmp_path: Path) -> None:
+    """The light holder topples under the pen, the other one is covered by an apple."""
     words = "Reorient the pen and place it into a holder."
-    options = Options(capture=REAL, auto=True, instruction=words, materials={"pen": "wood"})
-    run_reconstruct(options, tmp_path)
+    run_reconstruct(Options(capture=REAL, auto=True, instruction=words), tmp_path)
     report = run_plan(PlanOptions(task=tmp_path / "task.yaml", jobs=1))
     assert report.status == "feasible"
     assert [action.split(",")[0] for action in report.plan] == [

@@ -1,60 +1,216 @@
 """The near edge of a cup's rim, where colour shows it between the wall and the lip.
 
-With something in its mouth a cup's silhouette no longer shows its height; the edge does.
+With something in its mouth a cup's silhouette no longer shows its height; the edge does. The front
+of the wall is unrolled, so that the edge is a straight line, and a blurred step is fitted to the
+colours on both its sides, averaged along the line: that tells it to a fraction of a pixel.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
+from scipy.special import ndtr
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.view import Array
-from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.shapes.base import circle
+from etot_cli.reconstruction.capture.view import Array, Mask
 
-STEP = 0.0005
-BESIDE = 1.5
-"""Colour is compared this far on either side of the edge [px]."""
-WITHIN = 2.5
-"""The edge lies at least this far inside the mask [px]."""
+FRONT_DEG = 70.0
+"""The wall is looked at so far to both sides of the direction to the camera."""
+COLUMNS = 71
+STEP = 0.00025
+"""Heights of the unrolled wall are so far apart [m]."""
+COARSE = 4
+"""Every so many heights are tried before the neighbours of the best."""
+INSIDE = 1.3
+"""Pixels nearer to the edge of the mask are mixed with what is beside it [px]."""
+BELOW = 6.0
+"""So much of the wall below the edge is compared with the lip [px]."""
+BLURRED = 1.5
+"""The wall's colour is taken from farther below the edge than this [px]."""
+BEYOND = 0.7
+"""So much of the lip has to be seen beyond the edge [px]."""
+BLURS = (0.35, 0.6, 0.9, 1.2)
+"""Standard deviations of a picture's blur that are tried [px]."""
+WIDEST = 0.25
+"""The lip is no wider in the picture than this share of the cup's diameter."""
 LEAST_CONTRAST = 2.5
 """Weaker edges are not believed (of 255)."""
-LEAST_SAMPLES = 12
-WHOLE = 0.7
-"""Heights that show less than this share of the best-seen rim are left out."""
+LEAST_COLUMNS = 8
+UNEXPLAINED = 0.04
+"""With a larger share of the variance left by one edge, another one before it is looked for."""
+SECOND = 0.35
+"""Two edges leave at most this share of what one leaves, or there is only one."""
+APART = 1.5
+"""Two edges are at least so far apart [px]."""
 
 
-def rim_height(seen: Calibrated, vessel: Solid) -> float | None:
-    """Height of the rim above the foot [m], or None where colour does not show it."""
-    x, y, z, diameter, height = vessel.fit.params[:5]
-    lab: Any = cv2.cvtColor(seen.capture.color, cv2.COLOR_RGB2LAB).astype(np.float32)
-    lab = cv2.GaussianBlur(lab, (0, 0), 1.0)
-    mask: Any = vessel.segment.mask.astype(np.float32)
-    heights = np.arange(0.4 * min(height, diameter), 1.5 * max(height, 0.5 * diameter), STEP)
-    contrast, samples = np.zeros(len(heights)), np.zeros(len(heights))
-    for index, tall in enumerate(heights):
-        edge = seen.view.project(circle(x, y, z + tall, diameter / 2))
-        below = seen.view.project(circle(x, y, z + tall - 0.004, diameter / 2))
-        down = below - edge
-        down /= np.maximum(np.linalg.norm(down, axis=1, keepdims=True), 1e-9)
-        shown = (_sample(mask, edge - WITHIN * down) > 0.9) & (
-            _sample(mask, edge + WITHIN * down) > 0.9
-        )
-        samples[index] = shown.sum()
-        if shown.sum() >= LEAST_SAMPLES:
-            step = _sample(lab, edge - BESIDE * down) - _sample(lab, edge + BESIDE * down)
-            contrast[index] = float(np.linalg.norm(step[shown].mean(axis=0)))
-    contrast[samples < max(WHOLE * samples.max(), LEAST_SAMPLES)] = 0.0
-    # The foot's own edge and the mask's are no rim.
-    best = int(np.argmax(contrast))
-    if contrast[best] < LEAST_CONTRAST or best in (0, len(heights) - 1):
+@dataclass(frozen=True)
+class _Wall:
+    """The front of a wall: ``heights`` (n,) [m]; ``colors`` (n, k, 3); ``shown`` (n, k) where
+    only the vessel itself is seen; ``scale`` [px/m] of heights; ``reach`` up to which it is seen.
+    """
+
+    heights: Array
+    colors: Array
+    shown: Mask
+    scale: float
+    reach: float
+
+
+class _Profile(NamedTuple):
+    """Mean colours (m, 3) relative to the wall's, at heights (m,) [m], with weights (m,)."""
+
+    heights: Array
+    colors: Array
+    weights: Array
+
+    @property
+    def variance(self) -> float:
+        """Weighted variance of the colours."""
+        mean = self.weights @ self.colors / self.weights.sum()
+        return self.rest(self.colors - mean)
+
+    def rest(self, errors: Array) -> float:
+        """Weighted mean square of errors (m, 3)."""
+        return float(self.weights @ (errors**2).sum(axis=1) / self.weights.sum())
+
+
+class _Edge(NamedTuple):
+    """An edge at ``height`` [m] and what the best fit with it leaves and explains."""
+
+    height: float
+    left: float
+    gain: float
+    variance: float
+
+
+def rim_height(seen: Calibrated, mask: Mask, cup: Array) -> float | None:
+    """Height of the rim above the foot [m], or None where colour does not show it.
+
+    Args:
+        seen: the calibrated capture.
+        mask: pixels (h, w) of the cup.
+        cup: its parameters, place and diameter nearly right.
+    """
+    diameter = float(cup[3])
+    wall = _unrolled(seen, mask, cup)
+    if wall is None:
         return None
-    return float(heights[best])
+    lowest = max(wall.reach - WIDEST * diameter, WIDEST * wall.reach)
+    edge = _search(wall, lowest, wall.reach, None)
+    if edge is None:
+        return None
+    if edge.left > UNEXPLAINED * edge.variance:
+        # Between the lip and what lies in the mouth there may be a stronger edge than the rim's.
+        first = _search(wall, lowest, edge.height - APART / wall.scale, edge.height)
+        if first is not None and first.left < SECOND * (first.left + first.gain):
+            edge = first
+    return edge.height
 
 
-def _sample(image: Any, pixels: Array) -> Array:
-    u, v = (pixels[None, :, index].astype(np.float32) for index in (0, 1))
-    return np.asarray(cv2.remap(image, u, v, cv2.INTER_LINEAR)[0])
+def _unrolled(seen: Calibrated, mask: Mask, cup: Array) -> _Wall | None:
+    x, y, z, diameter, height = (float(value) for value in cup[:5])
+    view = seen.view
+    lab: Any = cv2.cvtColor(seen.capture.color, cv2.COLOR_RGB2LAB).astype(np.float32)
+    depth: Any = cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5)
+    front = np.radians(np.linspace(-FRONT_DEG, FRONT_DEG, COLUMNS))
+    angles = front + np.arctan2(view.position[1] - y, view.position[0] - x)
+    heights = np.arange(0.0, 1.6 * max(height, 0.5 * diameter), STEP)
+    shape = (len(heights), COLUMNS)
+    ring = np.column_stack([x + diameter / 2 * np.cos(angles), y + diameter / 2 * np.sin(angles)])
+    points = np.empty((*shape, 3))
+    points[..., :2], points[..., 2] = ring, z + heights[:, None]
+    pixels = view.project(points.reshape(-1, 3)).reshape(*shape, 2).astype(np.float32)
+    colors = cv2.remap(lab, pixels[..., 0], pixels[..., 1], cv2.INTER_LINEAR)
+    shown = cv2.remap(depth, pixels[..., 0], pixels[..., 1], cv2.INTER_LINEAR) > INSIDE
+    # What is seen above a gap is not the wall's front any more.
+    begun = np.maximum.accumulate(shown, axis=0)
+    shown &= ~np.maximum.accumulate(begun & ~shown, axis=0)
+    columns = shown.any(axis=0)
+    if columns.sum() < LEAST_COLUMNS:
+        return None
+    tops = heights[len(heights) - 1 - np.argmax(shown[::-1], axis=0)][columns]
+    scale = float(np.linalg.norm(np.diff(pixels, axis=0), axis=2).mean()) / STEP
+    return _Wall(
+        heights, np.asarray(colors, np.float64), np.asarray(shown), scale, float(np.median(tops))
+    )
+
+
+def _search(wall: _Wall, low: float, high: float, second: float | None) -> _Edge | None:
+    """The edge in a range of heights that explains most.
+
+    Args:
+        wall: the unrolled wall.
+        low: lowest height [m].
+        high: highest height [m].
+        second: height of another edge that is there too, to a pixel [m]; what counts is then what
+            the first one explains besides.
+    """
+    rows = np.nonzero((wall.heights >= low) & (wall.heights < high))[0]
+    tried: dict[int, _Edge | None] = {}
+    for _ in range(2):
+        for row in rows[::COARSE] if not tried else rows:
+            if int(row) not in tried:
+                tried[int(row)] = _edge_at(wall, float(wall.heights[row]), second)
+        found = {row: edge for row, edge in tried.items() if edge is not None}
+        if not found:
+            return None
+        best = max(found, key=lambda row: found[row].gain)
+        rows = np.arange(max(best - COARSE, rows[0]), min(best + COARSE, rows[-1]) + 1)
+    return found[max(found, key=lambda row: found[row].gain)]
+
+
+def _edge_at(wall: _Wall, height: float, second: float | None) -> _Edge | None:
+    profile = _profile(wall, height)
+    if profile is None:
+        return None
+    variance = profile.variance
+    if second is None:
+        left, levels = min(
+            (_steps(profile, (height,), blur / wall.scale) for blur in BLURS), key=lambda f: f[0]
+        )
+        return _believed(levels, _Edge(height, left, variance - left, variance))
+    edges: list[_Edge] = []
+    seconds = [at for at in second + np.array([-1.0, -0.5, 0.0, 0.5]) / wall.scale
+               if at > height + APART / wall.scale]  # fmt: skip
+    for blur in (b / wall.scale for b in BLURS) if seconds else ():
+        alone = min(_steps(profile, (at,), blur)[0] for at in seconds)
+        left, levels = min((_steps(profile, (height, at), blur) for at in seconds),
+                           key=lambda f: f[0])  # fmt: skip
+        edge = _believed(levels, _Edge(height, left, alone - left, variance))
+        edges += [] if edge is None else [edge]
+    return max(edges, key=lambda edge: edge.gain, default=None)
+
+
+def _believed(levels: Array, edge: _Edge) -> _Edge | None:
+    return edge if float(np.linalg.norm(levels[0])) > LEAST_CONTRAST else None
+
+
+def _profile(wall: _Wall, height: float) -> _Profile | None:
+    """Colours around a height, averaged along the wall, each column relative to its own wall."""
+    rows = (wall.heights > height - BELOW / wall.scale) & (wall.heights <= wall.reach)
+    heights, shown = wall.heights[rows], wall.shown[rows]
+    plain = shown & (heights < height - BLURRED / wall.scale)[:, None]
+    beyond = shown & (heights > height + BEYOND / wall.scale)[:, None]
+    columns = (plain.sum(axis=0) >= 3) & (beyond.sum(axis=0) >= 2)
+    if columns.sum() < LEAST_COLUMNS:
+        return None
+    colors, shown, plain = wall.colors[rows][:, columns], shown[:, columns], plain[:, columns]
+    own = (colors * plain[..., None]).sum(axis=0) / plain.sum(axis=0)[:, None]
+    weights = shown.sum(axis=1).astype(np.float64)
+    kept = weights > 0.5 * weights.max()
+    mean = ((colors - own) * shown[..., None]).sum(axis=1)[kept] / weights[kept, None]
+    if (heights[kept] > height + BEYOND / wall.scale).sum() < 2:
+        return None
+    return _Profile(heights[kept], mean, weights[kept])
+
+
+def _steps(profile: _Profile, edges: tuple[float, ...], blur: float) -> tuple[float, Array]:
+    """What blurred steps at edges leave unexplained, and the steps' colours (k, 3)."""
+    shape = np.column_stack([ndtr((profile.heights - edge) / blur) for edge in edges])
+    root = np.sqrt(profile.weights)[:, None]
+    levels = np.linalg.lstsq(shape * root, profile.colors * root, rcond=None)[0]
+    return profile.rest(profile.colors - shape @ levels), levels

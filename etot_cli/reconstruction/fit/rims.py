@@ -17,9 +17,9 @@ from etot_cli.reconstruction.fit.pose import judge, residuals_of
 from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
-from etot_cli.reconstruction.shapes.upright import Cup, Cylinder
+from etot_cli.reconstruction.shapes.upright import TYPICAL_FLOOR, TYPICAL_WALL, Cup, Cylinder
 
-WALL_PRIOR = (0.003, 0.001)
+WALL_PRIOR = (TYPICAL_WALL, 0.001)
 """Mean and standard deviation of a wall that is not seen [m]."""
 SUNK = 0.25
 """What reaches less deep than to this share of a cup's height hangs in its mouth."""
@@ -41,8 +41,39 @@ def resting_height(cup: Array, diameter: float, *, rim: bool) -> float:
     return float(cup[2] + cup[4] + np.sqrt(max(radius**2 - opening**2, 0.0)) - radius)
 
 
+def disagreement(solids: list[Solid], sigmas: dict[str, float] | None = None) -> float:
+    """How badly solids explain what is seen of them: sum of squares in standard deviations.
+
+    What is usual where nothing is seen does not count; how far a ball in a mouth is from where it
+    would rest does.
+
+    Args:
+        solids: among them what they rest on.
+        sigmas: how far depth is trusted, by name [m]; as in each solid's fit when None.
+    """
+    found = {solid.name: solid for solid in solids}
+    total = 0.0
+    for solid in solids:
+        family, params, seen = solid.fit.family, solid.fit.params, solid.observation
+        if sigmas is not None:
+            seen = replace(seen, depth_sigma=sigmas[solid.name])
+        residuals, unseen = residuals_of(family, seen, params), family.prior(params)
+        total += float(residuals @ residuals - unseen @ unseen)
+        vessel = found.get(solid.support)
+        if vessel is None or vessel.kind != "cup" or not isinstance(family, Ball):
+            continue
+        rim = solid.relation == "rim"
+        height = resting_height(vessel.fit.params, float(params[3]), rim=rim)
+        total += float((params[2] - height) / (UNROUND if rim else ON_FLOOR)) ** 2
+    return total
+
+
 def settle_on_rim(seen: Calibrated, solids: list[Solid]) -> list[Solid]:
-    """Fits every ball that was found in or on a cup together with its cup."""
+    """Fits every ball that was found in or on a cup together with its cup.
+
+    A cylinder whose top a ball covers may be a cup: it stays a cylinder where the ball on top of
+    it agrees better with the picture than one in a mouth.
+    """
     found = {solid.name: solid for solid in solids}
     for solid in solids:
         vessel = found.get(solid.support)
@@ -50,31 +81,39 @@ def settle_on_rim(seen: Calibrated, solids: list[Solid]) -> list[Solid]:
             continue
         if not isinstance(solid.fit.family, Ball):
             continue
-        vessel = _as_cup(vessel)
-        cup, ball, rim = vessel.fit.params, solid.fit.params, True
-        for _ in range(2):  # the rim is looked for with the width that the fit with it finds
-            vessel = replace(vessel, fit=replace(vessel.fit, params=cup))
-            tall = rim_height(seen, vessel)
-            options = [(*_together(vessel, solid, tall, rim=rim), rim) for rim in (True, False)]
-            _, cup, ball, rim = min(options, key=lambda option: option[0])
-        rim = bool(ball[2] - cup[2] > cup[6] + SUNK * cup[4])
-        found[vessel.name] = replace(
-            vessel, fit=judge(vessel.fit.family, vessel.observation, cup)
-        ).warned("its mouth is covered: wall and floor are from rule, not from data")
-        found[solid.name] = replace(
-            solid,
-            fit=judge(solid.fit.family, solid.observation, ball),
-            relation="rim" if rim else "inside",
-        )
+        pair = _in_the_mouth(seen, as_cup(vessel), solid)
+        if vessel.kind == "cylinder" and disagreement([vessel, solid]) <= disagreement([*pair]):
+            continue
+        found[vessel.name], found[solid.name] = pair
     return [found[solid.name] for solid in solids]
 
 
-def _as_cup(vessel: Solid) -> Solid:
-    """A cylinder in which something rests is a cup."""
+def _in_the_mouth(seen: Calibrated, vessel: Solid, solid: Solid) -> tuple[Solid, Solid]:
+    """A cup and the ball that rests on its rim or its floor, whichever agrees better."""
+    cup, ball, rim = vessel.fit.params, solid.fit.params, True
+    for _ in range(2):  # the rim is looked for with the width that the fit with it finds
+        vessel = replace(vessel, fit=replace(vessel.fit, params=cup))
+        tall = rim_height(seen, vessel.segment.mask, cup)
+        options = [(*_together(vessel, solid, tall, rim=rim), rim) for rim in (True, False)]
+        _, cup, ball, rim = min(options, key=lambda option: option[0])
+    rim = bool(ball[2] - cup[2] > cup[6] + SUNK * cup[4])
+    settled = replace(vessel, fit=judge(vessel.fit.family, vessel.observation, cup))
+    return (
+        settled.warned("its mouth is covered: wall and floor are from rule, not from data"),
+        replace(
+            solid,
+            fit=judge(solid.fit.family, solid.observation, ball),
+            relation="rim" if rim else "inside",
+        ),
+    )
+
+
+def as_cup(vessel: Solid) -> Solid:
+    """A vessel as a cup; a cylinder becomes one of the usual wall and floor."""
     if isinstance(vessel.fit.family, Cup):
         return vessel
     assert isinstance(vessel.fit.family, Cylinder)  # only round things have rims
-    params = np.array([*vessel.fit.params[:5], 0.003, 0.004])
+    params = np.array([*vessel.fit.params[:5], TYPICAL_WALL, TYPICAL_FLOOR])
     return replace(vessel, fit=replace(vessel.fit, family=Cup(), params=params))
 
 

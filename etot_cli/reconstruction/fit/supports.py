@@ -6,49 +6,26 @@ the one with which silhouette and depth agree best is kept.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.view import View
 from etot_cli.reconstruction.fit.observation import Observation, observe
-from etot_cli.reconstruction.fit.pose import Fit, best_fit
+from etot_cli.reconstruction.fit.pose import COARSE, Fit, best_fit, fit_shape, judge
 from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
-from etot_cli.reconstruction.fit.rims import settle_on_rim
+from etot_cli.reconstruction.fit.rims import as_cup, disagreement, settle_on_rim
+from etot_cli.reconstruction.fit.standing import Support, offence, possible_supports
 from etot_cli.reconstruction.fit.strays import find_strays
-from etot_cli.reconstruction.objects import DESK, Segment, Solid
-from etot_cli.reconstruction.shapes.base import Evidence, convex_distance
+from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.reconstruction.shapes.ball import Ball
+from etot_cli.reconstruction.shapes.base import Evidence
 from etot_cli.reconstruction.shapes.catalog import tiers
-from etot_cli.reconstruction.shapes.furniture import OpenUnit
-from etot_cli.reconstruction.shapes.upright import Cup
 
-NEIGHBOUR = 9
-"""Masks closer than this may belong to things that touch [px]."""
 EROSION = 3
 """Pixels at the edge of a mask whose depth is left out where depth is noisy."""
-TOUCHES = 0.02
-"""Something may stand on a surface up to this far beyond its edge [m]."""
-CLEARANCE = 0.004
-"""Overlap with a support that counts as contact [m]."""
-CLASH = 2.0
-"""Added to the score of a shape that goes through another object, or stands on thin air."""
 CONVINCING = 0.9
 """Pixels are only taken out of a mask for a shape that explains so much of the others."""
-SAME_SHARE = 0.03
-"""Shares explained that differ by less than this say nothing about which shape is right."""
-OVERHANG = 0.008
-"""A thing's middle lies at most this far beyond the edge of what carries it [m]."""
-
-
-@dataclass(frozen=True)
-class Support:
-    """A place to stand: the object's name, how, and the height [m]."""
-
-    name: str
-    relation: str
-    height: float
 
 
 def fit_all(
@@ -93,21 +70,45 @@ def _reopened(
     """
     last = done[-1]
     below = next((solid for solid in done if solid.name == last.support), None)
-    if below is None or below.kind != "cylinder":
+    if below is None or below.kind != "cylinder" or hints.get(below.name):
         return done
-    if hints.get(below.name):
-        return done
-    others = [solid for solid in done if solid is not below and solid is not last]
-    cup = _fit_one(seen, below.segment, segments, others, rng, "cup")
-    if cup is None or cup.fit.explained < below.fit.explained - SAME_SHARE:
-        return done
-    open_below = [cup if solid is below else solid for solid in done[:-1]]
-    again = _fit_one(seen, last.segment, segments, open_below, rng, hints.get(last.name))
-    if again is None or again.relation != "rim":
-        return done
-    settled = settle_on_rim(seen, [*open_below, again])
-    better = settled[-1].fit.explained > last.fit.explained
-    return [*open_below, again] if better else done
+    open_below = [as_cup(solid) if solid is below else solid for solid in done[:-1]]
+    hint = hints.get(last.name)
+    inside = _fit_one(seen, last.segment, segments, open_below, rng, hint)
+    rivals = [inside] if inside is not None and inside.support == below.name else []
+    if hint in (None, Ball.kind):
+        rivals.append(_ball_in(seen, last.segment, segments, below, rng))
+    names = (below.name, last.name)
+    pairs = [
+        [s for s in settle_on_rim(seen, [*open_below, rival]) if s.name in names]
+        for rival in rivals
+    ]
+    pairs.append([below, last])
+    # Depth is trusted as far as the best of all fits does.
+    sigmas = {
+        name: min(s.observation.depth_sigma for pair in pairs for s in pair if s.name == name)
+        for name in names
+    }
+    costs = [disagreement(pair, sigmas) for pair in pairs]
+    best = int(np.argmin(costs))
+    return done if best == len(rivals) else [*open_below, rivals[best]]
+
+
+def _ball_in(
+    seen: Calibrated,
+    segment: Segment,
+    segments: list[Segment],
+    vessel: Solid,
+    rng: np.random.Generator,
+) -> Solid:
+    """A segment as a ball that rests in the mouth of a vessel, as high as it is seen."""
+    observation = _observe(seen, segment, segments)
+    observation = replace(observation, base=vessel.top, depth_sigma=first_sigma(seen))
+    ball, coarse = Ball(), observation.thinned(*COARSE, rng)
+    guesses = ball.guesses(_evidence(seen, observation))
+    fits = [judge(ball, coarse, fit_shape(ball, coarse, g, free_z=True)) for g in guesses]
+    fit = min(fits, key=lambda fit: fit.score)
+    return Solid(segment, fit, vessel.name, "rim", observation)
 
 
 def _lowest(seen: Calibrated, segment: Segment) -> float:
@@ -168,7 +169,7 @@ def _choose(
     if len(observation.edges) < 12 and len(observation.points) < 30:
         return None
     choices: list[tuple[list[Fit], Support, Observation]] = []
-    for support in _supports(seen, segment, observation, done):
+    for support in possible_supports(seen, segment, observation, done):
         placed = replace(observation, base=support.height, depth_sigma=first_sigma(seen))
         evidence = _evidence(seen, placed)
         # In a mouth of a cup only balls rest.
@@ -180,38 +181,8 @@ def _choose(
         return None
     return min(
         choices,
-        key=lambda choice: (
-            choice[0][0].score
-            + _clash(choice[0][0], choice[1], done)
-            + _overhang(choice[0][0], choice[1], done, seen.view)
-        ),
+        key=lambda choice: choice[0][0].score + offence(choice[0][0], choice[1], done, seen.view),
     )
-
-
-def _clash(fit: Fit, support: Support, done: list[Solid]) -> float:
-    """Penalty for a shape that goes through others: what it stands on has a floor, walls, …"""
-    params, size = fit.params, fit.family.size(fit.params)
-    heights = np.arange(support.height + CLEARANCE, support.height + size[2], 0.0015)
-    middle = fit.family.center(params)[:2]
-    lines = [
-        np.column_stack([np.tile(middle + offset, (len(heights), 1)), heights])
-        for offset in 0.25 * min(size[:2]) * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
-    ]
-    probes = np.vstack(lines)
-    for solid in done:
-        if len(probes) and (solid.fit.family.distance(solid.fit.params, probes) < -0.001).any():
-            return CLASH
-    return 0.0
-
-
-def _overhang(fit: Fit, support: Support, done: list[Solid], view: View) -> float:
-    """Penalty for a shape whose middle is not above what it is said to stand on."""
-    for solid in done:
-        if solid.name == support.name:
-            footprint = np.vstack(solid.fit.family.hulls(solid.fit.params, view))[:, :2]
-            middle = fit.family.center(fit.params)[None, :2]
-            return CLASH if convex_distance(middle, footprint)[0] > OVERHANG else 0.0
-    return 0.0
 
 
 def _evidence(seen: Calibrated, observation: Observation) -> Evidence:
@@ -226,52 +197,3 @@ def _evidence(seen: Calibrated, observation: Observation) -> Evidence:
         raised = foot + np.array([0.0, 0.0, lift])
         points = np.vstack([foot, raised])
     return Evidence(points, observation.base, outline, seen.view)
-
-
-def _supports(
-    seen: Calibrated, segment: Segment, observation: Observation, done: list[Solid]
-) -> list[Support]:
-    """Where an object may stand: the desk, and what touches it in the picture."""
-    found = [Support(DESK, "on", seen.desk_top)]
-    reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * NEIGHBOUR + 1,) * 2)
-    near = cv2.dilate(segment.mask.astype(np.uint8), reach) > 0
-    for solid in done:
-        if not (near & solid.segment.mask).any():
-            continue
-        if isinstance(solid.fit.family, Cup):
-            if _above(solid, observation):
-                floor = float(solid.fit.params[2] + solid.fit.params[6])
-                found.append(Support(solid.name, "inside", floor))
-                found.append(Support(solid.name, "rim", solid.top))
-        elif isinstance(solid.fit.family, OpenUnit):
-            found.append(Support(solid.name, "on", solid.top))
-            floor = _drawer_floor(solid)
-            found.append(Support(solid.name, "inside", floor))
-        elif solid.kind not in ("sphere", "pen", "capsule") and _above(solid, observation):
-            found.append(Support(solid.name, "on", solid.top))
-    return found
-
-
-def _drawer_floor(solid: Solid) -> float:
-    family, params = solid.fit.family, solid.fit.params
-    assert isinstance(family, OpenUnit)  # asked by the caller
-    _, moving = family.panels(params)
-    return float(params[2] + moving[1][1][2])
-
-
-def _above(solid: Solid, observation: Observation) -> bool:
-    """Whether the object's silhouette, laid on the solid's top, meets it."""
-    pixels = observation.edges if len(observation.edges) else observation.inside
-    if not len(pixels):
-        return False
-    points = observation.view.on_plane(pixels, solid.top)
-    points = points[np.isfinite(points[:, 0])]
-    if not len(points):
-        return False
-    center = np.median(points[:, :2], axis=0) - solid.center[:2]
-    c, s = np.cos(-solid.yaw), np.sin(-solid.yaw)
-    local = np.abs([c * center[0] - s * center[1], s * center[0] + c * center[1]])
-    half = np.array(solid.size[:2]) / 2
-    # A thing that rises above the top is seen beyond it, away from the camera.
-    slack = TOUCHES + 0.6 * float(np.ptp(points[:, :2], axis=0).max())
-    return bool(np.all(local < half + slack))

@@ -49,7 +49,7 @@ def find_segments(seen: Calibrated) -> list[Segment]:
         foreground = with_feet(foreground, above_desk, seen, surfaces.color, shade)
     pieces = _components(foreground & ~surfaces.jumps, foreground, seen)
     pieces = [piece for piece in pieces if _belongs(seen, piece, above_desk)]
-    pieces = join_fragments(pieces, surfaces.color)
+    pieces, _ = join_fragments(pieces, surfaces.color)
     parted: list[Mask] = []
     origin: list[int] = []
     for number, piece in enumerate(pieces):
@@ -64,8 +64,10 @@ def find_segments(seen: Calibrated) -> list[Segment]:
         origin += [number] * len(found)
     if noisy:
         # What was parted on purpose is not joined again; what lost readings tore apart is.
-        parted = join_fragments(parted, surfaces.color, origin)
+        parted, origin = join_fragments(parted, surfaces.color, origin)
         parted = refine_masks(seen, parted, surfaces.color, shade)
+        # With their edges drawn, what belongs together is nearer to each other.
+        parted, _ = join_fragments(parted, surfaces.color, origin)
     parted = [part for part in parted if is_thing(seen, part)]
     parted.sort(key=lambda part: -int(part.sum()))
     return [Segment(f"object_{index + 1}", mask, named=False) for index, mask in enumerate(parted)]

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.readings import Readings, settled_by_depth, sure_readings
 
 INNER = 4
 """Pixels this far inside a mask are the object's for sure."""
@@ -20,8 +21,6 @@ COLOURFUL = 20.0
 """An object whose hue is this far from the desk's cannot be mistaken for a shadow."""
 EXACT = 0.0015
 """With a smaller residual of the desk plane depth is believed against colour [m]."""
-FLAT = 0.003
-"""Heights that are the desk's [m]."""
 UNLIKE = 14.0
 """A colour this far from all of an object's is not its own."""
 SAMPLES = 400
@@ -49,6 +48,7 @@ def refine_masks(
     desk = np.median(color[seen.desk][:, :2], axis=0)
     small_first = sorted(range(len(masks)), key=lambda i: int(masks[i].sum()))
     result, settled = list(masks), [False] * len(masks)
+    readings = sure_readings(seen) if seen.noise < EXACT else None
     for _ in range(REFINEMENTS):
         for index in small_first:
             if settled[index]:
@@ -57,18 +57,18 @@ def refine_masks(
             own = np.median(color[mask][:, :2], axis=0)
             apart = bool(np.linalg.norm(own - desk) > COLOURFUL)
             others = [other for i, other in enumerate(result) if i != index]
-            result[index] = _refine(seen, mask, others, color, shade, apart=apart)
+            result[index] = _refine(seen, mask, others, color, shade, readings, apart=apart)
             settled[index] = bool((result[index] ^ mask).sum() < SETTLED * mask.sum())
         taken = np.zeros(seen.depth.shape, dtype=bool)
         for index in small_first:
             result[index] = result[index] & ~taken
             taken |= result[index]
-    return result
+    return result if readings is None else settled_by_depth(result, masks, shade, readings)
 
 
 def _refine(
     seen: Calibrated, mask: Mask, others: list[Mask], color: NDArray[np.float32], shade: Mask,
-    *, apart: bool,
+    readings: Readings | None, *, apart: bool,
 ) -> Mask:  # fmt: skip
     rows, columns = np.nonzero(mask)
     height, width = mask.shape
@@ -93,12 +93,9 @@ def _refine(
     # A strip of what is behind must not teach the object its colour.
     strip = _of_others(color[window], (reach > 0) & (core == 0), core > 0, foreign > 0)
     trimap[strip] = cv2.GC_BGD
-    if seen.noise < EXACT:
+    if readings is not None:
         # Where depth says desk, also in a shadow of the object's own grey, there is desk.
-        with np.errstate(invalid="ignore"):
-            flat = (np.abs(seen.height[window]) < FLAT).astype(np.uint8)
-        flat = np.asarray(cv2.erode(flat, np.ones((7, 7), np.uint8)))
-        trimap[(flat > 0) & (core == 0)] = cv2.GC_BGD
+        trimap[readings.flat[window] & (core == 0)] = cv2.GC_BGD
     trimap[core > 0] = cv2.GC_FGD
     if not (trimap == cv2.GC_BGD).any() or not (core > 0).any():
         return mask

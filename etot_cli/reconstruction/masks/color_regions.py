@@ -91,20 +91,15 @@ def color_regions(color: NDArray[np.float32], piece: Mask) -> Labels:
     pixels = color[piece]
     if len(pixels) < 2 * LEAST_REGION:
         return piece.astype(np.int32)
-    sample = pixels[:: max(1, len(pixels) // 4000)]
+    step = max(1, len(pixels) // 4000)
+    sample = pixels[::step]
     criteria = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 20, 0.5)
     cv2.setRNGSeed(1)
-    _, _, centers = cv2.kmeans(
+    _, found_in, centers = cv2.kmeans(
         sample, min(6, len(sample)), np.zeros(0, np.int32), criteria, 2, cv2.KMEANS_PP_CENTERS
     )
-    merged: list[list[int]] = []
-    for index in range(len(centers)):
-        for group in merged:
-            if any(np.linalg.norm(centers[index] - centers[j]) < COLOR_STEP for j in group):
-                group.append(index)
-                break
-        else:
-            merged.append([index])
+    found_in = np.asarray(found_in, np.int32)[:, 0]
+    merged = _one_tone(np.asarray(centers, np.float64), _mixed(color)[piece][::step], found_in)
     if len(merged) < 2:
         return piece.astype(np.int32)
     nearest = np.argmin(np.linalg.norm(pixels[:, None, :] - centers[None], axis=2), axis=1)
@@ -124,3 +119,34 @@ def color_regions(color: NDArray[np.float32], piece: Mask) -> Labels:
         return piece.astype(np.int32)
     # What is left between regions goes to the nearest one.
     return np.where(piece, nearest_label(labels), 0).astype(np.int32)
+
+
+def _one_tone(centers: Array, mixed: Mask, found_in: NDArray[np.int32]) -> list[list[int]]:
+    """Groups of colours (k, 3) that are near to each other.
+
+    Args:
+        centers: the colours.
+        mixed: whether pixels (n,) lie on an edge.
+        found_in: the colour (n,) that each of them has.
+    """
+    blended = [bool(mixed[found_in == index].mean() > 0.5) for index in range(len(centers))]
+    merged: list[list[int]] = []
+    # The blend of two colours along their edge comes last, lest it makes them one.
+    for index in sorted(range(len(centers)), key=lambda index: blended[index]):
+        gaps = [min(float(np.linalg.norm(centers[index] - centers[j])) for j in group)
+                for group in merged]  # fmt: skip
+        near = [number for number, gap in enumerate(gaps) if gap < COLOR_STEP]
+        if not near:
+            merged.append([index])
+        elif blended[index]:
+            merged[int(np.argmin(gaps))].append(index)
+        else:
+            merged[near[0]].append(index)
+    return merged
+
+
+def _mixed(color: NDArray[np.float32]) -> Mask:
+    """Pixels (h, w) beside which colour changes."""
+    kernel = np.ones((3, 3), np.uint8)
+    change = cv2.dilate(color, kernel) - cv2.erode(color, kernel)
+    return np.asarray(change.max(axis=2) > COLOR_STEP / 2)

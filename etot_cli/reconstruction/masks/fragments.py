@@ -29,11 +29,18 @@ ALONG = 0.7
 
 def join_fragments(
     pieces: list[Mask], color: NDArray[np.float32], origin: list[int] | None = None
-) -> list[Mask]:
+) -> tuple[list[Mask], list[int]]:
     """Joins pieces of one colour that lost readings have torn apart, such as a cup's walls.
 
     They touch, and together they make a compact figure; or one lies in the other's outline.
-    Pieces of the same ``origin`` are left apart.
+
+    Args:
+        pieces: masks (h, w).
+        color: colour features (h, w, 3).
+        origin: pieces of the same origin are left apart.
+
+    Returns:
+        the pieces that are left, larger ones first, and the origin of each.
     """
     order = sorted(range(len(pieces)), key=lambda index: -int(pieces[index].sum()))
     source = [origin[index] if origin is not None else index for index in order]
@@ -55,7 +62,7 @@ def join_fragments(
                     break
             if again:
                 break
-    return pieces
+    return pieces, source
 
 
 def adopt_fringes(groups: list[list[Mask]], color: NDArray[np.float32]) -> list[Mask]:

@@ -74,7 +74,7 @@ def part_by_tops(seen: Calibrated, surfaces: Surfaces, piece: Mask, *, noisy: bo
         if not taken:
             continue
         if noisy:
-            taken = [_filled(thing, surfaces) for thing in join_fragments(taken, surfaces.color)]
+            taken = [_filled(thing, surfaces) for thing in join_fragments(taken, surfaces.color)[0]]
         rest = piece & ~np.any(taken, axis=0)
         # The foot of a thing is as low as the top: it is the thing's where it is no flat top.
         slack = -0.002 - 2 * seen.noise if noisy else FOOT_CLEAN

@@ -24,6 +24,10 @@ BLUNTEST = 0.7
 """A point is at least this long, in diameters; what is shorter is an end like others."""
 BLUNT = 0.001
 """No point is sharper than this radius [m]."""
+THINNEST = 0.006
+"""No first guess is thinner [m]."""
+LEAST_OUTLINE = 12
+"""With fewer points on its outline a rod's thickness is guessed from its surface."""
 
 
 class Capsule(Family):
@@ -41,9 +45,11 @@ class Capsule(Family):
         along = (flat - center) @ axis
         low, high = np.percentile(along, [0.5, 99.5])
         middle = center + axis * (low + high) / 2
-        across = np.percentile(np.abs((flat - middle) @ [-axis[1], axis[0]]), 95) * 2
-        _, _, _, height = ground_rectangle(evidence)
-        thick = max(float(min(height, across * 1.3)), 0.006)
+        thick = _thickness(evidence, axis)
+        if thick is None:
+            across = np.percentile(np.abs((flat - middle) @ [-axis[1], axis[0]]), 95) * 2
+            _, _, _, height = ground_rectangle(evidence)
+            thick = max(float(min(height, across * 1.3)), THINNEST)
         if high - low < 1.5 * thick:
             return []
         yaw = float(np.arctan2(axis[1], axis[0]))
@@ -137,3 +143,22 @@ class Pen(Capsule):
         """Volume of the material [m³]."""
         length, diameter, tip = params[4:7]
         return float(np.pi * diameter**2 / 4 * (length - tip * 2 / 3))
+
+
+def _thickness(evidence: Evidence, axis: Array) -> float | None:
+    """Diameter [m] of a rod along ``axis`` (2,) by its outline; None where that says nothing.
+
+    Readings lost at a rod's sides make it thin in depth, and from a start that is too thin the fit
+    may run far beyond the rod's end: an outline deep within the shape no longer pulls at it.
+    """
+    outline = evidence.outline[np.isfinite(evidence.outline[:, 0]), :2]
+    if len(outline) < LEAST_OUTLINE:
+        return None
+    beside = outline @ [-axis[1], axis[0]]
+    low, high = np.percentile(beside, [10, 90])
+    to_camera = evidence.view.position - [*outline.mean(axis=0), evidence.base]
+    across = float(to_camera[:2] @ [-axis[1], axis[0]])
+    # Seen across its axis at an angle, a round thing's shadow on the desk is longer than it is
+    # thick.
+    rise = float(to_camera[2] / max(np.hypot(to_camera[2], across), 1e-9))
+    return max(float(high - low) * rise, THINNEST)

@@ -1,0 +1,108 @@
+"""Second look at what local geometry could not part: a ball that fills a mouth.
+
+Where a ball bulges out of a cup its surface goes on where the wall ends, as that of one thing of
+two colours would. Only the shapes tell: as cup and ball both are explained, as one thing it is not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
+from etot_cli.reconstruction.capture.surfaces import color_features, shaded_desk
+from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED, Fit
+from etot_cli.reconstruction.fit.refine import exact_depth
+from etot_cli.reconstruction.fit.supports import fit_all
+from etot_cli.reconstruction.masks.boundaries import refine_masks
+from etot_cli.reconstruction.masks.color_regions import UNLIKE, color_regions
+from etot_cli.reconstruction.objects import Segment, Solid
+
+DOUBTFUL = 0.95
+"""A shape that explains less of what is seen gets a second look, as one with a bad misfit does."""
+LEAST_SHARE = 0.1
+"""Share of a piece that each of its parts has at least."""
+GAIN = 0.05
+"""Two shapes have to explain so much more than one, or leave half the misfit."""
+MOST_LOOKS = 4
+"""So many pieces get a second look, the least explained first."""
+
+
+def look_again(
+    seen: Calibrated, solids: list[Solid], hints: dict[str, str], *, seed: int
+) -> list[Solid]:
+    """The solids, with those parted that are a ball in the mouth of a cup.
+
+    Args:
+        seen: the calibrated capture.
+        solids: all solids; only those whose pixels were found, not given, may be parted.
+        hints: kinds by object name that are known from elsewhere.
+        seed: of the fits' samples.
+    """
+    doubtful = [
+        solid
+        for solid in solids
+        if not solid.segment.named
+        and (solid.fit.explained < DOUBTFUL or solid.fit.misfit > GOOD_MISFIT)
+    ]
+    doubtful.sort(key=lambda solid: solid.fit.explained)
+    for solid in doubtful[:MOST_LOOKS]:
+        parts = two_colors(seen, solid.segment.mask)
+        if parts is None:
+            continue
+        others = [other.segment for other in solids if other.name != solid.name]
+        pair = [
+            replace(solid.segment, name=f"{solid.name}_{index}", mask=part)
+            for index, part in enumerate(_redrawn(seen, parts, others), start=1)
+        ]
+        again = fit_all(seen, [*others, *pair], rng=np.random.default_rng(seed), hints=hints)
+        if _is_filled_mouth(again, pair, solid.fit):
+            solids = again
+    return solids
+
+
+def _redrawn(seen: Calibrated, parts: tuple[Mask, Mask], others: list[Segment]) -> list[Mask]:
+    """The parts with their edges drawn anew, each by its own colour, where depth does not say."""
+    if exact_depth(seen):
+        return list(parts)
+    flat, _ = flattened(seen)
+    masks = [*parts, *(other.mask for other in others)]
+    color = color_features(seen.capture.color)
+    return refine_masks(flat, masks, color, shaded_desk(flat))[:2]
+
+
+def _is_filled_mouth(solids: list[Solid], pair: list[Segment], single: Fit) -> bool:
+    """Whether two segments are a vessel and what rests on its rim, better explained than as one."""
+    names = {segment.name for segment in pair}
+    found = [solid for solid in solids if solid.name in names]
+    if len(found) < 2 or not any(s.relation == "rim" and s.support in names for s in found):
+        return False
+    pixels = [int(solid.segment.mask.sum()) for solid in found]
+    explained = float(np.average([solid.fit.explained for solid in found], weights=pixels))
+    misfit = float(np.average([solid.fit.misfit for solid in found], weights=pixels))
+    return explained > single.explained + GAIN or (
+        misfit < INVOLVED * single.misfit and explained > single.explained - GAIN
+    )
+
+
+def two_colors(seen: Calibrated, mask: Mask) -> tuple[Mask, Mask] | None:
+    """The two parts (h, w) of very different colour that a mask consists of, if it does."""
+    color = color_features(seen.capture.color)
+    labels = color_regions(color, mask)
+    typical = {
+        index: np.median(color[labels == index], axis=0)
+        for index in range(1, int(labels.max()) + 1)
+    }
+    sizes = np.bincount(labels.ravel(), minlength=len(typical) + 1)
+    large = sorted(typical, key=lambda index: -int(sizes[index]))[:2]
+    if len(large) < 2 or np.linalg.norm(typical[large[0]] - typical[large[1]]) < UNLIKE:
+        return None
+    parts = [np.zeros_like(mask) for _ in large]
+    for index, own in typical.items():
+        away = [float(np.linalg.norm(own - typical[leader])) for leader in large]
+        parts[int(np.argmin(away))] |= labels == index
+    if min(int(part.sum()) for part in parts) < LEAST_SHARE * mask.sum():
+        return None
+    return parts[0], parts[1]
