@@ -127,7 +127,7 @@ def _shapes(
     hints = {s.name: hint for s in segments if s.named and (hint := hint_of(s.name))}
     solids = fit_all(seen, segments, rng=rng, hints=hints)
     lost = {segment.name for segment in segments} - {solid.name for solid in solids}
-    whole, solids = solids, look_again(seen, solids, hints, seed=options.seed)
+    whole, solids = solids, look_again(seen, segments, solids, hints, seed=options.seed)
     if solids is not whole:
         segments = [segment for segment in segments if segment.name in lost]
         segments += [solid.segment for solid in solids]

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.view import Array
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.fit.lip import rim_height
-from etot_cli.reconstruction.fit.pose import judge, residuals_of
+from etot_cli.reconstruction.fit.observation import SEAM, Observation
+from etot_cli.reconstruction.fit.pose import fit_shape, judge, residuals_of
 from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
@@ -21,6 +23,8 @@ from etot_cli.reconstruction.shapes.upright import TYPICAL_FLOOR, TYPICAL_WALL, 
 
 WALL_PRIOR = (TYPICAL_WALL, 0.001)
 """Mean and standard deviation of a wall that is not seen [m]."""
+WALLS = (0.001, 0.009)
+"""Walls from which the fit of a covered cup starts [m]."""
 SUNK = 0.25
 """What reaches less deep than to this share of a cup's height hangs in its mouth."""
 UNROUND = 0.004
@@ -90,7 +94,11 @@ def settle_on_rim(seen: Calibrated, solids: list[Solid]) -> list[Solid]:
 
 def _in_the_mouth(seen: Calibrated, vessel: Solid, solid: Solid) -> tuple[Solid, Solid]:
     """A cup and the ball that rests on its rim or its floor, whichever agrees better."""
-    cup, ball, rim = vessel.fit.params, solid.fit.params, True
+    solid = replace(solid, observation=_clear_of(solid.observation, vessel.segment.mask))
+    # As high as it is seen, whatever it rests on: the rule for that needs a start near the truth.
+    ball = fit_shape(solid.fit.family, solid.observation, solid.fit.params, free_z=True)
+    solid = replace(solid, fit=replace(solid.fit, params=ball))
+    cup, rim = _opened_for(vessel.fit.params, ball), True
     for _ in range(2):  # the rim is looked for with the width that the fit with it finds
         vessel = replace(vessel, fit=replace(vessel.fit, params=cup))
         tall = rim_height(seen, vessel.segment.mask, cup)
@@ -106,6 +114,26 @@ def _in_the_mouth(seen: Calibrated, vessel: Solid, solid: Solid) -> tuple[Solid,
             relation="rim" if rim else "inside",
         ),
     )
+
+
+def _opened_for(cup: Array, ball: Array) -> Array:
+    """The cup's parameters with a wall of the thickness at which the ball would rest as seen."""
+    radius = float(ball[3]) / 2
+    above = float(ball[2]) + radius - float(cup[2] + cup[4])
+    opened = cup.copy()
+    if 0.0 < above < radius:
+        wall = float(cup[3]) / 2 - float(np.sqrt(radius**2 - above**2))
+        opened[5] = np.clip(wall, *WALLS)
+    return opened
+
+
+def _clear_of(seen: Observation, mask: Mask) -> Observation:
+    """Without the edge along a vessel: there the near rim may hide a part of what lies in it."""
+    if not len(seen.edges):
+        return seen
+    near = cv2.dilate(mask.astype(np.uint8), np.ones((2 * SEAM + 1,) * 2, np.uint8)) > 0
+    u, v = (np.round(seen.edges[:, index]).astype(int) for index in (0, 1))
+    return replace(seen, edges=seen.edges[~near[v, u]])
 
 
 def as_cup(vessel: Solid) -> Solid:

@@ -31,12 +31,19 @@ MOST_LOOKS = 4
 
 
 def look_again(
-    seen: Calibrated, solids: list[Solid], hints: dict[str, str], *, seed: int
+    seen: Calibrated,
+    segments: list[Segment],
+    solids: list[Solid],
+    hints: dict[str, str],
+    *,
+    seed: int,
 ) -> list[Solid]:
     """The solids, with those parted that are a ball in the mouth of a cup.
 
     Args:
         seen: the calibrated capture.
+        segments: the pixels that the solids were fitted to; a wrong shape may have put some of
+            its solid's out.
         solids: all solids; only those whose pixels were found, not given, may be parted.
         hints: kinds by object name that are known from elsewhere.
         seed: of the fits' samples.
@@ -48,11 +55,12 @@ def look_again(
         and (solid.fit.explained < DOUBTFUL or solid.fit.misfit > GOOD_MISFIT)
     ]
     doubtful.sort(key=lambda solid: solid.fit.explained)
+    whole = {segment.name: segment for segment in segments}
     for solid in doubtful[:MOST_LOOKS]:
-        parts = two_colors(seen, solid.segment.mask)
+        parts = two_colors(seen, whole[solid.name].mask)
         if parts is None:
             continue
-        others = [other.segment for other in solids if other.name != solid.name]
+        others = [segment for name, segment in whole.items() if name != solid.name]
         pair = [
             replace(solid.segment, name=f"{solid.name}_{index}", mask=part)
             for index, part in enumerate(_redrawn(seen, parts, others), start=1)
@@ -60,6 +68,7 @@ def look_again(
         again = fit_all(seen, [*others, *pair], rng=np.random.default_rng(seed), hints=hints)
         if _is_filled_mouth(again, pair, solid.fit):
             solids = again
+            whole = {segment.name: segment for segment in [*others, *pair]}
     return solids
 
 
