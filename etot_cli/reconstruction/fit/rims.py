@@ -31,6 +31,8 @@ UNROUND = 0.004
 """How far a thing that is no perfect ball may rest from where one would [m]."""
 ON_FLOOR = 0.0007
 """How far from the floor what stands on it may be found [m]."""
+ABOUT = 0.015
+"""A ball is seen to rest somewhere to this [m]."""
 LIP_SIGMA = 0.0007
 """How exactly the rim's edge shows in colour [m]."""
 TOO_SMALL = 0.0005
@@ -98,12 +100,16 @@ def _in_the_mouth(seen: Calibrated, vessel: Solid, solid: Solid) -> tuple[Solid,
     # As high as it is seen, whatever it rests on: the rule for that needs a start near the truth.
     ball = fit_shape(solid.fit.family, solid.observation, solid.fit.params, free_z=True)
     solid = replace(solid, fit=replace(solid.fit, params=ball))
-    cup, rim = _opened_for(vessel.fit.params, ball), True
+    cup, before = _opened_for(vessel.fit.params, ball), None
+    places = [rim for rim in (True, False) if _may_rest(cup, ball, rim=rim)] or [True, False]
     for _ in range(2):  # the rim is looked for with the width that the fit with it finds
         vessel = replace(vessel, fit=replace(vessel.fit, params=cup))
         tall = rim_height(seen, vessel.segment.mask, cup)
-        options = [(*_together(vessel, solid, tall, rim=rim), rim) for rim in (True, False)]
-        _, cup, ball, rim = min(options, key=lambda option: option[0])
+        if before is not None and tall is not None and abs(tall - before) < LIP_SIGMA:
+            break
+        options = [_together(vessel, solid, tall, rim=rim) for rim in places]
+        _, cup, ball = min(options, key=lambda option: option[0])
+        before = tall
     rim = bool(ball[2] - cup[2] > cup[6] + SUNK * cup[4])
     settled = replace(vessel, fit=judge(vessel.fit.family, vessel.observation, cup))
     return (
@@ -125,6 +131,11 @@ def _opened_for(cup: Array, ball: Array) -> Array:
         wall = float(cup[3]) / 2 - float(np.sqrt(radius**2 - above**2))
         opened[5] = np.clip(wall, *WALLS)
     return opened
+
+
+def _may_rest(cup: Array, ball: Array, *, rim: bool) -> bool:
+    """Whether a ball is seen about where it would rest in a cup."""
+    return abs(float(ball[2]) - resting_height(cup, float(ball[3]), rim=rim)) < ABOUT
 
 
 def _clear_of(seen: Observation, mask: Mask) -> Observation:

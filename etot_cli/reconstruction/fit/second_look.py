@@ -15,7 +15,7 @@ from etot_cli.reconstruction.capture.surfaces import color_features, shaded_desk
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED, Fit
 from etot_cli.reconstruction.fit.refine import exact_depth
-from etot_cli.reconstruction.fit.supports import fit_all
+from etot_cli.reconstruction.fit.supports import fit_all, free_ball
 from etot_cli.reconstruction.masks.boundaries import refine_masks
 from etot_cli.reconstruction.masks.color_regions import UNLIKE, color_regions
 from etot_cli.reconstruction.objects import Segment, Solid
@@ -26,6 +26,8 @@ LEAST_SHARE = 0.1
 """Share of a piece that each of its parts has at least."""
 GAIN = 0.05
 """Two shapes have to explain so much more than one, or leave half the misfit."""
+BALL_LIKE = 0.8
+"""Share of what is seen of a part that a ball explains, or it is none."""
 MOST_LOOKS = 4
 """So many pieces get a second look, the least explained first."""
 
@@ -60,16 +62,29 @@ def look_again(
         parts = two_colors(seen, whole[solid.name].mask)
         if parts is None:
             continue
+        rng = np.random.default_rng(seed)
+        if not _has_ball_above(seen, parts, rng):
+            continue
         others = [segment for name, segment in whole.items() if name != solid.name]
         pair = [
             replace(solid.segment, name=f"{solid.name}_{index}", mask=part)
             for index, part in enumerate(_redrawn(seen, parts, others), start=1)
         ]
-        again = fit_all(seen, [*others, *pair], rng=np.random.default_rng(seed), hints=hints)
+        again = fit_all(seen, [*others, *pair], rng=rng, hints=hints)
         if _is_filled_mouth(again, pair, solid.fit):
             solids = again
             whole = {segment.name: segment for segment in [*others, *pair]}
     return solids
+
+
+def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], rng: np.random.Generator) -> bool:
+    """Whether the higher of two parts looks like a ball; spares fits of all that does not."""
+    heights = [np.nanmedian(np.where(part, seen.height, np.nan)) for part in parts]
+    if not np.isfinite(heights).all():
+        return False
+    upper, lower = (parts[index] for index in np.argsort(heights)[::-1])
+    ball = free_ball(seen, Segment("upper", upper), [Segment("lower", lower)], rng)
+    return ball.explained > BALL_LIKE
 
 
 def _redrawn(seen: Calibrated, parts: tuple[Mask, Mask], others: list[Segment]) -> list[Mask]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.fit.observation import Observation, observe
-from etot_cli.reconstruction.fit.pose import COARSE, Fit, best_fit, fit_shape, judge
+from etot_cli.reconstruction.fit.pose import COARSE, FINE, Fit, best_fit, fit_shape, judge
 from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
 from etot_cli.reconstruction.fit.rims import as_cup, disagreement, settle_on_rim
 from etot_cli.reconstruction.fit.standing import Support, offence, possible_supports
@@ -24,6 +24,8 @@ from etot_cli.reconstruction.shapes.catalog import tiers
 
 EROSION = 3
 """Pixels at the edge of a mask whose depth is left out where depth is noisy."""
+AROUND = 60
+"""Things farther than this from an object change nothing of what is seen of it [px]."""
 CONVINCING = 0.9
 """Pixels are only taken out of a mask for a shape that explains so much of the others."""
 
@@ -102,13 +104,25 @@ def _ball_in(
     rng: np.random.Generator,
 ) -> Solid:
     """A segment as a ball that rests in the mouth of a vessel, as high as it is seen."""
-    observation = _observe(seen, segment, segments)
-    observation = replace(observation, base=vessel.top, depth_sigma=first_sigma(seen))
+    observation = replace(_observe(seen, segment, segments), base=vessel.top)
+    observation = replace(observation, depth_sigma=first_sigma(seen))
+    fit = _free_fit(seen, observation, rng)
+    return Solid(segment, fit, vessel.name, "rim", observation.thinned(*FINE, rng))
+
+
+def free_ball(
+    seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
+) -> Fit:
+    """A segment as a ball, as high as it is seen, whatever it rests on."""
+    observation = _observe(seen, segment, others)
+    return _free_fit(seen, replace(observation, depth_sigma=first_sigma(seen)), rng)
+
+
+def _free_fit(seen: Calibrated, observation: Observation, rng: np.random.Generator) -> Fit:
     ball, coarse = Ball(), observation.thinned(*COARSE, rng)
     guesses = ball.guesses(_evidence(seen, observation))
     fits = [judge(ball, coarse, fit_shape(ball, coarse, g, free_z=True)) for g in guesses]
-    fit = min(fits, key=lambda fit: fit.score)
-    return Solid(segment, fit, vessel.name, "rim", observation)
+    return min(fits, key=lambda fit: fit.score)
 
 
 def _lowest(seen: Calibrated, segment: Segment) -> float:
@@ -122,7 +136,13 @@ def _lowest(seen: Calibrated, segment: Segment) -> float:
 
 def _observe(seen: Calibrated, segment: Segment, segments: list[Segment]) -> Observation:
     nearness = np.where(seen.depth > 0, seen.depth, np.inf)
-    others = [other.mask for other in segments if other.name != segment.name]
+    rows, columns = np.nonzero(segment.mask)
+    window = tuple(
+        slice(max(0, int(at.min()) - AROUND), int(at.max()) + AROUND) for at in (rows, columns)
+    )
+    others = [
+        other.mask for other in segments if other.name != segment.name and other.mask[window].any()
+    ]
     exact = exact_depth(seen)
     observation = observe(
         seen.view, segment.mask, others, nearness, seen.cloud, seen.desk_top,
