@@ -32,7 +32,7 @@ from etot_cli.specs.load import load_task
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
 from tests.measure.markdown import replace_section, table
-from tests.reconstruction.random_scenes import random_scene
+from tests.reconstruction.random_scenes import SHOWN, random_scene
 from tests.reconstruction.scenes import free_forms, others
 
 ROOT = Path(__file__).parents[2]
@@ -40,8 +40,6 @@ PAGE = ROOT / "docs" / "results.md"
 TITLE = "Reconstruction"
 TIME_LIMIT_S, COACD_TIME_LIMIT_S = 10.0, 30.0
 REAL = ROOT.parent / "shared" / "real" / "task5"
-SHOWN = 300
-"""What shows fewer pixels is not counted."""
 RANDOM_SEEDS = range(8)
 SQUARE = ("sphere", "cylinder", "cup", "bowl")
 

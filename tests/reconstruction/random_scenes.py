@@ -17,6 +17,8 @@ GAP = 0.03
 AREA = ((0.30, 0.60), (-0.35, 0.35))
 WALLS = {"wall": 0.004, "floor": 0.004}
 TRIES = 200
+SHOWN = 300
+"""What shows fewer pixels is not counted."""
 
 
 def random_scene(seed: int, most: int = 8) -> Scene:

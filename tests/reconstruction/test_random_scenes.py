@@ -10,10 +10,7 @@ import pytest
 from etot_cli.reconstruction.pipeline import Options, reconstruct
 from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
-from tests.reconstruction.random_scenes import random_scene
-
-SHOWN = 300
-"""What shows fewer pixels is not counted."""
+from tests.reconstruction.random_scenes import SHOWN, random_scene
 
 
 @pytest.mark.parametrize(

@@ -102,7 +102,7 @@ def observe(
     own = _spread(nearness, mask, wide)
     occluder, hiding = np.zeros_like(mask), np.zeros_like(mask)
     hull = convex_hull_mask(mask)
-    level = _level(cloud, mask)
+    level = median_height(cloud, mask)
     for other in others:
         border = other & np.isfinite(own)
         if (other & hull).sum() > CONTAINED * other.sum():
@@ -110,7 +110,7 @@ def observe(
         else:
             foreign = _spread(nearness, other, wide)
             front = border & (foreign < own - MARGIN)
-            if _level(cloud, other) > level + HIGHER:
+            if median_height(cloud, other) > level + HIGHER:
                 # Where they touch, depth cannot tell; what is higher hides what is lower.
                 front |= border & (foreign < own + CLOSE)
         occluder |= front
@@ -154,7 +154,7 @@ def observe(
                        complete=len(found) / max(total, 1))  # fmt: skip
 
 
-def _level(cloud: Array, mask: Mask) -> float:
+def median_height(cloud: Array, mask: Mask) -> float:
     """Median height of a mask's readings [m]; low where there are none."""
     heights = cloud[..., 2][mask]
     heights = heights[np.isfinite(heights)]

@@ -13,6 +13,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
 from etot_cli.reconstruction.capture.surfaces import color_features, shaded_desk
 from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.fit.observation import median_height
 from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED, Fit
 from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.fit.supports import fit_all, free_ball
@@ -79,9 +80,7 @@ def look_again(
 
 def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], rng: np.random.Generator) -> bool:
     """Whether the higher of two parts looks like a ball; spares fits of all that does not."""
-    heights = [np.nanmedian(np.where(part, seen.height, np.nan)) for part in parts]
-    if not np.isfinite(heights).all():
-        return False
+    heights = [median_height(seen.cloud, part) for part in parts]
     upper, lower = (parts[index] for index in np.argsort(heights)[::-1])
     ball = free_ball(seen, Segment("upper", upper), [Segment("lower", lower)], rng)
     return ball.explained > BALL_LIKE

@@ -46,7 +46,7 @@ MASS_DOUBT = 0.4
 FRICTION_DOUBT = 0.3
 """Relative."""
 WORLDS = 8
-"""A plan for a twin has to hold in so many worlds: masses and friction are guesses, and what works
+"""Plans for a twin are tried in so many worlds: masses and friction are guesses, and what works
 with one guess alone proves little."""
 LIGHTEST = 0.005
 THICK_WALL = 0.005
