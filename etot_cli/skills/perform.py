@@ -11,14 +11,14 @@ import mujoco
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.articulate import articulation_ways
-from etot_cli.skills.collision import CollisionChecker
-from etot_cli.skills.kinematics import Arm
+from etot_cli.skills.articulation.articulate import articulation_ways
+from etot_cli.skills.grasps.pick import pick_ways
+from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.motion.collision import CollisionChecker
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.outcome import SkillOutcome, failed
-from etot_cli.skills.pick import pick_ways
 from etot_cli.skills.pilot import Pilot
-from etot_cli.skills.put import put_into_ways, put_on_ways
-from etot_cli.skills.solids import Solids
+from etot_cli.skills.placements.put import put_into_ways, put_on_ways
 from etot_cli.skills.ways import LANES, NoWay, Ways, no_way
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
-from etot_cli.skills.collision import Attached, CollisionChecker
-from etot_cli.skills.kinematics import Arm, Pose
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import Attached, CollisionChecker
+from etot_cli.skills.motion.kinematics import Arm
+from etot_cli.skills.motion.timing import CONTROL_PERIOD, time_path, tool_speed_to_joint_speed
 from etot_cli.skills.outcome import SkillOutcome
-from etot_cli.skills.paths import plan_transit
-from etot_cli.skills.trajectory import CONTROL_PERIOD, time_path, tool_speed_to_joint_speed
 from etot_cli.world.build.surroundings import TIMESTEP
 from etot_cli.world.model import World
 from etot_cli.world.recorder import Recorder
@@ -57,7 +57,7 @@ class Budget:
     limit_s: float = 60.0
 
 
-class Pilot:
+class Pilot(Belief):
     """The robot in one world during one action.
 
     Holds the live ``data``, the arm's kinematics, a collision checker of the frozen scene, the
@@ -74,8 +74,8 @@ class Pilot:
         rng: np.random.Generator,
         scratch: mujoco.MjData,
     ) -> None:
-        self.world, self.data, self.arm, self.scratch = world, data, arm, scratch
-        self.checker, self.recorder, self.rng = checker, recorder, rng
+        super().__init__(world, data, arm, checker, rng, scratch)
+        self.recorder = recorder
         self.steps = 0
         self._periods = 0
         self._wanted_opening: float | None = None
@@ -86,58 +86,6 @@ class Pilot:
         # A position servo with velocity damping follows this much later than its target.
         self._lag = damping / np.maximum(gain, 1e-9)
         self._speed = world.robot.spec.speed
-
-    # -- state ---------------------------------------------------------------------------------
-
-    @property
-    def joints(self) -> Vector:
-        """Measured joint values (n,)."""
-        return np.asarray(self.data.qpos[self.world.robot.qpos].copy())
-
-    @property
-    def commanded(self) -> Vector:
-        """Joint targets now in force (n,)."""
-        return np.asarray(self.data.ctrl[self.world.robot.ctrl].copy())
-
-    @property
-    def opening(self) -> float:
-        """Measured distance between the pads [m]."""
-        return float(self.data.qpos[self.world.robot.finger_qpos].sum())
-
-    def tool(self) -> Pose:
-        """Measured tool pose."""
-        site = self.world.robot.tool_site
-        return Pose(
-            self.data.site_xpos[site].copy(), self.data.site_xmat[site].reshape(3, 3).copy()
-        )
-
-    def object_pose(self, name: str) -> Pose:
-        """An object's body pose."""
-        body = self.data.body(name)
-        return Pose(body.xpos.copy(), body.xmat.reshape(3, 3).copy())
-
-    def attach(self, name: str) -> Attached:
-        """The object's present place in the hand."""
-        return Attached(name, self.tool().inverse() @ self.object_pose(name))
-
-    def held(self) -> str | None:
-        """The movable object that both fingers touch, if any."""
-        data, world = self.data, self.world
-        touched: dict[str, set[int]] = {}
-        fingers = world.robot.finger_bodies
-        geoms = data.contact.geom
-        bodies = world.model.geom_bodyid
-        for i in range(data.ncon):
-            one, two = int(geoms[i][0]), int(geoms[i][1])
-            for hand, other in ((one, two), (two, one)):
-                if int(bodies[hand]) in fingers:
-                    owner = world.geom_object[other]
-                    if owner in world.entries and world.entries[owner].info.movable:
-                        touched.setdefault(owner, set()).add(int(bodies[hand]))
-        for name, hands in touched.items():
-            if len(hands) == 2:
-                return name
-        return None
 
     # -- stepping ------------------------------------------------------------------------------
 
@@ -229,7 +177,9 @@ class Pilot:
 
     def transit(self, goal: Vector, attached: Attached | None = None) -> PhaseEnd | None:
         """Plans and follows a collision-free path to ``goal`` (n,); None when there is none."""
-        path = self.plan_transit(goal, attached)
+        path = self.plan_transit(
+            goal, attached, opening=self._wanted_opening if attached is None else None
+        )
         if path is None:
             return None
         guard = None
@@ -238,14 +188,6 @@ class Pilot:
         end = self.follow_path(path[1:], guard=guard)
         self.wait(0.05)
         return end
-
-    def plan_transit(self, goal: Vector, attached: Attached | None = None) -> Vector | None:
-        """A collision-free joint path (k, n) from the present targets to ``goal``."""
-        self.checker.freeze(self.data)
-        if attached is None and self._wanted_opening is not None:
-            # The fingers get there long before the arm does.
-            self.checker.set_fingers(self._wanted_opening)
-        return plan_transit(self.arm, self.checker, self.commanded, goal, attached, self.rng)
 
     def drop_guard(self, attached: Attached, tolerance: float = 0.05) -> Guard:
         """True once the object has moved in the hand by more than ``tolerance`` [m]."""

@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.grasps import FINGER_ROOM, WIDTH_MARGIN, Grasp, GraspSet, sample_grasps
-from etot_cli.skills.solids import Solids
+from etot_cli.skills.grasps.candidates import (
+    FINGER_ROOM,
+    WIDTH_MARGIN,
+    Grasp,
+    GraspSet,
+    sample_grasps,
+)
+from etot_cli.skills.grasps.solids import Solids
 from tests.skills.helpers import BALL, BOX, CUP, PEN
 from tests.world.helpers import Stage, make_scene, set_up
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from etot_cli.skills import kinematics
-from etot_cli.skills.kinematics import Arm, Pose, rotation_from_axes, straight, turn_about
+from etot_cli.skills.motion import kinematics
+from etot_cli.skills.motion.kinematics import Arm, Pose, rotation_from_axes, straight, turn_about
 from etot_cli.world.robot import load_robot
 
 ARM = Arm(load_robot("xarm6"))

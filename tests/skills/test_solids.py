@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from etot_cli.skills.solids import Solids
+from etot_cli.skills.grasps.solids import Solids
 from tests.world.helpers import BALL, BOX, CUP, Stage, make_scene, set_up
 
 TURNED = BOX | {"at": [0.4, -0.3], "yaw_deg": 37}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.action import Keepout
-from etot_cli.skills.spots import EDGE, MIN_GAP, surface_spots, sweep_rectangles
+from etot_cli.skills.placements.surface_spots import EDGE, MIN_GAP, surface_spots, sweep_rectangles
 from tests.skills.helpers import BALL, BOX, OVEN, UNIT, drawers
 from tests.world.helpers import Stage, make_scene, set_up
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from etot_cli.skills.trajectory import (
+from etot_cli.skills.motion.timing import (
     ACCELERATION_TIME,
     CONTROL_PERIOD,
     time_path,

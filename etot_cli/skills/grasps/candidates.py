@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.kinematics import Pose, rotation_from_axes, turn_about
-from etot_cli.skills.solids import Interval, Solids
+from etot_cli.skills.grasps.solids import Interval, Solids
+from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 

@@ -7,11 +7,11 @@ from functools import partial
 
 import numpy as np
 
-from etot_cli.skills.grip_part import AJAR, GRIP_TILTS, grip_move
+from etot_cli.skills.articulation.grips import AJAR, GRIP_TILTS, grip_move
+from etot_cli.skills.articulation.part_path import Effort, PreparedMove, fraction_open
+from etot_cli.skills.articulation.pushes import Push, contact_points, push_move
+from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import Blockers, Evidence
-from etot_cli.skills.part_motion import Effort, PreparedMove, fraction_open
-from etot_cli.skills.pilot import Pilot
-from etot_cli.skills.push_part import Push, contact_points, push_move
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT
 
@@ -26,13 +26,13 @@ Candidate = Callable[[Blockers, Effort], PreparedMove | None]
 class PartSearch:
     """Moves of one part from where it stands, worked out once each, when they are asked for.
 
-    Whenever moves are asked for, the pilot's world must stand as it did at first.
+    Whenever moves are asked for, the belief's world must stand as it did at first.
     """
 
-    def __init__(self, pilot: Pilot, part: Part, opening: bool) -> None:
+    def __init__(self, belief: Belief, part: Part, opening: bool) -> None:
         self.part, self.opening = part, opening
-        self._pilot = pilot
-        self._value = float(pilot.data.joint(part.joint).qpos[0])
+        self._belief = belief
+        self._value = float(belief.data.joint(part.joint).qpos[0])
         self._target = part.upper if opening else part.lower
         self._grips = self._grip_candidates()
         pushes = self._push_candidates()
@@ -55,7 +55,7 @@ class PartSearch:
         part, target = self.part, self._target
         wanted = OPEN_AT + 0.04 if self.opening else CLOSED_AT
         partway: list[tuple[float, int, PreparedMove]] = []
-        self._pilot.checker.freeze(self._pilot.data)
+        self._belief.checker.freeze(self._belief.data)
         for index in candidates:
             move = self._move(index, effort)
             if move is None:
@@ -64,7 +64,7 @@ class PartSearch:
             fraction = fraction_open(part, move.reached)
             if missing < (OPEN_ENOUGH if self.opening else CLOSED_ENOUGH):
                 yield move
-                self._pilot.checker.freeze(self._pilot.data)
+                self._belief.checker.freeze(self._belief.data)
             elif fraction >= wanted if self.opening else fraction <= wanted:
                 partway.append((round(missing, 2), index, move))
         for *_, move in sorted(partway, key=lambda item: item[:2]):
@@ -74,7 +74,7 @@ class PartSearch:
         """Grips that only bring the part far enough for a finger to get behind it, the farthest
         first. The hand often cannot stay on a handle all the way, but can push on from inside.
         """
-        self._pilot.checker.freeze(self._pilot.data)
+        self._belief.checker.freeze(self._belief.data)
         first = 0 if self.opening else self.count - len(self._grips)
         found = (self._move(first + i, Effort()) for i in range(len(self._grips)))
         moves = [move for move in found if move is not None and move.length >= AJAR]
@@ -87,7 +87,7 @@ class PartSearch:
     def _move(self, index: int, effort: Effort) -> PreparedMove | None:
         key = (index, effort)
         if key not in self._known:
-            blockers = Blockers(self._pilot.world)
+            blockers = Blockers(self._belief.world)
             move = self._candidates[index](blockers, effort)
             self._known[key] = move, blockers.evidence()
         return self._known[key][0]
@@ -95,7 +95,7 @@ class PartSearch:
     def _grip_candidates(self) -> list[Candidate]:
         """Fingers closed on the part, upright hands first."""
         return [
-            partial(grip_move, self._pilot, self.part, grasp, self._value, self._target, tilt)
+            partial(grip_move, self._belief, self.part, grasp, self._value, self._target, tilt)
             for grasp in self.part.grasps
             for tilt in GRIP_TILTS
         ]
@@ -114,7 +114,7 @@ class PartSearch:
     def _push(self, push: Push, blockers: Blockers, effort: Effort) -> PreparedMove | None:
         for tilt in PUSH_TILTS[1:] if push.outward else PUSH_TILTS:
             move = push_move(
-                self._pilot, self.part, push, self._value, self._target, tilt, blockers, effort
+                self._belief, self.part, push, self._value, self._target, tilt, blockers, effort
             )
             if move is not None:
                 return move

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.collision import Attached
-from etot_cli.skills.grasps import Grasp
-from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.candidates import Grasp
+from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.pilot import Pilot
 from etot_cli.world.relations import to_region
 
 Vector = NDArray[np.float64]
@@ -45,17 +45,17 @@ class PreparedGrasp:
 
 
 def prepare_grasp(
-    pilot: Pilot, name: str, grasp: Grasp, blockers: Blockers
+    belief: Belief, name: str, grasp: Grasp, blockers: Blockers
 ) -> PreparedGrasp | bool | None:
     """A prepared grasp, False where something is in the way, None where the arm cannot get."""
-    checker, arm = pilot.checker, pilot.arm
+    checker, arm = belief.checker, belief.arm
     checker.set_fingers(grasp.opening)
     approach = grasp.tool.rotation[:, 2]
     # The grasp itself first: where the hand has no room there, the way to it need not be found.
-    at_grasp = arm.reach(grasp.tool, pilot.commanded)
+    at_grasp = arm.reach(grasp.tool, belief.commanded)
     if not at_grasp.reached:
         return None
-    allow = {name} if grasp.width > pilot.world.robot.spec.gripper.opening else set()
+    allow = {name} if grasp.width > belief.world.robot.spec.gripper.opening else set()
     hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
     if hits:
         blockers.add(hits)
@@ -70,40 +70,40 @@ def prepare_grasp(
         if hits:
             blockers.add(hits)
             return False
-    lift = _lift(pilot, name, grasp, line[-1], blockers)
+    lift = _lift(belief, name, grasp, line[-1], blockers)
     if lift is None:
         return False
     return PreparedGrasp(grasp, back[-1], line, *lift)
 
 
 def _lift(
-    pilot: Pilot, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
+    belief: Belief, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
 ) -> tuple[Vector, float] | None:
     """Joint values of the way up with the object and its length [m], or None when it would hit
     something. From under a roof a level hand takes the object out through the front.
     """
-    checker = pilot.checker
+    checker = belief.checker
     checker.set_fingers(min(grasp.width, grasp.opening))
     approach = grasp.tool.rotation[:, 2]
     try:
-        if abs(approach[2]) < LEVEL and _is_roofed(pilot, name):
+        if abs(approach[2]) < LEVEL and _is_roofed(belief, name):
             raised = grasp.tool.moved(CLEAR * UP)
             for length in OUT_LENGTHS:
                 outside = raised.moved(-length * approach)
                 out = [*straight(grasp.tool, raised), *straight(raised, outside)]
-                path = _carried(pilot, name, grasp, out, joints, blockers, thorough=True)
+                path = _carried(belief, name, grasp, out, joints, blockers, thorough=True)
                 if path is not None:
                     return path, CLEAR + length
         up = straight(grasp.tool, grasp.tool.moved(LIFT * UP))
-        path = _carried(pilot, name, grasp, up, joints, blockers, thorough=False)
+        path = _carried(belief, name, grasp, up, joints, blockers, thorough=False)
         return None if path is None else (path, LIFT)
     finally:
-        checker.freeze(pilot.data)
+        checker.freeze(belief.data)
 
 
-def _is_roofed(pilot: Pilot, name: str) -> bool:
+def _is_roofed(belief: Belief, name: str) -> bool:
     """Whether an object is where one gets at it through a front only."""
-    world, data = pilot.world, pilot.data
+    world, data = belief.world, belief.data
     spaces = [surface.space for surface in world.surfaces.values() if surface.space is not None]
     return any(
         abs(float(data.body(space.body).xmat.reshape(3, 3)[2] @ np.array(space.opening))) < LEVEL
@@ -113,7 +113,7 @@ def _is_roofed(pilot: Pilot, name: str) -> bool:
 
 
 def _carried(
-    pilot: Pilot,
+    belief: Belief,
     name: str,
     grasp: Grasp,
     poses: Sequence[Pose],
@@ -126,12 +126,12 @@ def _carried(
 
     ``thorough``: every pose is looked at and has to be reached, not only the middle and the end.
     """
-    checker = pilot.checker
-    attached = Attached(name, grasp.tool.inverse() @ pilot.object_pose(name))
-    path, count = pilot.arm.line(poses, joints)
+    checker = belief.checker
+    attached = Attached(name, grasp.tool.inverse() @ belief.object_pose(name))
+    path, count = belief.arm.line(poses, joints)
     if count < (len(poses) if thorough else 2):
         return None
-    resting = {*_supports(pilot, name)}
+    resting = {*_supports(belief, name)}
     for row in path if thorough else (path[-1], path[len(path) // 2]):
         hits = checker.hits(
             row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
@@ -142,9 +142,9 @@ def _carried(
     return path
 
 
-def _supports(pilot: Pilot, name: str) -> set[str]:
+def _supports(belief: Belief, name: str) -> set[str]:
     """Objects that touch it now, from below or the side, and so may do during the lift."""
-    world, data = pilot.world, pilot.data
+    world, data = belief.world, belief.data
     found: set[str] = set()
     for one, two in data.contact.geom:
         first, second = world.geom_object[int(one)], world.geom_object[int(two)]

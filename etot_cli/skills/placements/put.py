@@ -9,15 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action
-from etot_cli.skills.collision import Attached
-from etot_cli.skills.container_spots import container_targets, front_targets
-from etot_cli.skills.kinematics import Pose, straight
-from etot_cli.skills.orientation import UP, resting_rotation, turned_rotations
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
-from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.placement import LOWER_STEP, Placement, lower_into, lower_onto, slide_in
-from etot_cli.skills.spots import surface_spots
+from etot_cli.skills.placements.container_spots import container_targets, front_targets
+from etot_cli.skills.placements.orientation import UP, resting_rotation, turned_rotations
+from etot_cli.skills.placements.placement import (
+    LOWER_STEP,
+    Placement,
+    lower_into,
+    lower_onto,
+    slide_in,
+)
+from etot_cli.skills.placements.surface_spots import surface_spots
 from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Region
 from etot_cli.world.state import DESK, CauseKind
@@ -38,36 +44,36 @@ MOUTH_CLEARANCE = 0.02
 """How far above a container's rim the lowest part starts going in [m]."""
 
 
-def put_on_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
+def put_on_ways(belief: Belief, action: Action) -> Ways | SkillOutcome:
     """Ways to put the held object on a surface, each at another spot."""
-    name = pilot.held()
+    name = belief.held()
     if name is None:
         return failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
-    world = pilot.world
+    world = belief.world
     if action.target != DESK and action.target not in world.surfaces:
         text = f"{action.target} has no flat top to put something on"
         return failed(CauseKind.PRECONDITION, [action.target], text)
-    attached = pilot.attach(name)
+    attached = belief.attach(name)
     space = None if action.target == DESK else world.surfaces[action.target].space
     if space is not None:
         explain = partial(_no_spot, name, f"{action.target}, held as it is")
-        return partial(_ways_through_front, pilot, attached, space, explain)
-    base = resting_rotation(pilot, attached)
-    low, high = pilot.checker.extent(name, base)
+        return partial(_ways_through_front, belief, attached, space, explain)
+    base = resting_rotation(belief, attached)
+    low, high = belief.checker.extent(name, base)
     spots = surface_spots(
         world,
-        pilot.data,
+        belief.data,
         action.target,
         float(np.abs(np.concatenate([low[:2], high[:2]])).max()),
         action.keepout,
         ignore={name},
-        prefer=pilot.object_pose(name).position[:2],
+        prefer=belief.object_pose(name).position[:2],
     )
-    return partial(_ways_onto, pilot, action.target, attached, base, spots[:MAX_SPOTS])
+    return partial(_ways_onto, belief, action.target, attached, base, spots[:MAX_SPOTS])
 
 
 def _ways_onto(
-    pilot: Pilot,
+    belief: Belief,
     surface: str,
     attached: Attached,
     base: Vector,
@@ -75,18 +81,18 @@ def _ways_onto(
     lane: int,
 ) -> Iterator[Attempt | NoWay]:
     name = attached.name
-    blockers = Blockers(pilot.world)
+    blockers = Blockers(belief.world)
     touching = {surface, surface.split(".")[0]}
     found = False
     for spot, height in dealt(spots, lane):
         targets = []
-        for rotation in turned_rotations(pilot, attached, base, spot)[:4]:
-            low, _ = pilot.checker.extent(name, rotation)
+        for rotation in turned_rotations(belief, attached, base, spot)[:4]:
+            low, _ = belief.checker.extent(name, rotation)
             position = np.array([spot[0], spot[1], height + SURFACE_GAP - low[2]])
             targets.append(Pose(position, rotation))
-        pilot.checker.freeze(pilot.data)
+        belief.checker.freeze(belief.data)
         for target in targets:
-            placement = lower_onto(pilot, attached, target, touching, blockers)
+            placement = lower_onto(belief, attached, target, touching, blockers)
             if placement is not None:
                 found = True
                 yield partial(_execute, attached=attached, placement=placement)
@@ -103,40 +109,40 @@ def _no_spot(name: str, surface: str, evidence: Evidence) -> SkillOutcome:
     )
 
 
-def put_into_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
+def put_into_ways(belief: Belief, action: Action) -> Ways | SkillOutcome:
     """Ways to put the held object into a container; a rod stands where it must."""
-    name = pilot.held()
+    name = belief.held()
     if name is None:
         return failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
-    part = pilot.world.parts.get(action.target)
-    region = pilot.world.regions.get(part.info.address if part else action.target)
+    part = belief.world.parts.get(action.target)
+    region = belief.world.regions.get(part.info.address if part else action.target)
     if region is None:
         return failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
-    attached = pilot.attach(name)
-    out = pilot.data.body(region.body).xmat.reshape(3, 3) @ np.array(region.opening)
+    attached = belief.attach(name)
+    out = belief.data.body(region.body).xmat.reshape(3, 3) @ np.array(region.opening)
     if abs(out[2]) < LEVEL_OPENING:
         # The hand, not the object, is what most often has no room there.
         explain = partial(_no_way_in, name, f"{action.target} from the front, held as it is")
-        return partial(_ways_through_front, pilot, attached, region, explain)
+        return partial(_ways_through_front, belief, attached, region, explain)
     explain = partial(_no_way_in, name, action.target)
-    return partial(_ways_into, pilot, attached, region, explain)
+    return partial(_ways_into, belief, attached, region, explain)
 
 
 def _ways_into(
-    pilot: Pilot,
+    belief: Belief,
     attached: Attached,
     region: Region,
     explain: Callable[[Evidence], SkillOutcome],
     lane: int,
 ) -> Iterator[Attempt | NoWay]:
     """One way down to the bottom, and those that end higher, the deepest first."""
-    blockers = Blockers(pilot.world)
+    blockers = Blockers(belief.world)
     shallow: list[Placement] = []
     found = False
     hover = 2 * region.half[2] + MOUTH_CLEARANCE
-    for target in dealt(container_targets(pilot, attached, region), lane):
-        pilot.checker.freeze(pilot.data)
-        placement = lower_into(pilot, attached, target, hover, blockers)
+    for target in dealt(container_targets(belief, attached, region), lane):
+        belief.checker.freeze(belief.data)
+        placement = lower_into(belief, attached, target, hover, blockers)
         if placement is None:
             continue
         found = True
@@ -152,18 +158,18 @@ def _ways_into(
 
 
 def _ways_through_front(
-    pilot: Pilot,
+    belief: Belief,
     attached: Attached,
     region: Region,
     explain: Callable[[Evidence], SkillOutcome],
     lane: int,
 ) -> Iterator[Attempt | NoWay]:
     """Level through the open side, to places on the floor."""
-    blockers = Blockers(pilot.world)
+    blockers = Blockers(belief.world)
     found = False
-    for target, way_in in dealt(front_targets(pilot, attached, region), lane):
-        pilot.checker.freeze(pilot.data)
-        placement = slide_in(pilot, attached, target, way_in, blockers)
+    for target, way_in in dealt(front_targets(belief, attached, region), lane):
+        belief.checker.freeze(belief.data)
+        placement = slide_in(belief, attached, target, way_in, blockers)
         if placement is not None:
             found = True
             yield partial(_execute, attached=attached, placement=placement)
@@ -215,7 +221,7 @@ def _clear_hand(pilot: Pilot) -> None:
     """
     for _ in range(MAX_CLEARING):
         pilot.wait(CLEARING_PAUSE)
-        if not struck_objects(pilot):
+        if not pilot.touched_by_robot():
             return
         tool = pilot.arm.forward(pilot.commanded)
         for offset in (-CLEARING_STEP * tool.rotation[:, 2], UP * CLEARING_STEP):
@@ -229,14 +235,14 @@ def _lost_grip(pilot: Pilot, name: str, when: str) -> SkillOutcome:
     pilot.settle(SETTLE_TIME)
     return failed(
         CauseKind.SLIP,
-        [*struck_objects(pilot), name] if pilot.held() != name else [name],
+        [*pilot.touched_by_robot(), name] if pilot.held() != name else [name],
         f"{name} slipped out of the fingers {when}",
         pilot.data.time - pilot.recorder.start_time,
     )
 
 
 def _stopped(pilot: Pilot, name: str) -> SkillOutcome:
-    struck = [item for item in struck_objects(pilot) if item != name]
+    struck = [item for item in pilot.touched_by_robot() if item != name]
     return failed(
         CauseKind.BLOCKED,
         [*struck, name],

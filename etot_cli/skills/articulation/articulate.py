@@ -10,10 +10,16 @@ from collections.abc import Iterator
 from functools import partial
 
 from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.articulation.part_path import (
+    STANDOFF,
+    Effort,
+    PreparedMove,
+    fraction_open,
+    way_back,
+)
+from etot_cli.skills.articulation.search import PartSearch
+from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import DONE, Evidence, SkillOutcome, failed
-from etot_cli.skills.part_motion import STANDOFF, Effort, PreparedMove, fraction_open, way_back
-from etot_cli.skills.part_search import PartSearch
-from etot_cli.skills.pick import struck_objects
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
 from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Part
@@ -32,11 +38,11 @@ TOOL_SPEED = 0.16
 SETTLE_TIME = 1.2
 
 
-def articulation_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
+def articulation_ways(belief: Belief, action: Action) -> Ways | SkillOutcome:
     """Ways to carry out OPEN or CLOSE."""
-    part = pilot.world.parts.get(action.target)
+    part = belief.world.parts.get(action.target)
     if part is None:
-        entry = pilot.world.entries.get(action.target)
+        entry = belief.world.entries.get(action.target)
         several = [item.info.address for item in entry.parts] if entry else []
         text = (
             f"{action.target} has several movable parts: {', '.join(several)}"
@@ -45,10 +51,10 @@ def articulation_ways(pilot: Pilot, action: Action) -> Ways | SkillOutcome:
         )
         return failed(CauseKind.PRECONDITION, [action.target], text)
     opening = action.verb is Verb.OPEN
-    fraction = fraction_open(part, float(pilot.data.joint(part.joint).qpos[0]))
+    fraction = fraction_open(part, float(belief.data.joint(part.joint).qpos[0]))
     if (opening and fraction >= 0.98) or (not opening and fraction <= 0.01):
         return lambda lane: dealt([lambda _: DONE], lane)
-    return partial(_lane_ways, PartSearch(pilot, part, opening))
+    return partial(_lane_ways, PartSearch(belief, part, opening))
 
 
 def _lane_ways(search: PartSearch, lane: int) -> Iterator[Attempt | NoWay]:
@@ -108,7 +114,7 @@ def carry_out(pilot: Pilot, part: Part, move: PreparedMove, opening: bool) -> Sk
     if end is PhaseEnd.DONE:
         end = pilot.follow_line(move.approach, STANDOFF, TOOL_SPEED)
     if end is PhaseEnd.BLOCKED:
-        struck = struck_objects(pilot)
+        struck = pilot.touched_by_robot()
         return failed(
             CauseKind.BLOCKED,
             [*struck, owner],

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.collision import Attached
-from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.pilot import Pilot
 
 Vector = NDArray[np.float64]
 
@@ -43,15 +43,15 @@ class Placement:
 
 
 def lower_onto(
-    pilot: Pilot, attached: Attached, target: Pose, touching: set[str], blockers: Blockers
+    belief: Belief, attached: Attached, target: Pose, touching: set[str], blockers: Blockers
 ) -> Placement | None:
     """Straight down onto a surface from a hover pose; None where the arm cannot or something is
     in the way. ``touching``: addresses that the object may come to touch.
     """
-    checker, arm = pilot.checker, pilot.arm
+    checker, arm = belief.checker, belief.arm
     tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(pilot.opening)
-    above = arm.reach(tool.moved(UP * HOVER), pilot.commanded)
+    checker.set_fingers(belief.opening)
+    above = arm.reach(tool.moved(UP * HOVER), belief.commanded)
     if not above.reached:
         return None
     down, count = arm.line(straight(tool.moved(UP * HOVER), tool), above.joints)
@@ -62,12 +62,12 @@ def lower_onto(
         if hits:
             blockers.add(hits)
             return None
-    retreat = _retreat(pilot, attached.name, tool, down[-1])
+    retreat = _retreat(belief, attached.name, tool, down[-1])
     return None if retreat is None else Placement(above.joints, down, *retreat, drop=0.0)
 
 
 def lower_into(
-    pilot: Pilot,
+    belief: Belief,
     attached: Attached,
     target: Pose,
     hover: float,
@@ -77,13 +77,13 @@ def lower_into(
 
     When something fills the container, the object starts from above that and is let go there.
     """
-    checker, arm = pilot.checker, pilot.arm
+    checker, arm = belief.checker, belief.arm
     tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(pilot.opening)
+    checker.set_fingers(belief.opening)
     start = None
     for extra in (0.0, 0.05, 0.10):
         pose = tool.moved(UP * (hover + extra))
-        above = arm.reach(pose, pilot.commanded)
+        above = arm.reach(pose, belief.commanded)
         if not above.reached:
             return None
         hits = checker.hits(above.joints, attached, clearance=CLEARANCE)
@@ -103,7 +103,7 @@ def lower_into(
         depth = index + 1
     path = down[:depth] if depth else above.joints[None]
     reached = arm.forward(path[-1])
-    retreat = _retreat(pilot, attached.name, reached, path[-1])
+    retreat = _retreat(belief, attached.name, reached, path[-1])
     if retreat is None:
         return None
     drop = float(reached.position[2] - tool.position[2])
@@ -111,23 +111,23 @@ def lower_into(
 
 
 def slide_in(
-    pilot: Pilot, attached: Attached, target: Pose, way_in: Vector, blockers: Blockers
+    belief: Belief, attached: Attached, target: Pose, way_in: Vector, blockers: Blockers
 ) -> Placement | None:
     """Level through a front and back out the same way.
 
     Args:
-        pilot: holds the object.
+        belief: holds the object.
         attached: the object in the hand.
         target: where it is let go, just above what it will stand on.
         way_in: from where the object is clear of the front to the target (3,), base frame [m].
         blockers: takes note of what is in the way.
     """
-    checker, arm = pilot.checker, pilot.arm
+    checker, arm = belief.checker, belief.arm
     tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(pilot.opening)
+    checker.set_fingers(belief.opening)
     outside = tool.moved(-way_in)
     # The target first: where hand or arm have no room there, the way to it need not be found.
-    inside = arm.reach(tool, pilot.commanded)
+    inside = arm.reach(tool, belief.commanded)
     if not inside.reached:
         return None
     hits = checker.hits(inside.joints, attached, clearance=CLEARANCE)
@@ -143,45 +143,45 @@ def slide_in(
         if hits:
             blockers.add(hits)
             return None
-    release = _widest_release(pilot, attached.name, [inside.joints, *out], (CLEARANCE,))
+    release = _widest_release(belief, attached.name, [inside.joints, *out], (CLEARANCE,))
     if release is None:
         return None
     path = np.vstack([out[-2::-1], inside.joints])
     return Placement(out[-1], path, out, release, 0.0, float(np.linalg.norm(way_in)))
 
 
-def _retreat(pilot: Pilot, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
+def _retreat(belief: Belief, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
     """The way back out along the approach direction, and how far the fingers open for it [m].
 
     Fingers that open against a container's wall would carry it off.
     """
-    arm = pilot.arm
+    arm = belief.arm
     away = tool.moved(-RETREAT * tool.rotation[:, 2])
     path, count = arm.line(straight(tool, away), joints)
     if count < 2:
         return None
     rows = (joints, path[count // 2], path[-1])
-    release = _widest_release(pilot, name, rows, (CLEARANCE, 0.0, 0.0))
+    release = _widest_release(belief, name, rows, (CLEARANCE, 0.0, 0.0))
     return None if release is None else (path, release)
 
 
 def _widest_release(
-    pilot: Pilot, name: str, rows: Sequence[Vector], margins: Sequence[float]
+    belief: Belief, name: str, rows: Sequence[Vector], margins: Sequence[float]
 ) -> float | None:
     """How far the fingers can open to let go [m] without touching anything but the object.
 
     ``margins``: required distance for each row of joint values [m]; the last one for the rest.
     """
-    checker = pilot.checker
+    checker = belief.checker
     wanted = [*margins, *[margins[-1]] * (len(rows) - len(margins))]
     try:
         for release in RELEASES:
-            checker.set_fingers(pilot.opening + release)
+            checker.set_fingers(belief.opening + release)
             if not any(
                 checker.hits(row, clearance=margin, allow={name})
                 for row, margin in zip(rows, wanted, strict=True)
             ):
                 return release
     finally:
-        checker.set_fingers(pilot.opening)
+        checker.set_fingers(belief.opening)
     return None

@@ -12,8 +12,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.collision import Attached, CollisionChecker
-from etot_cli.skills.kinematics import Arm, Pose
+from etot_cli.skills.motion.collision import Attached, CollisionChecker
+from etot_cli.skills.motion.kinematics import Arm, Pose
 
 Vector = NDArray[np.float64]
 Free = Callable[[Vector], bool]

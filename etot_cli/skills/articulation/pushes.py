@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.kinematics import JUMP, Pose, cross, rotation_from_axes
-from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.part_motion import (
+from etot_cli.skills.articulation.part_path import (
     STANDOFF,
     Effort,
     PartFrame,
@@ -21,7 +19,9 @@ from etot_cli.skills.part_motion import (
     travel_length,
     way_back,
 )
-from etot_cli.skills.pilot import Pilot
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.kinematics import JUMP, Pose, cross, rotation_from_axes
+from etot_cli.skills.outcome import Blockers
 from etot_cli.world.index import Face, Part
 from etot_cli.world.robot_index import RobotIndex
 
@@ -76,7 +76,7 @@ def contact_points(part: Part, face: Face) -> Iterator[Vector]:
 
 
 def push_move(
-    pilot: Pilot,
+    belief: Belief,
     part: Part,
     push: Push,
     value: float,
@@ -88,16 +88,16 @@ def push_move(
     """Closed fingers against a face; the hand keeps pointing down, tilted more where the arm
     would otherwise not reach.
     """
-    checker = pilot.checker
-    frame = PartFrame(pilot, part)
+    checker = belief.checker
+    frame = PartFrame(belief, part)
     checker.set_fingers(0.0)
     checker.set_joint(part.joint, value)
-    tool = _push_pose(pilot.world.robot, frame.at(value), push, tilt, -FACE_GAP)
+    tool = _push_pose(belief.world.robot, frame.at(value), push, tilt, -FACE_GAP)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
     best: PreparedMove | None = None
-    for before, approach in approaches(pilot, start, tool, True, blockers, effort):
+    for before, approach in approaches(belief, start, tool, True, blockers, effort):
         move = _push_along(
-            pilot, part, frame, push, value, target, tilt, before, approach, blockers,
+            belief, part, frame, push, value, target, tilt, before, approach, blockers,
             effort,
         )  # fmt: skip
         if move is not None and (
@@ -110,7 +110,7 @@ def push_move(
 
 
 def _push_along(
-    pilot: Pilot,
+    belief: Belief,
     part: Part,
     frame: PartFrame,
     push: Push,
@@ -122,7 +122,7 @@ def _push_along(
     blockers: Blockers,
     effort: Effort,
 ) -> PreparedMove | None:
-    checker = pilot.checker
+    checker = belief.checker
     radius = float(np.linalg.norm(push.contact[:2]))
     beyond = target
     if abs(target - part.lower) < 1e-9:
@@ -131,7 +131,7 @@ def _push_along(
     along: list[Vector] = []
     joints, reached, lean = approach[-1], value, tilt
     for step in joint_values(part, value, beyond, radius, effort)[1:]:
-        found = _next_push(pilot, part, frame, push, float(step), lean, joints, blockers, effort)
+        found = _next_push(belief, part, frame, push, float(step), lean, joints, blockers, effort)
         if found is None:
             break
         joints, lean = found
@@ -140,7 +140,7 @@ def _push_along(
     checker.set_joint(part.joint, value)
     if not along:
         return None
-    retreat = way_back(pilot, joints)
+    retreat = way_back(belief, joints)
     if retreat is None:
         return None
     length = travel_length(part, value, reached, radius) + FACE_GAP
@@ -148,7 +148,7 @@ def _push_along(
 
 
 def _next_push(
-    pilot: Pilot,
+    belief: Belief,
     part: Part,
     frame: PartFrame,
     push: Push,
@@ -160,16 +160,16 @@ def _next_push(
 ) -> tuple[Vector, float] | None:
     pose = frame.at(value)
     clamped = min(max(value, min(part.lower, part.upper)), max(part.lower, part.upper))
-    pilot.checker.set_joint(part.joint, clamped)
+    belief.checker.set_joint(part.joint, clamped)
     for change in (0.0, 0.15, -0.15, 0.3):
         tilt = lean + change
         if not 0.0 <= tilt <= 1.6:
             continue
-        tool = _push_pose(pilot.world.robot, pose, push, tilt, PRESS)
-        result = pilot.arm.solve(tool, joints, free_spin=True)
+        tool = _push_pose(belief.world.robot, pose, push, tilt, PRESS)
+        result = belief.arm.solve(tool, joints, free_spin=True)
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             continue
-        if is_free(pilot, result.joints, blockers, effort, PENETRATION - PRESS):
+        if is_free(belief, result.joints, blockers, effort, PENETRATION - PRESS):
             return result.joints, tilt
     return None
 

@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.kinematics import Pose, straight
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.pilot import Pilot
 from etot_cli.world.index import Part
 
 Vector = NDArray[np.float64]
@@ -55,10 +55,10 @@ class PreparedMove:
 class PartFrame:
     """Poses of a part's frame at joint values, from the present pose of its parent."""
 
-    def __init__(self, pilot: Pilot, part: Part) -> None:
-        self._world, self._part = pilot.world, part
-        self._data = pilot.scratch
-        self._data.qpos[:] = pilot.data.qpos
+    def __init__(self, belief: Belief, part: Part) -> None:
+        self._world, self._part = belief.world, part
+        self._data = belief.scratch
+        self._data.qpos[:] = belief.data.qpos
 
     def at(self, value: float) -> Pose:
         """Pose of the part at a joint value [m or rad]."""
@@ -87,11 +87,11 @@ def travel_length(part: Part, value: float, reached: float, radius: float) -> fl
 
 
 def approaches(
-    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
+    belief: Belief, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
 ) -> Iterator[tuple[Vector, Vector]]:
     """Joint values at the standoff and along the straight approach, for every free arm branch."""
-    arm = pilot.arm
-    for before in arm.solutions(start, pilot.commanded, free_spin=free_spin):
+    arm = belief.arm
+    for before in arm.solutions(start, belief.commanded, free_spin=free_spin):
         # With a free spin the first solution fixes it for the rest of the way.
         rotation = arm.forward(before).rotation if free_spin else tool.rotation
         goal = Pose(tool.position, rotation)
@@ -100,35 +100,37 @@ def approaches(
         if count < len(path):
             continue
         rows = (approach[-1], before, approach[count // 2])
-        hit = next((row for row in rows if not is_free(pilot, row, blockers, effort, 0.0005)), None)
+        hit = next(
+            (row for row in rows if not is_free(belief, row, blockers, effort, 0.0005)), None
+        )
         if hit is None:
             yield before, approach
-        elif not effort.thorough and pilot.checker.hits(hit, clearance=0.0005, hand_only=True):
+        elif not effort.thorough and belief.checker.hits(hit, clearance=0.0005, hand_only=True):
             # The hand itself has no room there, so another branch of the arm has none either.
             return
 
 
-def way_back(pilot: Pilot, joints: Vector) -> Vector | None:
+def way_back(belief: Belief, joints: Vector) -> Vector | None:
     """Joint values straight back from the part; None where the arm cannot."""
-    tool = pilot.arm.forward(joints)
+    tool = belief.arm.forward(joints)
     away = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    path, count = pilot.arm.line(straight(tool, away), joints)
+    path, count = belief.arm.line(straight(tool, away), joints)
     return path if count >= 2 else None
 
 
 def is_free(
-    pilot: Pilot, joints: Vector, blockers: Blockers, effort: Effort, clearance: float
+    belief: Belief, joints: Vector, blockers: Blockers, effort: Effort, clearance: float
 ) -> bool:
     """Whether the arm is free; with lenient effort movable objects do not count."""
-    hits = pilot.checker.hits(joints, clearance=clearance)
+    hits = belief.checker.hits(joints, clearance=clearance)
     if not hits:
         return True
     blockers.add(hits)
     if not effort.lenient:
         return False
-    return all(_is_movable(pilot, hit) for hit in hits)
+    return all(_is_movable(belief, hit) for hit in hits)
 
 
-def _is_movable(pilot: Pilot, address: str) -> bool:
-    entry = pilot.world.entries.get(address.split(".")[0])
+def _is_movable(belief: Belief, address: str) -> bool:
+    entry = belief.world.entries.get(address.split(".")[0])
     return entry is not None and entry.info.movable

@@ -7,16 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.collision import Attached
-from etot_cli.skills.kinematics import Pose
-from etot_cli.skills.orientation import (
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.skills.placements.orientation import (
     UP,
     inward_rotations,
     resting_rotation,
     standing_rotation,
     turned_rotations,
 )
-from etot_cli.skills.pilot import Pilot
 from etot_cli.world.index import Region
 from etot_cli.world.placing import must_stand
 
@@ -32,34 +32,34 @@ OUTSIDE = 0.03
 """Distance of the object from the front before it goes in [m]."""
 
 
-def container_targets(pilot: Pilot, attached: Attached, region: Region) -> Iterator[Pose]:
+def container_targets(belief: Belief, attached: Attached, region: Region) -> Iterator[Pose]:
     """Object poses at the bottom of the container."""
-    name, entry = attached.name, pilot.world.entries[attached.name]
-    body = pilot.data.body(region.body)
+    name, entry = attached.name, belief.world.entries[attached.name]
+    body = belief.data.body(region.body)
     rotation = body.xmat.reshape(3, 3)
     floor = body.xpos + rotation @ (np.array(region.center) - UP * region.half[2])
     if rotation[2, 2] < UPRIGHT or region.opening[2] < UPRIGHT:
         return
     stands = must_stand(entry, region)
-    base = standing_rotation(pilot, attached) if stands else resting_rotation(pilot, attached)
-    low, _ = pilot.checker.extent(name, base)
+    base = standing_rotation(belief, attached) if stands else resting_rotation(belief, attached)
+    low, _ = belief.checker.extent(name, base)
     room = np.array(region.half[:2]) - (0.0 if stands else float(np.abs(low[:2]).max()))
     for offset in _inside_offsets(region, room):
         point = floor + rotation @ np.array([*offset, 0.0])
-        for turned in turned_rotations(pilot, attached, base, point[:2])[: (5 if stands else 3)]:
-            low, _ = pilot.checker.extent(name, turned)
+        for turned in turned_rotations(belief, attached, base, point[:2])[: (5 if stands else 3)]:
+            low, _ = belief.checker.extent(name, turned)
             height = point[2] + FLOOR_GAP - low[2]
             yield Pose(np.array([point[0], point[1], height]), turned)
 
 
 def front_targets(
-    pilot: Pilot, attached: Attached, region: Region
+    belief: Belief, attached: Attached, region: Region
 ) -> Iterator[tuple[Pose, Vector]]:
     """Object poses on the floor of a container that is open to the side, near the front first, and
     the level way to each from outside (3,) [m].
     """
     name = attached.name
-    body = pilot.data.body(region.body)
+    body = belief.data.body(region.body)
     rotation = body.xmat.reshape(3, 3)
     if rotation[2, 2] < UPRIGHT:
         return
@@ -68,8 +68,8 @@ def front_targets(
     side = np.array([-out[1], out[0], 0.0])
     half = np.abs(rotation.T @ np.stack([out, side], axis=1)).T @ np.array(region.half)
     middle = body.xpos + rotation @ np.array(region.center) - UP * region.half[2]
-    for turned in inward_rotations(pilot, attached, resting_rotation(pilot, attached), -out):
-        low, high = pilot.checker.extent(name, turned)
+    for turned in inward_rotations(belief, attached, resting_rotation(belief, attached), -out):
+        low, high = belief.checker.extent(name, turned)
         if high[2] - low[2] + FLOOR_GAP > 2 * region.half[2]:
             continue
         reach = np.maximum(np.abs(low[:2]), np.abs(high[:2]))

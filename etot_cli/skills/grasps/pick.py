@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.grasp_motion import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
-from etot_cli.skills.grasps import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.kinematics import Pose
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
+from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
+from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
 from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.solids import Solids
 from etot_cli.skills.ways import NoWay, Ways, lane_of
 from etot_cli.world.state import CauseKind
 
@@ -36,22 +37,22 @@ SAME_PLACE, SAME_TURN = 0.02, 0.1
 """Grasps closer to each other than this [m, rad] are much the same."""
 
 
-def pick_ways(pilot: Pilot, solids: Solids, name: str, pose: GraspPose | None) -> Ways:
+def pick_ways(belief: Belief, solids: Solids, name: str, pose: GraspPose | None) -> Ways:
     """Grasps that can be reached and carried out."""
-    found = sample_grasps(pilot.world, solids, pilot.data, name, pose)
-    return partial(_lane_ways, pilot, name, found)
+    found = sample_grasps(belief.world, solids, belief.data, name, pose)
+    return partial(_lane_ways, belief, name, found)
 
 
-def _lane_ways(pilot: Pilot, name: str, found: GraspSet, lane: int) -> Iterator[Attempt | NoWay]:
-    blockers = Blockers(pilot.world)
+def _lane_ways(belief: Belief, name: str, found: GraspSet, lane: int) -> Iterator[Attempt | NoWay]:
+    blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
     for candidate in _of_lane(_variants(found), lane):
-        pilot.checker.freeze(pilot.data)
-        result = prepare_grasp(pilot, name, candidate, blockers)
+        belief.checker.freeze(belief.data)
+        result = prepare_grasp(belief, name, candidate, blockers)
         if result is None:
             # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
-            result = prepare_grasp(pilot, name, _spun(candidate), blockers)
+            result = prepare_grasp(belief, name, _spun(candidate), blockers)
         if result is None:
             unreachable += 1
         elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
@@ -63,7 +64,7 @@ def _lane_ways(pilot: Pilot, name: str, found: GraspSet, lane: int) -> Iterator[
             partial(
                 _explain,
                 name,
-                pilot.world.robot.spec.gripper.opening,
+                belief.world.robot.spec.gripper.opening,
                 replace(found, grasps=found.grasps[:1], too_wide=found.too_wide[:1]),
             ),
         )
@@ -188,22 +189,10 @@ def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutc
 
 
 def _blocked(pilot: Pilot, name: str, where: str) -> SkillOutcome:
-    struck = struck_objects(pilot)
+    struck = pilot.touched_by_robot()
     return failed(
         CauseKind.BLOCKED,
         [*struck, name],
         f"the arm was stopped {where}" + (f" by {struck[0]}" if struck else ""),
         pilot.data.time - pilot.recorder.start_time,
     )
-
-
-def struck_objects(pilot: Pilot) -> list[str]:
-    """Objects in contact with the robot now, the desk left out."""
-    world, data = pilot.world, pilot.data
-    found: dict[str, None] = {}
-    for one, two in data.contact.geom:
-        pair = (world.geom_object[int(one)], world.geom_object[int(two)])
-        for robot, other in (pair, pair[::-1]):
-            if robot in ("robot", "gripper") and other in world.entries:
-                found[other] = None
-    return list(found)

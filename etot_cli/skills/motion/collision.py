@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.kinematics import Pose
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.grasps import FINGER_ROOM
-from etot_cli.skills.kinematics import JUMP, Pose, rotation_from_axes, turn_about
-from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.part_motion import (
+from etot_cli.skills.articulation.part_path import (
     BACK_OUT_STEPS,
     STANDOFF,
     Effort,
@@ -20,8 +17,11 @@ from etot_cli.skills.part_motion import (
     travel_length,
     way_back,
 )
-from etot_cli.skills.pilot import Pilot
-from etot_cli.skills.push_part import PENETRATION
+from etot_cli.skills.articulation.pushes import PENETRATION
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.candidates import FINGER_ROOM
+from etot_cli.skills.motion.kinematics import JUMP, Pose, rotation_from_axes, turn_about
+from etot_cli.skills.outcome import Blockers
 from etot_cli.world.index import Graspable, Part
 
 Vector = NDArray[np.float64]
@@ -33,7 +33,7 @@ AJAR = 0.05
 
 
 def grip_move(
-    pilot: Pilot,
+    belief: Belief,
     part: Part,
     grasp: Graspable,
     value: float,
@@ -43,7 +43,7 @@ def grip_move(
     effort: Effort,
 ) -> PreparedMove | None:
     """The fingers closed on a handle or edge, the hand leaning by ``tilt`` [rad]."""
-    frame = PartFrame(pilot, part)
+    frame = PartFrame(belief, part)
     now = frame.at(value)
     center = np.array(grasp.center)
     radius = float(np.linalg.norm(center[:2]))
@@ -51,7 +51,7 @@ def grip_move(
     gap = grasp.behind + (ajar * radius if part.info.joint_type == "hinge" else ajar)
     if gap < FINGER_ROOM:
         return None
-    largest = pilot.world.robot.spec.gripper.opening
+    largest = belief.world.robot.spec.gripper.opening
     opening = min(largest, grasp.thickness + 2 * min(FINGER_ROOM, gap - 0.002))
     closing = np.array(grasp.closing)
     for approach in grasp.approaches:
@@ -60,7 +60,7 @@ def grip_move(
         for spin in (1.0, -1.0):
             in_part = Pose(center, base @ np.diag([spin, spin, 1.0]))
             move = _follow_part(
-                pilot, part, frame, now, in_part, value, target, opening, True, blockers, effort
+                belief, part, frame, now, in_part, value, target, opening, True, blockers, effort
             )
             if move is not None:
                 return move
@@ -68,7 +68,7 @@ def grip_move(
 
 
 def _follow_part(
-    pilot: Pilot,
+    belief: Belief,
     part: Part,
     frame: PartFrame,
     now: Pose,
@@ -81,12 +81,12 @@ def _follow_part(
     effort: Effort,
 ) -> PreparedMove | None:
     """A tool pose fixed to the part, followed along the part's path."""
-    arm = pilot.arm
+    arm = belief.arm
     tool = now @ in_part
-    pilot.checker.set_joint(part.joint, value)
-    pilot.checker.set_fingers(opening)
+    belief.checker.set_joint(part.joint, value)
+    belief.checker.set_fingers(opening)
     start = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    reachable = approach_of(pilot, start, tool, False, blockers, effort)
+    reachable = approach_of(belief, start, tool, False, blockers, effort)
     if reachable is None:
         return None
     before, approach = reachable
@@ -100,16 +100,16 @@ def _follow_part(
         result = arm.solve(pose, joints)
         if not result.reached or np.abs(result.joints - joints).max() > JUMP:
             break
-        pilot.checker.set_joint(part.joint, float(step))
-        if not is_free(pilot, result.joints, blockers, effort, PENETRATION):
+        belief.checker.set_joint(part.joint, float(step))
+        if not is_free(belief, result.joints, blockers, effort, PENETRATION):
             break
         joints = result.joints
         along.append(joints)
-    pilot.checker.set_joint(part.joint, value)
+    belief.checker.set_joint(part.joint, value)
     retreat = None
     while along and retreat is None:
         reached = float(values[len(along)])
-        retreat = way_back(pilot, along[-1])
+        retreat = way_back(belief, along[-1])
         if retreat is None:
             # A folded arm cannot back out; a little earlier it can.
             del along[-BACK_OUT_STEPS:]
@@ -120,11 +120,11 @@ def _follow_part(
 
 
 def approach_of(
-    pilot: Pilot, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
+    belief: Belief, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
 ) -> tuple[Vector, Vector] | None:
     """Joint values at the standoff and along the straight approach, for the first arm branch
     that is free.
     """
-    for before, approach in approaches(pilot, start, tool, free_spin, blockers, effort):
+    for before, approach in approaches(belief, start, tool, free_spin, blockers, effort):
         return before, approach
     return None

@@ -1,0 +1,1 @@
+"""How doors and drawers are opened and closed."""

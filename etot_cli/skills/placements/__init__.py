@@ -1,0 +1,1 @@
+"""Where and how a held object can be put down."""
