@@ -12,6 +12,7 @@ import numpy as np
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.articulate import articulation_ways
+from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.grasps.pick import pick_ways
 from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.collision import CollisionChecker
@@ -66,8 +67,9 @@ class Workshop:
         self.world: World = build_world(scene)
         self.data = mujoco.MjData(self.world.model)
         self.scratch = mujoco.MjData(self.world.model)
-        self.arm = Arm(self.world.robot.spec)
-        self.checker = CollisionChecker(self.world)
+        self.deadline = Deadline()
+        self.arm = Arm(self.world.robot.spec, self.deadline)
+        self.checker = CollisionChecker(self.world, self.deadline)
         self.solids = Solids(self.world)
         self.seed = seed
         self.keep_frames = keep_frames
@@ -95,7 +97,10 @@ class Workshop:
     def _pilot(self, recorder: Recorder, salt: str) -> Pilot:
         digest = hashlib.sha256(f"{self.seed}/{salt}".encode()).digest()
         rng = np.random.default_rng(int.from_bytes(digest[:8], "little"))
-        return Pilot(self.world, self.data, self.arm, self.checker, recorder, rng, self.scratch)
+        return Pilot(
+            self.world, self.data, self.arm, self.checker, recorder, rng, self.scratch,
+            self.deadline,
+        )  # fmt: skip
 
     def perform(self, start: Snapshot, action: Action) -> Performed:
         """Tries an action from a stored state; a function of its arguments and the seed alone."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, time_path, tool_speed_to_joint_speed
@@ -61,7 +62,8 @@ class Pilot(Belief):
     """The robot in one world during one action.
 
     Holds the live ``data``, the arm's kinematics, a collision checker of the frozen scene, the
-    recorder, the random generator of this action, and ``scratch`` data for kinematics.
+    recorder, the random generator of this action, ``scratch`` data for kinematics, and the
+    deadline.
     """
 
     def __init__(
@@ -73,9 +75,11 @@ class Pilot(Belief):
         recorder: Recorder,
         rng: np.random.Generator,
         scratch: mujoco.MjData,
+        deadline: Deadline | None = None,
     ) -> None:
         super().__init__(world, data, arm, checker, rng, scratch)
         self.recorder = recorder
+        self._deadline = deadline or Deadline()
         self.steps = 0
         self._periods = 0
         self._wanted_opening: float | None = None
@@ -94,7 +98,9 @@ class Pilot(Belief):
 
         Raises:
             WorldError: the simulation diverged.
+            OutOfTimeError: the deadline has passed.
         """
+        self._deadline.check()
         mujoco.mj_step(self.world.model, self.data, STEPS_PER_CONTROL)
         self.steps += STEPS_PER_CONTROL
         self._periods += 1

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from etot_cli.skills.action import Action
+from etot_cli.skills.deadline import NEVER
 from etot_cli.world.state import RolloutRecord, SceneState
 
 StateToken = bytes
@@ -53,12 +54,22 @@ class Simulator(Protocol):
         """Number of varied worlds in each state (``--worlds``)."""
         ...
 
-    def start(self) -> tuple[StateToken, SceneState]:
-        """The settled initial state and the nominal world's view of it."""
+    def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
+        """The settled initial state and the nominal world's view of it.
+
+        Raises:
+            OutOfTimeError: not ready at ``until_s``, a reading of ``time.monotonic`` [s].
+        """
         ...
 
-    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
-        """Tries ``action`` from ``state``; never raises for a physical failure."""
+    def submit(
+        self, state: StateToken, action: Action, until_s: float = NEVER
+    ) -> Future[Simulated]:
+        """Tries ``action`` from ``state``; never raises for a physical failure.
+
+        What is not done at ``until_s``, a reading of ``time.monotonic`` [s], is abandoned: the
+        future then raises OutOfTimeError.
+        """
         ...
 
     def close(self) -> None:

@@ -17,6 +17,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 
 from etot_cli.skills.action import Action
+from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.perform import Performed, Workshop, choose
 from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.skills.ways import LANES
@@ -89,34 +90,43 @@ class ActionSimulator:
         """Worlds in each state."""
         return len(self._workshops)
 
-    def start(self) -> tuple[StateToken, SceneState]:
-        """The settled initial state of all worlds, and world 0's view of it."""
+    def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
+        """The settled initial state of all worlds, and world 0's view of it.
+
+        Raises:
+            OutOfTimeError: not ready at ``until_s``, a reading of ``time.monotonic`` [s].
+        """
         if self._start is None:
             if self._jobs > 1:
                 # Workers come up while the scene settles and the instruction is read.
                 self._ensure_pool().submit(int)
-            begun = [workshop.start() for workshop in self._workshops]
+            begun = []
+            for workshop in self._workshops:
+                workshop.deadline.at_s = until_s
+                begun.append(workshop.start())
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start
 
-    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+    def submit(
+        self, state: StateToken, action: Action, until_s: float = NEVER
+    ) -> Future[Simulated]:
         """Tries ``action`` in every world; physical failures are outcomes, not exceptions."""
         begun = time.perf_counter()
         snapshots = _unpack(state)
         if self._jobs == 1:
             future: Future[Simulated] = Future()
             try:
-                performed = [
-                    workshop.perform(snapshot, action)
-                    for workshop, snapshot in zip(self._workshops, snapshots, strict=True)
-                ]
+                performed = []
+                for workshop, snapshot in zip(self._workshops, snapshots, strict=True):
+                    workshop.deadline.at_s = until_s
+                    performed.append(workshop.perform(snapshot, action))
                 future.set_result(_combine(performed, begun))
             except Exception as error:  # delivered to whoever asks for the result
                 future.set_exception(error)
             return future
         pool = self._ensure_pool()
         parts = [
-            pool.submit(_run_lane, index, snapshot, action, lane)
+            pool.submit(_run_lane, index, snapshot, action, lane, until_s)
             for index, snapshot in enumerate(snapshots)
             for lane in range(LANES)
         ]
@@ -159,8 +169,12 @@ def _begin_worker(scenes: list[tuple[Scene, int, bool]] | None) -> None:
         ]
 
 
-def _run_lane(index: int, snapshot: Snapshot, action: Action, lane: int) -> Performed | None:
-    return _shared.workshops[index].run_lanes(snapshot, action, [lane])[0]
+def _run_lane(
+    index: int, snapshot: Snapshot, action: Action, lane: int, until_s: float
+) -> Performed | None:
+    workshop = _shared.workshops[index]
+    workshop.deadline.at_s = until_s
+    return workshop.run_lanes(snapshot, action, [lane])[0]
 
 
 def _combine(performed: list[Performed], begun: float) -> Simulated:

@@ -35,7 +35,10 @@ WITHOUT_MUJOCO = ("specs", "reasoning/builtin", "planning", "reporting", "comman
 WITHOUT_HTTP = (
     "specs", "world", "skills", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
-PLAIN_DATA = {"etot_cli.world": {"state", "colors"}, "etot_cli.skills": {"action", "simulated"}}
+PLAIN_DATA = {
+    "etot_cli.world": {"state", "colors"},
+    "etot_cli.skills": {"action", "deadline", "simulated"},
+}
 """The modules of lower rooms that carry data alone; physics is behind a protocol."""
 ON_PLAIN_DATA = ("planning", "reasoning/builtin")
 

@@ -13,6 +13,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, format_plan, parse_plan
+from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.world.state import (
     Cause,
@@ -105,10 +106,12 @@ class ToySimulator:
     def world_count(self) -> int:
         return self._worlds
 
-    def start(self) -> tuple[StateToken, SceneState]:
+    def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
         return b"", scene()
 
-    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+    def submit(
+        self, state: StateToken, action: Action, until_s: float = NEVER
+    ) -> Future[Simulated]:
         key = (state.decode(), str(action))
         assert key not in self.submitted, f"simulated twice: {key}"
         self.submitted.append(key)

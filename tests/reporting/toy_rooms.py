@@ -8,6 +8,7 @@ from pathlib import Path
 from etot_cli.commands.rooms import Rooms
 from etot_cli.errors import SpecError
 from etot_cli.skills.action import Action
+from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Condition, Task
@@ -91,10 +92,12 @@ class _Interrupting:
         self.jobs = 1
         self.world_count = 1
 
-    def start(self) -> tuple[StateToken, SceneState]:
-        return self._simulator.start()
+    def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
+        return self._simulator.start(until_s)
 
-    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+    def submit(
+        self, state: StateToken, action: Action, until_s: float = NEVER
+    ) -> Future[Simulated]:
         raise KeyboardInterrupt
 
     def close(self) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from etot_cli.reasoning.vlm.chat import KEY_LENGTH, Picture
 from etot_cli.reasoning.vlm.frames import SMALLEST_MARKED, draw_marks, moments
 from etot_cli.skills.action import Action
+from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
@@ -135,13 +136,15 @@ class _Watched:
         """As the simulator's."""
         return self._simulator.world_count
 
-    def start(self) -> tuple[StateToken, SceneState]:
+    def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
         """As the simulator's."""
-        return self._simulator.start()
+        return self._simulator.start(until_s)
 
-    def submit(self, state: StateToken, action: Action) -> Future[Simulated]:
+    def submit(
+        self, state: StateToken, action: Action, until_s: float = NEVER
+    ) -> Future[Simulated]:
         """As the simulator's; the outcome can be looked at once it is there."""
-        inner = self._simulator.submit(state, action)
+        inner = self._simulator.submit(state, action, until_s)
         # A future of our own: whoever waits for it finds the outcome already remembered.
         outer: Future[Simulated] = Future()
 

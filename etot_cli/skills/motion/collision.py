@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
@@ -33,8 +34,9 @@ class Attached:
 class CollisionChecker:
     """Answers "is this arm configuration free?" for the scene as it stood at :meth:`freeze`."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: World, deadline: Deadline | None = None) -> None:
         self.world = world
+        self._deadline = deadline or Deadline()
         self._model = copy.copy(world.model)
         self._data = mujoco.MjData(self._model)
         self._object_names = list(world.entries)
@@ -100,7 +102,11 @@ class CollisionChecker:
 
         Returns:
             Addresses as in ``World.geom_address``; ``robot`` for a self-collision. Empty: free.
+
+        Raises:
+            OutOfTimeError: the deadline has passed.
         """
+        self._deadline.check()
         self.checks += 1
         model, data, world = self._model, self._data, self.world
         data.qpos[world.robot.qpos] = joints

@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.skills.deadline import Deadline
 from etot_cli.world.robot import RobotSpec
 
 Vector = NDArray[np.float64]
@@ -69,8 +70,9 @@ class IkResult:
 class Arm:
     """Kinematics of one robot, on a model of the robot alone."""
 
-    def __init__(self, spec: RobotSpec) -> None:
+    def __init__(self, spec: RobotSpec, deadline: Deadline | None = None) -> None:
         self.spec = spec
+        self._deadline = deadline or Deadline()
         self._model = mujoco.MjModel.from_xml_path(str(spec.model_path))
         model = self._model
         joints = [model.joint(name) for name in spec.joints]
@@ -109,7 +111,11 @@ class Arm:
             target: tool pose, base frame.
             seed: start of the descent; the solution stays on its branch.
             free_spin: leave the rotation about the tool's z axis free.
+
+        Raises:
+            OutOfTimeError: the deadline has passed.
         """
+        self._deadline.check()
         task = self._tasks[free_spin]
         task.set_target(
             mink.SE3.from_rotation_and_translation(
