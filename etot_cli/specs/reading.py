@@ -1,8 +1,9 @@
-"""Reads the text of a document: a regular file of bounded size in UTF-8."""
+"""Reads files that somebody else may have made: regular ones, of bounded size, in UTF-8."""
 
 from __future__ import annotations
 
 import difflib
+import os
 import re
 import stat
 from pathlib import Path
@@ -26,7 +27,7 @@ def read_text(path: Path, shown: str) -> str:
     Raises:
         SpecError: missing, not a regular file, too large, not UTF-8, or with control characters.
     """
-    data = _read_bytes(path, shown)
+    data = read_bytes(path, MAX_BYTES, "a YAML file", shown)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -47,24 +48,58 @@ def read_text(path: Path, shown: str) -> str:
     return text
 
 
-def _read_bytes(path: Path, shown: str) -> bytes:
+def read_bytes(path: Path, limit: int, expected: str, shown: str | None = None) -> bytes:
+    """Returns a file's content.
+
+    Args:
+        path: the file.
+        limit: longest content [bytes].
+        expected: what it should be, for messages.
+        shown: what messages call it; default: the path as given.
+
+    Raises:
+        SpecError: missing, not a regular file, unreadable or too large.
+    """
+    file = printable(path) if shown is None else shown
     try:
-        mode = path.stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise SpecError("is a folder; expected a YAML file", file=shown)
-        if not stat.S_ISREG(mode):
-            # A pipe or device could block or never end.
-            raise SpecError("is no regular file; expected a YAML file", file=shown)
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
+        # Without O_NONBLOCK opening a pipe would wait for somebody who writes.
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+        with os.fdopen(handle, "rb") as stream:
+            mode = os.fstat(handle).st_mode
+            if not stat.S_ISREG(mode):
+                raise SpecError(f"is no regular file; expected {expected}", file=file)
+            data = stream.read(limit + 1)
     except FileNotFoundError:
-        raise SpecError(f"no such file{_similar(path)}", file=shown) from None
+        raise SpecError(f"no such file{_similar(path)}", file=file) from None
+    except IsADirectoryError:
+        raise SpecError(f"is a folder; expected {expected}", file=file) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise SpecError(f"cannot be read: {reason}", file=shown) from None
-    if len(data) > MAX_BYTES:
-        raise SpecError(f"larger than {MAX_BYTES // 1024} KiB; expected a YAML file", file=shown)
+        raise SpecError(f"cannot be read: {reason}", file=file) from None
+    if len(data) > limit:
+        size = f"{limit // 2**20} MiB" if limit >= 2**20 else f"{limit // 1024} KiB"
+        raise SpecError(f"larger than {size}; expected {expected}", file=file)
     return data
+
+
+def read_utf8(path: Path, limit: int, expected: str) -> str:
+    """The text of a file; see :func:`read_bytes`.
+
+    Raises:
+        SpecError: as there, or not UTF-8.
+    """
+    try:
+        return read_bytes(path, limit, expected).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError(
+            f"byte 0x{error.object[error.start]:02x} is not UTF-8; expected {expected}",
+            file=printable(path),
+        ) from None
+
+
+def printable(path: Path) -> str:
+    """A path that can be written as UTF-8; other bytes show as hexadecimal escapes."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
 def _similar(path: Path) -> str:

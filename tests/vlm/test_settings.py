@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import traceback
 from pathlib import Path
 
@@ -23,6 +24,7 @@ def test_flags_over_environment_over_file(monkeypatch: pytest.MonkeyPatch, tmp_p
     assert (settings.model, settings.repairs, settings.judge) == ("from-file", 1, "both")
     monkeypatch.setenv("ETOT_VLM_MODEL", "from-environment")
     monkeypatch.setenv("OPENAI_BASE_URL", "http://127.0.0.1:1/v1")
+    monkeypatch.setenv("OPENAI_API_KEY", KEY)
     monkeypatch.setenv("ETOT_VLM_JUDGE", "state")
     settings = VlmSettings.load(url=None, judge="vlm")
     assert settings.model == "from-environment" and settings.judge == "vlm"
@@ -68,6 +70,76 @@ def test_the_key_never_shows(monkeypatch: pytest.MonkeyPatch) -> None:
     assert redact.deep({"a": [KEY, 1]}) == {"a": ["[redacted]", 1]}
     assert public_url("https://u:p@h:8/v1?key=1#x") == "https://h:8/v1"
     assert public_url("http://[::1]:8/v1") == "http://[::1]:8/v1"
+
+
+FILE_URL = "http://127.0.0.1:9/v1"
+
+
+@pytest.mark.parametrize(
+    ("in_file", "in_environment", "said"),
+    [
+        (["ETOT_VLM_URL"], ["OPENAI_API_KEY"], "URL comes from .env"),
+        (["OPENAI_BASE_URL"], ["ETOT_VLM_KEY"], "URL comes from .env"),
+        (["ETOT_VLM_URL"], ["ETOT_VLM_HEADERS"], "URL comes from .env"),
+        (["OPENAI_API_KEY"], ["ETOT_VLM_URL"], "URL from the environment"),
+    ],
+)
+def test_a_key_goes_only_to_a_url_from_the_same_place(
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    in_file: list[str],
+    in_environment: list[str],
+    said: str,
+) -> None:
+    values = {"ETOT_VLM_HEADERS": '{"X-Token": "abcdefgh"}'}
+    for name in in_environment:
+        value = FILE_URL if "URL" in name else values.get(name, KEY)
+        monkeypatch.setenv(name, value)
+    lines = [f"{name}={FILE_URL if 'URL' in name else KEY}" for name in in_file]
+    (tmp_path / ".env").write_text("\n".join(lines))
+    with pytest.raises(EtotError, match=said) as caught:
+        VlmSettings.load()
+    assert "--vlm-url" in str(caught.value) and KEY not in str(caught.value)
+    # Confirmed on the command line, it is the user's word.
+    assert VlmSettings.load(url=FILE_URL).url == FILE_URL
+
+
+def test_a_file_may_bring_url_and_key_together(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", KEY)
+    (tmp_path / ".env").write_text(f"ETOT_VLM_URL={FILE_URL}\nETOT_VLM_KEY=its-own-key-1\n")
+    settings = VlmSettings.load()
+    assert settings.url == FILE_URL
+    assert settings.key is not None and settings.key.get_secret_value() == "its-own-key-1"
+
+
+def test_a_file_expands_nothing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", KEY)
+    (tmp_path / ".env").write_text(
+        f"ETOT_VLM_URL={FILE_URL}/${{OPENAI_API_KEY}}\nETOT_VLM_KEY=its-own-key-1\n"
+    )
+    assert KEY not in VlmSettings.load().url
+
+
+@pytest.mark.parametrize("name", ["PROMPTS", "RECORD", "REPLAY", "CACHE"])
+def test_a_file_chooses_no_folder(tmp_path: Path, name: str) -> None:
+    (tmp_path / ".env").write_text(f"ETOT_VLM_{name}=somewhere\n")
+    with pytest.raises(EtotError, match=f"ETOT_VLM_{name}"):
+        VlmSettings.load()
+
+
+def test_a_file_that_is_none(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / ".env")
+    with pytest.raises(EtotError, match="no regular file"):
+        VlmSettings.load()
+
+
+def test_a_dated_model_costs_what_its_model_costs() -> None:
+    known = VlmSettings.load().prices()
+    assert known is not None
+    assert VlmSettings.load(model="gpt-4o-2024-11-20").prices() == known
+    assert VlmSettings.load(model="gpt-4o-new").prices() is None
 
 
 def test_every_built_in_prompt_has_a_version_and_is_our_own_kind_of_text() -> None:

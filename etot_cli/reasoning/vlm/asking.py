@@ -16,6 +16,9 @@ from etot_cli.reasoning.vlm.prompts import Prompts
 Value = TypeVar("Value")
 MAX_REASONS = 8
 """Of a reply with more mistakes, the first ones are sent back."""
+MAX_REASON = 400
+MAX_QUOTED = 6000
+"""What is quoted back of a reply at most; a well-formed one is a fraction of it [characters]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,14 +85,16 @@ class Asker:
             value = reading.value if reading.value is not None else value
             if not reading.reasons:
                 return value
-            reasons = "\n".join(f"- {reason}" for reason in reading.reasons[:MAX_REASONS])
+            reasons = "\n".join(
+                f"- {_shortened(reason, MAX_REASON)}" for reason in reading.reasons[:MAX_REASONS]
+            )
             if attempt == self._client.settings.repairs:
                 self.notes.add(NoteKind.DROPPED, role, reasons, action)
                 return value
             self.notes.add(reading.kind, role, reasons, action)
             repair = self._prompts["repair"].fill({"reasons": reasons, "objects": objects})
             question = question.followed_by(
-                Turn("assistant", answer.text or "(no answer)"), Turn("user", repair)
+                Turn("assistant", _quoted(answer.text)), Turn("user", repair)
             )
         return value
 
@@ -142,3 +147,15 @@ class Asker:
             return read(answer.text)
         hint = "; answer more briefly" if answer.trouble is Trouble.CUT else ""
         return Reading(None, (f"{answer.detail}{hint}",))
+
+
+def _quoted(text: str) -> str:
+    return _shortened(text, MAX_QUOTED) or "(no answer)"
+
+
+def _shortened(text: str, limit: int) -> str:
+    """Head and tail of a text that is longer than ``limit`` characters."""
+    if len(text) <= limit:
+        return text
+    left_out = len(text) - limit
+    return f"{text[: limit // 2]}\n[… {left_out} characters left out …]\n{text[-limit // 2 :]}"

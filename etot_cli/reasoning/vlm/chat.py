@@ -102,6 +102,7 @@ class Trouble(StrEnum):
     FILTERED = "content_filter"
     CUT = "length"
     EMPTY = "empty"
+    TOO_LONG = "too_long"
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,3 +117,9 @@ class Answer:
     detail: str = ""
     usage: Usage = Usage()
     cached: bool = False
+
+    def __post_init__(self) -> None:
+        # JSON can spell half a character, which no file, terminal or request takes.
+        for name in ("text", "detail"):
+            text = getattr(self, name).encode("utf-8", "replace").decode()
+            object.__setattr__(self, name, text)

@@ -28,6 +28,12 @@ _NO_VISION = re.compile(
 )
 _THOUGHTS = re.compile(r"(?is)<think(?:ing)?>.*?</think(?:ing)?>")
 EXCERPT = 240
+MAX_REPLY = 100_000
+"""Longer replies are not read; a plan of 64 actions with a sentence each has 10,000 characters."""
+MARGIN = 4096
+"""Longer than any secret [characters]."""
+MAX_TOKENS = 10**9
+"""No exchange has more; larger counts are damage."""
 
 
 class Remedy(Enum):
@@ -101,7 +107,9 @@ def _answer(data: dict[str, Any], redact: Redactor) -> Answer:
     message = choice.get("message")
     if not isinstance(message, dict):
         raise Problem(Remedy.RETRY, "the server's answer has no message")
-    text = _strip_thoughts(redact(_content(message.get("content"))))
+    content = _content(message.get("content"))
+    # What is cut off is not searched for secrets; a secret at the cut is masked before it.
+    text = _strip_thoughts(redact(content[: MAX_REPLY + MARGIN])[:MAX_REPLY])
     usage = _usage(data.get("usage"))
     reason = choice.get("finish_reason")
     if reason == "length":
@@ -118,6 +126,9 @@ def _answer(data: dict[str, Any], redact: Redactor) -> Answer:
         text = redact(_called(message))
     if not text.strip():
         return Answer("", Trouble.EMPTY, "the reply is empty", usage)
+    if len(content) > MAX_REPLY:
+        said = f"the reply has {len(content)} characters; expected some hundred"
+        return Answer(text, Trouble.TOO_LONG, said, usage)
     return Answer(text, usage=usage)
 
 
@@ -156,7 +167,9 @@ def _usage(data: object) -> Usage:
         return Usage()
     counts = [data.get(name) for name in ("prompt_tokens", "completion_tokens")]
     sent, received = (
-        value if isinstance(value, int) and not isinstance(value, bool) and value >= 0 else None
+        value
+        if isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MAX_TOKENS
+        else None
         for value in counts
     )
     cost = data.get("cost")
@@ -214,7 +227,7 @@ def _problem(response: Response, data: object, redact: Redactor) -> Problem:
 
 def _status_of(code: str) -> int:
     """The HTTP status that an error sent with status 200 stands for."""
-    if code.isdigit() and 400 <= int(code) < 600:
+    if re.fullmatch(r"[45][0-9]{2}", code):
         return int(code)
     lowered = code.lower()
     if "rate_limit" in lowered:
@@ -233,7 +246,7 @@ def retry_after(value: str | None) -> float | None:
     except ValueError:
         try:
             when = parsedate_to_datetime(value)
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, OverflowError):
             return None
         if when.tzinfo is None:
             when = when.replace(tzinfo=UTC)

@@ -56,6 +56,11 @@ class Notebook:
             if len(self._notes) < MAX_NOTES:
                 self._notes.append(note)
 
+    def last(self, role: str) -> str:
+        """What was noted last about a role; empty when nothing was."""
+        with self._lock:
+            return next((note.text for note in reversed(self._notes) if note.role == role), "")
+
     @property
     def notes(self) -> tuple[Note, ...]:
         """All notes, in order."""

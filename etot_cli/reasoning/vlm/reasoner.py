@@ -109,8 +109,11 @@ class VlmReasoner:
             return list(proposals.branches.values())[:MAX_BRANCHES]
         if proposals.goal_holds:
             return []
+        why = self._asker.notes.last("branches")
         raise ReasonerStopped(
-            StopReason.NO_ANSWER, "the model proposed no plan that is well formed in this scene"
+            StopReason.NO_ANSWER,
+            "the model proposed no plan that is well formed in this scene"
+            + (f"; its last answer to the question 'branches': {why}" if why else ""),
         )
 
     # -- judging -------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ import asyncio
 import concurrent.futures
 import contextlib
 import threading
+import zlib
 from collections.abc import Coroutine, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -20,6 +21,8 @@ from etot_cli.errors import ServiceError
 
 MAX_BODY = 8 * 1024 * 1024
 """Replies are some kilobytes; a larger body is not one [bytes, decompressed]."""
+ANY_ZLIB = zlib.MAX_WBITS | 32
+"""Tells zlib to find out itself whether it has gzip or deflate before it."""
 GRACE_S = 5.0
 """What the loop's thread gets beyond the deadline before it is given up."""
 
@@ -123,9 +126,8 @@ class Wire:
             self._loop.close()
 
     async def _open(self) -> httpx.AsyncClient:
-        return httpx.AsyncClient(
-            headers=self._headers, timeout=self._timeout, follow_redirects=False
-        )
+        headers = {"Accept-Encoding": "identity", **self._headers}
+        return httpx.AsyncClient(headers=headers, timeout=self._timeout, follow_redirects=False)
 
     async def _post(
         self, body: bytes, headers: Mapping[str, str], read_s: float | None, deadline_s: float
@@ -152,18 +154,25 @@ class Wire:
 
 
 async def _collect(response: httpx.Response) -> Response:
-    chunks: list[bytes] = []
-    size = 0
-    async for chunk in response.aiter_bytes():
-        size += len(chunk)
-        if size > MAX_BODY:
+    encoding = response.headers.get("content-encoding", "").strip().lower()
+    if encoding not in ("", "identity", "gzip", "deflate"):
+        # Layers of compression turn kilobytes into gigabytes; none of them was asked for.
+        raise WireError(f"the answer is compressed as {encoding[:40]!r}")
+    # Unpacked here and not by the library, which unpacks a chunk before its size is known.
+    unpack = zlib.decompressobj(ANY_ZLIB) if encoding in ("gzip", "deflate") else None
+    body = bytearray()
+    async for chunk in response.aiter_raw():
+        try:
+            body += chunk if unpack is None else unpack.decompress(chunk, MAX_BODY + 1 - len(body))
+        except zlib.error as error:
+            raise WireError(f"the answer's compression is damaged ({error})") from None
+        if len(body) > MAX_BODY:
             raise WireError(f"the answer is larger than {MAX_BODY // 2**20} MiB")
-        chunks.append(chunk)
     kind = response.headers.get("content-type", "").split(";")[0].strip().lower()
     return Response(
         status=response.status_code,
         content_type=kind,
-        body=b"".join(chunks),
+        body=bytes(body),
         retry_after=response.headers.get("retry-after"),
         location=response.headers.get("location"),
     )

@@ -1,0 +1,115 @@
+"""Servers that mean harm, over real sockets: bombs, damage, endless replies, echoed secrets."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import tracemalloc
+from typing import Any
+
+import pytest
+
+from etot_cli.errors import ServiceError
+from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
+from etot_cli.reasoning.vlm.asking import MAX_QUOTED, Asker
+from etot_cli.reasoning.vlm.chat import Trouble
+from etot_cli.reasoning.vlm.client import ChatClient
+from etot_cli.reasoning.vlm.fake_server import FakeServer
+from etot_cli.reasoning.vlm.notes import Notebook
+from etot_cli.reasoning.vlm.player import Received, Reply
+from etot_cli.reasoning.vlm.prompts import Prompts
+from etot_cli.reasoning.vlm.reasoner import VlmReasoner
+from tests.vlm.conftest import Make
+from tests.vlm.scenes import kitchen
+from tests.vlm.test_client import QUESTION, ask, failure, one_after_the_other, opened
+
+
+def envelope(text: str = "yes", **more: Any) -> bytes:
+    choice = {"index": 0, "message": {"role": "assistant", "content": text}}
+    return json.dumps({"choices": [choice], **more}).encode()
+
+
+def compressed(body: bytes, layers: int) -> Reply:
+    for _ in range(layers):
+        body = gzip.compress(body, 9)
+    return Reply(raw=body, headers={"Content-Encoding": ", ".join(["gzip"] * layers)})
+
+
+@pytest.mark.parametrize("layers", [1, 2])
+def test_a_bomb_is_refused_before_it_unpacks(make_settings: Make, layers: int) -> None:
+    bomb = compressed(b" " * 60_000_000, layers)
+    tracemalloc.start()
+    try:
+        said, requests, _ = failure(make_settings, one_after_the_other(bomb), retries=1)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert "compressed" in said or "larger than 8 MiB" in said
+    assert requests == 2 and peak < 40_000_000
+
+
+def test_an_honest_compressed_answer_is_read(make_settings: Make) -> None:
+    answer, server, _ = ask(make_settings, one_after_the_other(compressed(envelope(), 1)))
+    assert answer.text == "yes"
+    assert server.requests[0].headers["Accept-Encoding"] == "identity"
+
+
+def test_half_a_character_breaks_nothing(make_settings: Make) -> None:
+    body = envelope("@@").replace(b"@@", b"say \\ud800 so")
+    answer, _, _ = ask(make_settings, one_after_the_other(Reply(raw=body)))
+    assert answer.text == "say ? so"
+
+
+@pytest.mark.parametrize("digits", [12, 400, 4000])
+def test_absurd_token_counts_are_not_believed(make_settings: Make, digits: int) -> None:
+    usage = {"prompt_tokens": int("9" * digits), "completion_tokens": 3}
+    reply = Reply(raw=envelope(usage=usage))
+    with (
+        FakeServer(one_after_the_other(reply)) as server,
+        opened(make_settings, server.url) as (client, _),
+    ):
+        client.ask(QUESTION)
+        total = client.accounts.total
+    assert total.input_tokens == 0 and total.output_tokens == 3
+
+
+@pytest.mark.parametrize("code", ["²²²", "9" * 5000])
+def test_absurd_error_codes_are_no_crash(make_settings: Make, code: str) -> None:
+    reply = Reply(raw=json.dumps({"error": {"message": "no", "code": code}}).encode())
+    said, _, _ = failure(make_settings, one_after_the_other(reply), retries=0)
+    assert "HTTP 500: no" in said
+
+
+def test_a_huge_reply_is_not_sent_back_whole(make_settings: Make) -> None:
+    """Seven megabytes of nonsense, as often as it is asked."""
+    huge = "no plan here. " * 500_000
+    with FakeServer(one_after_the_other(Reply(huge))) as server:
+        client = ChatClient(make_settings(server.url, repairs=3))
+        reasoner = VlmReasoner(Asker(client, Prompts(), Notebook(), 0), frames=None)
+        with pytest.raises(ReasonerStopped, match="characters"):
+            reasoner.propose(Assignment("Put the ball on the chest.", None), kitchen())
+        client.close()
+        bodies = [len(json.dumps(item.body)) for item in server.requests]
+    # Each repair adds what it quotes and its own words.
+    assert max(bodies) < bodies[0] + 3 * (MAX_QUOTED + 4000)
+    assert len(bodies) <= 2 * (1 + 3)
+
+
+def test_a_long_reply_is_trouble(make_settings: Make) -> None:
+    answer, _, _ = ask(make_settings, one_after_the_other(Reply("x" * 7_000_000)))
+    assert answer.trouble is Trouble.TOO_LONG and len(answer.text) <= 100_000
+
+
+def test_a_secret_in_the_address_is_not_echoed(make_settings: Make) -> None:
+    secret = "abcdef0123456789XYZ"
+
+    def echo(request: Received) -> Reply:
+        return Reply(status=400, raw=json.dumps({"error": {"message": f"bad {secret}"}}).encode())
+
+    with (
+        FakeServer(echo) as server,
+        opened(make_settings, f"{server.url}?code={secret}") as (client, _),
+        pytest.raises(ServiceError) as caught,
+    ):
+        client.ask(QUESTION)
+    assert secret not in str(caught.value) and "[redacted]" in str(caught.value)
