@@ -24,6 +24,14 @@ Json = Annotated[
     bool,
     typer.Option("--json", help="Print the report, and nothing else, on standard output."),
 ]
+Html = Annotated[
+    bool,
+    typer.Option(
+        "--html/--no-html",
+        envvar="ETOT_HTML",
+        help="Write report.html beside the report, with pictures of what was tried.",
+    ),
+]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print the answer only.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print more detail.")]
 Vary = Annotated[

@@ -12,6 +12,7 @@ import typer
 
 from etot_cli.cli.exits import MISSING, NO
 from etot_cli.cli.options import (
+    Html,
     Json,
     Out,
     Quiet,
@@ -115,6 +116,7 @@ def plan(
     replay: VlmReplay = None,
     max_calls: VlmMaxCalls = None,
     max_cost: VlmMaxCost = None,
+    html: Html = True,
     out: Out = None,
     seed: Seed = 0,
     json: Json = False,
@@ -127,13 +129,14 @@ def plan(
     be used; 130: interrupted.
     """
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose)
-    from etot_cli.commands.plan import PlanOptions, run_plan
+    from etot_cli.commands.plan import PlanOptions, plan_task
 
     options = PlanOptions(
         task=task,
         seed=seed,
         reasoner=reasoner.value,
         vary=vary,
+        record=html,
         jobs=jobs or _cores(),
         worlds=worlds,
         without=frozenset(without or ()),
@@ -149,8 +152,13 @@ def plan(
         },
     )
     with session.search_observer() as observer:
-        report = run_plan(options, observer)
+        planning = plan_task(options, observer)
+    report = planning.report
     path = session.save(report)
+    if html:
+        from etot_cli.commands.pages import write_plan_page
+
+        session.add_page(report, lambda told: write_plan_page(planning, session.folder, told))
     code = session.conclude(report, path, lambda summary: summary.plan(report, path))
     if code == NO and report.statistics.limit == "service":
         print(f"error: {report.stopped}", file=sys.stderr)

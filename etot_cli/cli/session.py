@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from etot_cli.reporting.models import Report
     from etot_cli.reporting.summary import Summary
 
+Progress = Callable[[int, int], None]
+"""Told how many of how many pieces are done."""
 POSITIVE = frozenset({"feasible", "success"})
 """Statuses that mean yes."""
 
@@ -84,6 +86,45 @@ class Session:
 
         with _uninterrupted():
             return write_report(report, self.folder)
+
+    def add_page(self, report: Report, write: Callable[[Progress], Path]) -> None:
+        """Writes the page beside a saved report, and the report once more with its address.
+
+        What was found stays the answer whatever becomes of the page: Ctrl-C ends the rendering
+        and marks the report, a full disk is a warning.
+
+        Args:
+            report: saved already.
+            write: makes the page, telling its progress, and returns its path.
+        """
+        from etot_cli.errors import EtotError
+
+        try:
+            with self.progress("rendering pictures") as told:
+                report.files["page"] = write(told).name
+        except KeyboardInterrupt:
+            report.interrupted = True
+        except EtotError as error:
+            print(f"warning: no page was written: {error}", file=sys.stderr)
+        self.save(report)
+
+    @contextmanager
+    def progress(self, what: str) -> Iterator[Progress]:
+        """A bar with the time left on a terminal; silence elsewhere."""
+        from etot_cli.reporting.style import Verbosity, make_console
+
+        console = make_console(sys.stderr)
+        animated = console.is_terminal and not console.is_dumb_terminal and not self._json
+        if self._verbosity is Verbosity.QUIET or not animated:
+            yield lambda done, total: None
+            return
+        from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+        from rich.progress import Progress as Bars
+
+        columns = TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+        with Bars(*columns, console=console, transient=True) as bars:
+            bar = bars.add_task(what, total=None)
+            yield lambda done, total: bars.update(bar, completed=done, total=total)
 
     def conclude(self, report: Report, path: Path, show: Callable[[Summary], None]) -> int:
         """Prints the answer and returns the exit code.

@@ -31,6 +31,7 @@ from etot_cli.reporting.plan_report import (
     vlm_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 
 MODEL = "vlm"
@@ -50,8 +51,20 @@ class PlanOptions:
     """As the task says when None."""
     without: frozenset[Ablation] = frozenset()
     limits: Limits = field(default_factory=Limits)
+    record: bool = False
+    """Keep trajectories, so that pictures can be rendered afterwards."""
     vlm: Mapping[str, Any] = field(default_factory=dict)
     """Settings of the reasoner ``vlm`` that the command line gives; the rest is environment."""
+
+
+@dataclass(frozen=True, slots=True)
+class Planning:
+    """A plan report, and what its page needs besides it."""
+
+    report: PlanReport
+    scene: Scene | None
+    """As planned in, varied or not; None when interrupted before it was read."""
+    result: SearchResult
 
 
 def run_plan(
@@ -59,6 +72,15 @@ def run_plan(
     observer: SearchObserver | None = None,
     rooms: doors.Rooms | None = None,
 ) -> PlanReport:
+    """The report of :func:`plan_task`."""
+    return plan_task(options, observer, rooms).report
+
+
+def plan_task(
+    options: PlanOptions,
+    observer: SearchObserver | None = None,
+    rooms: doors.Rooms | None = None,
+) -> Planning:
     """Plans a task.
 
     Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
@@ -73,6 +95,7 @@ def run_plan(
     """
     watch = Stopwatch()
     task: Task | None = None
+    scene: Scene | None = None
     result: SearchResult | None = None
     session: doors.ModelSession | None = None
     interrupted = False
@@ -92,7 +115,7 @@ def run_plan(
                 seed=options.seed,
                 jobs=options.jobs,
                 worlds=options.worlds or task.worlds,
-                record=session is not None and session.needs_trajectories,
+                record=options.record or (session is not None and session.needs_trajectories),
             )
         with closing(simulator), watch.phase("search"):
             result = search(
@@ -109,7 +132,9 @@ def run_plan(
         if session is not None:
             session.close()
     account = session.account() if session is not None else None
-    return _report(options, task, result or _nothing(), interrupted, watch, account)
+    found = result or _nothing()
+    report = _report(options, task, found, interrupted, watch, account)
+    return Planning(report, scene, found)
 
 
 def _nothing() -> SearchResult:

@@ -13,6 +13,12 @@ from etot_cli.planning.tree import PlanNode
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reasoning.vlm.notes import NoteKind
+from etot_cli.reporting.evidence import (
+    ContactModel,
+    MovedModel,
+    contact_models,
+    moved_models,
+)
 from etot_cli.reporting.models import (
     ActionModel,
     CauseModel,
@@ -25,6 +31,7 @@ from etot_cli.reporting.models import (
     cause_model,
     seconds,
 )
+from etot_cli.world.state import RolloutRecord
 
 
 class PlanOptionsModel(Model):
@@ -94,6 +101,10 @@ class NodeModel(ActionModel):
     worlds_alive: Count | None
     """Varied worlds in which the plan still held after this action; null when not evaluated."""
     losses: list[LossModel]
+    moved: list[MovedModel] = Field(default_factory=list)
+    """What moved or changed in the nominal world, the farthest first."""
+    contacts: list[ContactModel] = Field(default_factory=list)
+    """Contacts of the nominal world that had to do with it, in order of time."""
     simulated_s: Seconds
     """Physics time stepped for this node, all worlds together."""
     wall_s: Seconds
@@ -206,9 +217,11 @@ def survival_model(survival: Survival | None) -> SurvivalModel | None:
     )
 
 
-def node_model(node: PlanNode) -> NodeModel:
-    """A tree node as it stands in reports."""
+def node_model(node: PlanNode, record: RolloutRecord | None = None) -> NodeModel:
+    """A tree node as it stands in reports; ``record``: what the nominal world did."""
     verdict = node.verdict
+    changes = () if verdict is None else tuple(verdict.changes)
+    blamed = verdict.cause.objects if verdict is not None and verdict.cause is not None else changes
     return NodeModel.model_validate(
         {
             **action_fields(node.action),
@@ -217,7 +230,7 @@ def node_model(node: PlanNode) -> NodeModel:
             "origin": node.origin.value,
             "status": node.status.value,
             "cause": None if verdict is None else cause_model(verdict.cause),
-            "changes": [] if verdict is None else list(verdict.changes),
+            "changes": list(changes),
             "branch_end": node.end is not None,
             "revisions": None if node.end is None else node.end.revisions,
             "worlds_alive": None if node.survived is None else len(node.survived),
@@ -229,6 +242,8 @@ def node_model(node: PlanNode) -> NodeModel:
                 }
                 for loss in node.losses
             ],
+            "moved": [] if record is None else moved_models(record, changes),
+            "contacts": [] if record is None else contact_models(record, blamed),
             "simulated_s": seconds(node.simulated_s),
             "wall_s": seconds(node.wall_s),
         }
@@ -237,7 +252,8 @@ def node_model(node: PlanNode) -> NodeModel:
 
 def tree_model(result: SearchResult) -> TreeModel:
     """The planning tree as it stands in reports."""
-    return TreeModel(nodes=[node_model(node) for node in result.tree])
+    records = {number: outcome.record for number, outcome in result.rollouts.items()}
+    return TreeModel(nodes=[node_model(node, records.get(node.id)) for node in result.tree])
 
 
 def vlm_model(account: VlmAccount | None) -> VlmModel | None:

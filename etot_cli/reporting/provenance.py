@@ -58,3 +58,9 @@ class Stopwatch:
             wall_s=seconds(time.monotonic() - self._start),
             phases={name: seconds(spent) for name, spent in self._phases.items()},
         )
+
+
+def add_phase(timing: TimingModel, name: str, spent_s: float) -> None:
+    """Adds a phase that came after the report was made."""
+    timing.phases[name] = seconds(timing.phases.get(name, 0.0) + spent_s)
+    timing.wall_s = seconds(timing.wall_s + spent_s)

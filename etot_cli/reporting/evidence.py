@@ -1,0 +1,115 @@
+"""What an action did to the world, as reports tell it: who moved how far, and what touched what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import dist
+
+from pydantic import Field
+
+from etot_cli.reporting.models import Metres, Model, Seconds
+from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord
+
+SEEN_MOVE_M = 0.005
+"""Displacements below this are settling, which nobody sees [m]."""
+MAX_CONTACTS = 8
+"""Contacts in a report, the hardest of those that matter; more than a person reads."""
+WEAK_IMPULSE_NS = 0.005
+"""Touches that transfer less change nothing: 5 mN for a second [N s]."""
+
+
+class MovedModel(Model):
+    """An object that is not where, or as, it was before an action."""
+
+    object: str
+    moved_m: Metres
+    """Distance between its centres before and after [m]."""
+    largest_m: Metres
+    """Largest displacement on the way [m]."""
+    before: str
+    """Where it was, in words, e.g. ``on desk``."""
+    after: str
+
+
+class ContactModel(Model):
+    """A contact that had to do with what changed or failed."""
+
+    time_s: Seconds
+    """Simulated time within the action."""
+    first: str
+    second: str
+    peak_force_n: float = Field(ge=0.0)
+    """Largest normal force [N]."""
+    impulse_ns: float = Field(ge=0.0)
+    """Normal force integrated over the action [N s]."""
+
+
+def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedModel]:
+    """The objects that moved or changed, the farthest first."""
+    found = []
+    for name, after in record.after.states.items():
+        before = record.before.states.get(name)
+        if before is None:
+            continue
+        moved = dist(before.position, after.position)
+        largest = max(record.displacement.get(name, 0.0), moved)
+        if name in changes or largest >= SEEN_MOVE_M:
+            found.append(
+                MovedModel(
+                    object=name,
+                    moved_m=round(moved, 4),
+                    largest_m=round(largest, 4),
+                    before=whereabouts(before),
+                    after=whereabouts(after),
+                )
+            )
+    return sorted(found, key=lambda item: -item.largest_m)
+
+
+def contact_models(record: RolloutRecord, blamed: Iterable[str]) -> list[ContactModel]:
+    """The contacts that mattered, in order of time.
+
+    Args:
+        record: what happened.
+        blamed: objects whose contacts come first, whatever their force.
+    """
+    culprits = set(blamed)
+    concerned = culprits | {n for n, way in record.displacement.items() if way >= SEEN_MOVE_M}
+
+    def ends(event: ContactEvent) -> set[str]:
+        return {event.first.split(".")[0], event.second.split(".")[0]}
+
+    touching = [
+        event
+        for event in record.contacts
+        if ends(event) & concerned and DESK not in ends(event) and event.impulse > WEAK_IMPULSE_NS
+    ]
+    touching.sort(key=lambda event: (not ends(event) & culprits, -event.impulse))
+    return [
+        ContactModel(
+            time_s=round(max(event.time_s, 0.0), 3),
+            first=event.first,
+            second=event.second,
+            peak_force_n=round(event.peak_force, 2),
+            impulse_ns=round(event.impulse, 4),
+        )
+        for event in sorted(touching[:MAX_CONTACTS], key=lambda event: event.time_s)
+    ]
+
+
+def whereabouts(state: ObjectState) -> str:
+    """Where an object is and how it stands, in words."""
+    if state.lost:
+        return "off the desk"
+    if state.in_hand:
+        place = "in the hand"
+    elif state.inside is not None:
+        place = f"inside {state.inside}"
+    elif state.on:
+        place = "on " + " and ".join(state.on)
+    else:
+        place = "unsupported"
+    notes = [f"{part} {100 * share:.0f} % open" for part, share in state.openness.items()]
+    if state.toppled:
+        notes.insert(0, f"toppled by {state.tilt_deg:.0f}°")
+    return ", ".join([place, *notes])
