@@ -32,7 +32,7 @@ from etot_cli.reasoning.protocol import (
 )
 from etot_cli.skills.action import Action
 from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
-from etot_cli.world.state import RolloutRecord, SceneState
+from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
 
 def search(
@@ -201,7 +201,7 @@ class _Search:
         """Takes a failed node out and reflects on every branch that ran through it."""
         paths = self._tree.extract_paths(node)  # [P]
         self._tree.remove_subtree(node)
-        if Ablation.REFLECTIVE in self._without:
+        if Ablation.REFLECTIVE in self._without or _abandoned(node):
             return
         for path in paths:
             # With a plan in hand, only what the tree already holds is still compared with it.
@@ -303,3 +303,9 @@ class _Search:
         if self._best is not None:
             return Survival(len(self._alive(self._best)), len(self._worlds))
         return Survival(len(self._worlds), len(self._worlds)) if self._goal_holds else None
+
+
+def _abandoned(node: PlanNode) -> bool:
+    """Whether the simulation came to no end: then there is nothing physical to learn from."""
+    cause = None if node.verdict is None else node.verdict.cause
+    return cause is not None and cause.kind is CauseKind.ABANDONED

@@ -27,7 +27,7 @@ from etot_cli.world.placing import place_objects
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Snapshot, restore, save
-from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
+from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState
 
 ATTEMPTS_PER_LANE = 2
 """Ways of an action that a lane tries at most, each from the action's own start state."""
@@ -105,6 +105,12 @@ class Workshop:
     def perform(self, start: Snapshot, action: Action) -> Performed:
         """Tries an action from a stored state; a function of its arguments and the seed alone."""
         return choose(self.run_lanes(start, action, range(LANES)))
+
+    def unperformed(self, start: Snapshot, cause: Cause) -> Performed:
+        """The record of an action of which nothing is known but why."""
+        restore(self.world, self.data, start)
+        scene, _ = read_scene(self.world, self.data, start.memory)
+        return Performed(RolloutRecord(scene, scene, False, cause), start, None, clean=False)
 
     def run_lanes(
         self, start: Snapshot, action: Action, lanes: Iterable[int]

@@ -8,23 +8,23 @@ on Linux they are forked after the worlds are built and share them.
 
 from __future__ import annotations
 
-import multiprocessing
 import pickle
-import signal
-import sys
 import time
-from concurrent.futures import Future, ProcessPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass
+from typing import Any
 
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.perform import Performed, Workshop, choose
 from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.skills.ways import LANES
+from etot_cli.skills.workers import METHOD, WorkerLostError, WorkerPool
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, Cause, CauseKind, SceneState
 
 WORLD_SEED_STRIDE = 7919
 """Seeds of the varied worlds are far apart from those a user counts through."""
@@ -77,7 +77,7 @@ class ActionSimulator:
     def __init__(self, workshops: list[Workshop], jobs: int) -> None:
         self._workshops = workshops
         self._jobs = jobs
-        self._pool: ProcessPoolExecutor | None = None
+        self._pool: WorkerPool | None = None
         self._start: tuple[StateToken, SceneState] | None = None
 
     @property
@@ -97,9 +97,8 @@ class ActionSimulator:
             OutOfTimeError: not ready at ``until_s``, a reading of ``time.monotonic`` [s].
         """
         if self._start is None:
-            if self._jobs > 1:
-                # Workers come up while the scene settles and the instruction is read.
-                self._ensure_pool().submit(int)
+            # Workers come up while the scene settles and the instruction is read.
+            self._ensure_pool()
             begun = []
             for workshop in self._workshops:
                 workshop.deadline.at_s = until_s
@@ -113,7 +112,8 @@ class ActionSimulator:
         """Tries ``action`` in every world; physical failures are outcomes, not exceptions."""
         begun = time.perf_counter()
         snapshots = _unpack(state)
-        if self._jobs == 1:
+        pool = self._ensure_pool()
+        if pool is None:
             future: Future[Simulated] = Future()
             try:
                 performed = []
@@ -121,52 +121,54 @@ class ActionSimulator:
                     workshop.deadline.at_s = until_s
                     performed.append(workshop.perform(snapshot, action))
                 future.set_result(_combine(performed, begun))
+            except MemoryError:
+                future.set_result(self._lost(snapshots, "out of memory", begun))
             except Exception as error:  # delivered to whoever asks for the result
                 future.set_exception(error)
             return future
-        pool = self._ensure_pool()
         parts = [
             pool.submit(_run_lane, index, snapshot, action, lane, until_s)
             for index, snapshot in enumerate(snapshots)
             for lane in range(LANES)
         ]
-        return _gather(parts, begun)
+        return _gather(parts, begun, lambda why: self._lost(snapshots, why, begun))
 
-    def _ensure_pool(self) -> ProcessPoolExecutor:
-        if self._pool is None:
-            method = "fork" if sys.platform.startswith("linux") else "spawn"
-            if method == "fork":
-                _shared.workshops = self._workshops
-            self._pool = ProcessPoolExecutor(
-                self._jobs,
-                mp_context=multiprocessing.get_context(method),
-                initializer=_begin_worker,
-                initargs=(
-                    None
-                    if method == "fork"
-                    else [(w.world.scene, w.seed, w.keep_frames) for w in self._workshops],
-                ),
-            )
+    def _ensure_pool(self) -> WorkerPool | None:
+        """The workers; None where this process works, for one job or where there is no room."""
+        if self._pool is not None and not self._pool.alive:
+            self.close()
+            self._jobs = 1
+        if self._pool is None and self._jobs > 1:
+            given: list[Any] = self._workshops
+            if METHOD == "spawn":
+                given = [(w.world.scene, w.seed, w.keep_frames) for w in self._workshops]
+            try:
+                self._pool = WorkerPool(self._jobs, _begin_worker, (given,))
+            except (OSError, RuntimeError, MemoryError):
+                self._jobs = 1
         return self._pool
+
+    def _lost(self, snapshots: list[Snapshot], why: str, begun: float) -> Simulated:
+        """Stands for an action that could not be simulated to its end: nothing has moved."""
+        cause = Cause(CauseKind.ABANDONED, (), f"the simulation was abandoned: {why}")
+        performed = [
+            workshop.unperformed(snapshot, cause)
+            for workshop, snapshot in zip(self._workshops, snapshots, strict=True)
+        ]
+        return _combine(performed, begun)
 
     def close(self) -> None:
         """Ends the workers at once; idempotent."""
         pool, self._pool = self._pool, None
-        if pool is None:
-            return
-        processes = list((pool._processes or {}).values())
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
-            process.terminate()
+        if pool is not None:
+            pool.close()
 
 
-def _begin_worker(scenes: list[tuple[Scene, int, bool]] | None) -> None:
-    # Ctrl-C reaches the whole process group; only the main process answers it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if scenes is not None:
-        _shared.workshops = [
-            Workshop(scene, seed, keep_frames=frames) for scene, seed, frames in scenes
-        ]
+def _begin_worker(given: list[Any]) -> None:
+    _shared.workshops = [
+        item if isinstance(item, Workshop) else Workshop(item[0], item[1], keep_frames=item[2])
+        for item in given
+    ]
 
 
 def _run_lane(
@@ -185,8 +187,13 @@ def _combine(performed: list[Performed], begun: float) -> Simulated:
     )
 
 
-def _gather(parts: list[Future[Performed | None]], begun: float) -> Future[Simulated]:
-    """One future for all worlds of a node; cancelling it cancels what has not begun."""
+def _gather(
+    parts: list[Future[Performed | None]], begun: float, lost: Callable[[str], Simulated]
+) -> Future[Simulated]:
+    """One future for all worlds of a node; cancelling it cancels what has not begun.
+
+    ``lost`` gives the outcome where workers were lost, from the reason.
+    """
     whole: Future[Simulated] = Future()
 
     def finish(_: Future[Performed | None]) -> None:
@@ -197,7 +204,9 @@ def _gather(parts: list[Future[Performed | None]], begun: float) -> Future[Simul
         if not all(part.done() for part in parts) or whole.done():
             return
         error = next((p.exception() for p in parts if not p.cancelled() and p.exception()), None)
-        if error is not None:
+        if isinstance(error, WorkerLostError):
+            whole.set_result(lost(str(error)))
+        elif error is not None:
             whole.set_exception(error)
         elif any(part.cancelled() for part in parts):
             whole.cancel()

@@ -137,6 +137,8 @@ class CauseKind(StrEnum):
     """The motion ran but its effect does not hold."""
     PRECONDITION = "precondition"
     """The action makes no sense here (hand full, not articulated, …)."""
+    ABANDONED = "abandoned"
+    """No physical cause: the simulation came to no end (its process was killed, no memory)."""
 
 
 @dataclass(frozen=True, slots=True)
