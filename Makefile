@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test lint format schemas bench check-tasks check-reconstruct clean
+.PHONY: demo test lint format schemas bench check-tasks check-random check-reconstruct clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -33,6 +33,9 @@ bench: $(VENV)/.dev  ## measure speed and success rates
 
 check-tasks: $(VENV)/.dev  ## check that every shipped task is physically what it is meant to be
 	$(BIN)/python -m tests.measure.check_tasks
+
+check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
+	$(BIN)/python -m tests.measure.check_random
 
 check-reconstruct: $(VENV)/.dev  ## measure reconstruction against known scenes
 	$(BIN)/python -m tests.measure.check_reconstruct

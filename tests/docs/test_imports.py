@@ -18,6 +18,7 @@ BELOW: dict[str, set[str]] = {
     "planning": {"specs", "world", "skills", "reasoning"},
     "reconstruction": {"specs", "world"},
     "reporting": {"specs", "world", "skills", "reasoning", "planning"},
+    "benchmark": {"specs", "world", "skills", "reasoning", "planning"},
     "commands": {
         "specs",
         "world",

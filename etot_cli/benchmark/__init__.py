@@ -1,0 +1,1 @@
+"""Methods, ablations and trials over tasks, shipped ones and random ones."""
