@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from etot_cli.errors import SpecError
-from etot_cli.specs.task import Condition
+from etot_cli.specs.task import BESIDE_KEYS, Condition
+from etot_cli.world import spatial
+from etot_cli.world.spatial import Whereabouts, whereabouts
 from etot_cli.world.state import CLOSED_AT, DESK, ObjectState, PartInfo, SceneState
 
 HALF_OPEN = 0.5
@@ -43,6 +45,12 @@ def holds(condition: Condition, scene: SceneState) -> bool:
         return not (state.toppled or state.lost)
     if condition.present is not None:
         return not _object(condition.present, scene).lost
+    for key in BESIDE_KEYS:
+        names: tuple[str, ...] | None = getattr(condition, key)
+        if names is not None:
+            return _stands(names[0], whereabouts(key, names[1:]), scene)
+    if condition.at is not None:
+        return _stands(condition.at[0], whereabouts("at", (), condition.at[1]), scene)
     raise SpecError("a condition has no key that can be checked")
 
 
@@ -84,6 +92,14 @@ def _addresses(place: str, scene: SceneState) -> frozenset[str]:
     info = scene.infos.get(place)
     parts = () if info is None else info.parts
     return frozenset({place, *(item.address for item in parts if item.container)})
+
+
+def _stands(name: str, where: Whereabouts, scene: SceneState) -> bool:
+    """Whether an object stands so; what is held or lost stands nowhere."""
+    state = _object(name, scene)
+    for landmark in where.landmarks:
+        _object(landmark, scene)
+    return not (state.in_hand or state.lost) and spatial.holds(where, name, scene)
 
 
 def _object(name: str, scene: SceneState) -> ObjectState:

@@ -1,6 +1,7 @@
 """The five action primitives and how they are written.
 
-Source: paper, section "Action Skills Set". Written form: ``[PICK UP, pen] (vertical)``.
+Source: paper, section "Action Skills Set". Written form: ``[PICK UP, pen] (vertical)``,
+``[PUT ON, desk] (left of plate)``.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from etot_cli.errors import PlanSyntaxError
+from etot_cli.world.spatial import Nearby, Whereabouts
 
 
 class Verb(StrEnum):
@@ -49,6 +51,7 @@ class Action:
         pose: grasp pose asked for, None when any will do.
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
         keepout: the discs that such a place avoids, from the failed rollout; base frame.
+        where: of a PUT ON, where on that surface; all of it must hold afterwards.
     """
 
     verb: Verb
@@ -56,10 +59,12 @@ class Action:
     pose: GraspPose | None = None
     safe: bool = False
     keepout: tuple[Keepout, ...] = ()
+    where: tuple[Whereabouts, ...] = ()
 
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
-        return f"{text} ({self.pose.value})" if self.pose else text
+        notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]
+        return f"{text} ({', '.join(notes)})" if notes else text
 
 
 _ACTION = re.compile(
@@ -115,21 +120,62 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             f"[{verb.value}, {target}]: the scene has no {target!r}; it has "
             f"{', '.join(sorted(allowed))}"
         )
-    note = (match["note"] or "").lower()
     pose: GraspPose | None = None
     safe = False
-    if note in ("horizontal", "horizontally"):
-        pose = GraspPose.HORIZONTAL
-    elif note in ("vertical", "vertically"):
-        pose = GraspPose.VERTICAL
-    elif note == "safe place":
-        safe = True
-    elif note:
-        raise PlanSyntaxError(
-            f"unknown note ({match['note']}) after [{verb.value}, {target}]; expected "
-            "(horizontal), (vertical) or (safe place)"
-        )
-    return Action(verb, target, pose, safe)
+    where: list[Whereabouts] = []
+    for note in (match["note"] or "").split(","):
+        plain = " ".join(note.split())
+        if plain.lower() in ("horizontal", "horizontally"):
+            pose = GraspPose.HORIZONTAL
+        elif plain.lower() in ("vertical", "vertically"):
+            pose = GraspPose.VERTICAL
+        elif plain.lower() == "safe place":
+            safe = True
+        elif plain:
+            place = read_whereabouts(plain)
+            if place is None or verb is not Verb.PUT_ON:
+                raise PlanSyntaxError(
+                    f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
+                    "(horizontal), (vertical), (safe place) or, after PUT ON, a place such as "
+                    "(left of plate), (between cup and box) or (at edge)"
+                )
+            _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
+            where.append(place)
+    return Action(verb, target, pose, safe, where=tuple(where))
+
+
+_NAME = r"[A-Za-z]\w*(?:\.\w+)?"
+_POINT = re.compile(r"at (-?\d+(?:\.\d+)?) (-?\d+(?:\.\d+)?)")
+
+
+def read_whereabouts(text: str) -> Whereabouts | None:
+    """Reads what :class:`Whereabouts` writes; None for anything else.
+
+    Args:
+        text: one relation, single spaces between words; the case of its words does not matter.
+    """
+    point = _POINT.fullmatch(text.lower())
+    if point is not None:
+        return Whereabouts(Nearby.AT_POINT, point=(float(point[1]), float(point[2])))
+    for relation in Nearby:
+        head = re.escape(relation.value)
+        if relation.landmarks == 0:
+            if relation is not Nearby.AT_POINT and text.lower() == relation.value:
+                return Whereabouts(relation)
+            continue
+        names = " and ".join([f"({_NAME})"] * relation.landmarks)
+        match = re.fullmatch(rf"(?i:{head}) {names}", text)
+        if match is not None:
+            return Whereabouts(relation, tuple(match.groups()))
+    return None
+
+
+def _check_landmarks(place: Whereabouts, allowed: set[str] | None, written: str) -> None:
+    for name in place.landmarks:
+        if allowed is not None and name not in allowed:
+            raise PlanSyntaxError(
+                f"{written}: the scene has no {name!r}; it has {', '.join(sorted(allowed))}"
+            )
 
 
 def format_plan(actions: Iterable[Action]) -> str:

@@ -17,8 +17,8 @@ from etot_cli.specs.objects import (
     Shelf,
 )
 from etot_cli.specs.problems import Problem, show, unknown
-from etot_cli.specs.scene import RESERVED_NAMES, Scene
-from etot_cli.specs.task import Condition, Task
+from etot_cli.specs.scene import RESERVED_NAMES, ROBOT_VIEWPOINT, Scene
+from etot_cli.specs.task import BESIDE_KEYS, Condition, Task
 
 DESK = "desk"
 CHOSEN = "chosen"
@@ -93,6 +93,8 @@ def scene_problems(scene: Scene) -> list[Problem]:
         problems.extend(
             _check(("variation", "keep", index), name, list(scene.objects), "object", scene)
         )
+    viewpoints = [ROBOT_VIEWPOINT, *(name for name in scene.cameras if name != ROBOT_VIEWPOINT)]
+    problems.extend(_check(("viewpoint",), scene.viewpoint, viewpoints, "viewpoint", scene))
     return problems or _cycles(scene)
 
 
@@ -171,6 +173,15 @@ def _condition_problems(path: DataPath, condition: Condition, scene: Scene) -> I
         yield from _check((*here, 1), pair[1], targets, role, scene)
         if pair[0] == pair[1]:
             yield Problem(here, f"{pair[0]!r} cannot be {key} itself")
+    for key in BESIDE_KEYS:
+        names = getattr(condition, key)
+        if names is not None:
+            for index, name in enumerate(names):
+                yield from _check((*path, key, index), name, list(scene.objects), "object", scene)
+            if len(set(names)) < len(names):
+                yield Problem((*path, key), "an object cannot be beside itself")
+    if condition.at is not None:
+        yield from _check((*path, "at", 0), condition.at[0], list(scene.objects), "object", scene)
     for key, children in (("any", condition.any), ("all", condition.all)):
         for index, child in enumerate(children or ()):
             yield from _condition_problems((*path, key, index), child, scene)

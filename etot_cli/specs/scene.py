@@ -55,6 +55,10 @@ RESERVED_NAMES = ("desk", "robot", "gripper", "chosen")
 """Words with a meaning of their own in plans and reports; no object may be called so."""
 
 
+ROBOT_VIEWPOINT = "robot"
+"""The viewpoint of one who stands where the robot stands and looks along its x axis."""
+
+
 class Desk(Spec):
     """The table top: ``center`` x y, ``size`` along x and y, ``top`` the height of its surface."""
 
@@ -114,6 +118,8 @@ class Scene(Spec):
         default_factory=dict
     )
     variation: Variation = Variation()
+    viewpoint: Name = ROBOT_VIEWPOINT
+    """Whose left, right, front and back are meant: the robot's, or those of one of ``cameras``."""
     directory: str = "."
     """Folder (absolute) against which mesh, MJCF and robot files are resolved; set by the loader,
     refused in YAML. The loader has checked those files; when one comes from an included document
@@ -124,6 +130,7 @@ __all__ = [
     "FURNITURE",
     "MAX_OBJECTS",
     "RESERVED_NAMES",
+    "ROBOT_VIEWPOINT",
     "Box",
     "Cabinet",
     "Camera",

@@ -20,6 +20,11 @@ Reference = Annotated[
 
 
 Pair = tuple[Reference, Reference]
+Region = Literal["left", "right", "front", "back", "centre", "edge", "corner"]
+BESIDE_KEYS = (
+    "left_of", "right_of", "in_front_of", "behind", "next_to", "near", "away_from", "between",
+)  # fmt: skip
+"""Conditions on where an object stands with respect to others, seen from the viewpoint."""
 
 
 class Condition(Spec):
@@ -27,7 +32,9 @@ class Condition(Spec):
 
     ``on: [a, b]`` a rests on b (the desk is ``desk``); ``inside: [a, b]``; ``in_hand: a``;
     ``open: part`` at least half way; ``closed: part``; ``upright: a``; ``present: a`` still on the
-    desk or on something; ``any`` / ``all``: lists of conditions; ``not``: one condition.
+    desk or on something; ``left_of: [a, b]`` and the like: a stands so with respect to b, seen from
+    the scene's viewpoint; ``between: [a, b, c]``; ``at: [a, region or [x, y]]``; ``any`` / ``all``:
+    lists of conditions; ``not``: one condition.
     """
 
     on: Pair | None = None
@@ -37,6 +44,15 @@ class Condition(Spec):
     closed: Reference | None = None
     upright: Reference | None = None
     present: Reference | None = None
+    left_of: Pair | None = None
+    right_of: Pair | None = None
+    in_front_of: Pair | None = None
+    behind: Pair | None = None
+    next_to: Pair | None = None
+    near: Pair | None = None
+    away_from: Pair | None = None
+    between: tuple[Reference, Reference, Reference] | None = None
+    at: tuple[Reference, Region | tuple[Coordinate, Coordinate]] | None = None
     any: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     all: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     not_: Condition | None = Field(default=None, alias="not")
@@ -47,7 +63,7 @@ class Condition(Spec):
         if len(given) != 1 or len(self.model_fields_set) != 1:
             raise ValueError(
                 "a condition has exactly one key of on, inside, in_hand, open, closed, upright, "
-                "present, any, all, not"
+                f"present, {', '.join(BESIDE_KEYS)}, at, any, all, not"
             )
         return self
 

@@ -12,6 +12,7 @@ from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.snapshot import Memory
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, ObjectState, SceneState
+from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does."""
@@ -92,6 +93,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         desk_top=desk.top,
         desk_bounds=bounds,
         holding=next(iter(held), None),
+        forward=forward_of(world.scene),
     )
     return scene, Memory(memory.up, frozenset(toppled), inside, frozenset(opened))
 

@@ -96,6 +96,9 @@ class SceneState:
     desk_bounds: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     """x min, x max, y min, y max [m]."""
     holding: str | None = None
+    forward: tuple[float, float] = (1.0, 0.0)
+    """Unit direction, seen from above, in which the one looks whose left and right are meant: the
+    robot's +x, or a camera's when the scene names it as the viewpoint."""
 
     def part(self, address: str) -> PartInfo | None:
         """The movable part that an action's target means, by address or ``object.part``."""

@@ -15,11 +15,29 @@ from etot_cli.skills.action import (
     format_plan,
     parse_plan,
 )
+from etot_cli.world.spatial import Nearby, Whereabouts
 
 names = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,12}(\.[A-Za-z][A-Za-z0-9_]{0,8})?", fullmatch=True)
-actions = st.builds(
+plain = st.builds(
     Action, st.sampled_from(Verb), names, st.one_of(st.none(), st.sampled_from(GraspPose))
 )
+millimetres = st.integers(-900, 900).map(lambda value: value / 1000)
+
+
+@st.composite
+def whereabouts(draw: st.DrawFn) -> Whereabouts:
+    relation = draw(st.sampled_from(Nearby))
+    if relation is Nearby.AT_POINT:
+        return Whereabouts(relation, point=(draw(millimetres), draw(millimetres)))
+    return Whereabouts(relation, tuple(draw(names) for _ in range(relation.landmarks)))
+
+
+placed = st.builds(
+    lambda name, where: Action(Verb.PUT_ON, name, where=tuple(where)),
+    names,
+    st.lists(whereabouts(), max_size=3),
+)
+actions = st.one_of(plain, placed)
 
 
 @given(st.lists(actions, min_size=1, max_size=8))
@@ -44,8 +62,28 @@ def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
         assert len(str(error)) > 20
     else:
         assert parse_plan(format_plan(plan)) == tuple(
-            Action(a.verb, a.target, a.pose) for a in plan
+            Action(a.verb, a.target, a.pose, where=a.where) for a in plan
         )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[PUT INTO, cup] (left of plate)",
+        "[PUT ON, desk] (left of)",
+        "[PUT ON, desk] (between a)",
+        "[PUT ON, desk] (at 3)",
+        "[PUT ON, desk] (leftish)",
+    ],
+)
+def test_places_that_make_no_sense_are_refused(text: str) -> None:
+    with pytest.raises(PlanSyntaxError, match="unknown note"):
+        parse_plan(text)
+
+
+def test_landmarks_must_exist() -> None:
+    with pytest.raises(PlanSyntaxError, match="no 'plate'; it has cup, desk"):
+        parse_plan("[PUT ON, desk] (left of plate)", ["desk", "cup"])
 
 
 @pytest.mark.parametrize(

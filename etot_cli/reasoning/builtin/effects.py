@@ -13,6 +13,7 @@ from etot_cli.reasoning.builtin.relations import (
     rides_on_part,
 )
 from etot_cli.skills.action import Action, Verb
+from etot_cli.world import spatial
 from etot_cli.world.state import RolloutRecord
 
 
@@ -48,7 +49,8 @@ def effect_holds(action: Action, record: RolloutRecord) -> bool:
         case Verb.PICK_UP:
             return state.in_hand
         case Verb.PUT_ON:
-            return not state.in_hand and is_on(after, name, action.target)
+            stands = not state.in_hand and is_on(after, name, action.target)
+            return stands and all(spatial.holds(where, name, after) for where in action.where)
         case Verb.PUT_INTO:
             container = container_address(after, action.target)
             if container is None or state.in_hand or state.lost:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.vlm.reading.names import Names, Unresolved
 from etot_cli.reasoning.vlm.reading.plans import ReadPlan
 from etot_cli.reasoning.vlm.reading.steps import RawStep
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import Action, Verb, read_whereabouts
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, SceneState
 
 _SAFE = re.compile(
@@ -61,7 +62,11 @@ def ground(plan: ReadPlan, scene: SceneState, names: Names) -> Grounded:
         words = f"{step.note or ''} {step.target}"
         safe = step.verb is Verb.PUT_ON and bool(_SAFE.search(words))
         pose = step.pose if step.verb is Verb.PICK_UP else None
-        actions.append(Action(step.verb, target, pose, safe))
+        where = _where(step, names) if step.verb is Verb.PUT_ON and not safe else ()
+        if isinstance(where, Unresolved):
+            reasons.append(f"step {number}, {step.verb.value}: {where.text}")
+            continue
+        actions.append(Action(step.verb, target, pose, safe, where=where))
     if not plan.steps and not reasons:
         reasons.append("the plan has no steps")
     if not reasons:
@@ -75,6 +80,23 @@ def _target(step: RawStep, names: Names) -> str | Unresolved:
     if isinstance(found, Unresolved) and step.verb is Verb.PUT_ON and _SAFE.search(step.target):
         return DESK
     return found
+
+
+def _where(step: RawStep, names: Names) -> tuple[Whereabouts, ...] | Unresolved:
+    """Where on the surface a note says, its landmarks resolved; other notes say nothing of it."""
+    found = []
+    for part in (step.note or "").split(","):
+        place = read_whereabouts(" ".join(part.replace("the ", " ").split()))
+        if place is None:
+            continue
+        landmarks = []
+        for landmark in place.landmarks:
+            name = names.resolve(landmark)
+            if isinstance(name, Unresolved):
+                return name
+            landmarks.append(name)
+        found.append(replace(place, landmarks=tuple(landmarks)))
+    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,7 @@ from etot_cli.skills.placements.placement import (
     slide_in,
 )
 from etot_cli.skills.placements.surface_spots import surface_spots
+from etot_cli.skills.placements.wanted import wanted_spots
 from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Region
 from etot_cli.world.state import DESK, CauseKind
@@ -68,6 +69,8 @@ def put_on_ways(belief: Belief, action: Action) -> Ways | SkillOutcome:
         action.keepout,
         ignore={name},
         prefer=belief.object_pose(name).position[:2],
+        wanted=wanted_spots(world, belief.data, action, name),
+        at=[where.point for where in action.where if where.point is not None],
     )
     return partial(_ways_onto, belief, action.target, attached, base, spots[:MAX_SPOTS])
 

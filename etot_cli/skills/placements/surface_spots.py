@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import mujoco
@@ -93,6 +93,8 @@ def surface_spots(
     keepout: Iterable[Keepout],
     ignore: Iterable[str],
     prefer: Vector,
+    wanted: Callable[[Vector], NDArray[np.bool_]] | None = None,
+    at: Iterable[tuple[float, float]] = (),
 ) -> list[tuple[Vector, float]]:
     """Spots on a surface for an object of footprint ``radius`` [m], best first.
 
@@ -104,11 +106,16 @@ def surface_spots(
         keepout: discs to stay clear of.
         ignore: objects that are no obstacles (the one in the hand).
         prefer: x, y (2,) near which spots are better, other things being equal.
+        wanted: says of points (m, 2) whether they will do; all do when None.
+        at: points to look at besides the grid's.
 
     Returns:
         ((x, y), height of the surface) pairs, base frame [m].
     """
     points, height = _grid(world, data, target, radius)
+    points = np.concatenate([points, np.array(list(at), dtype=float).reshape(-1, 2)])
+    if wanted is not None:
+        points = points[wanted(points)]
     if not len(points):
         return []
     gap = np.full(len(points), np.inf)
