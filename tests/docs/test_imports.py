@@ -37,7 +37,7 @@ WITHOUT_HTTP = (
     "specs", "world", "skills", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
 PLAIN_DATA = {
-    "etot_cli.world": {"state", "colors"},
+    "etot_cli.world": {"state", "colors", "spatial"},
     "etot_cli.skills": {"action", "deadline", "simulated"},
 }
 """The modules of lower rooms that carry data alone; physics is behind a protocol."""

@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from etot_cli.skills.action import Action, Keepout, Verb
+from etot_cli.skills.action import Action, Keepout, Verb, parse_plan
+from etot_cli.world.spatial import holds
 from etot_cli.world.state import CauseKind, ObjectState
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
 from tests.world.helpers import make_scene
@@ -203,3 +204,20 @@ def test_what_is_too_tall_for_a_board_is_refused() -> None:
     run.must("[PICK UP, tall] (horizontal)")
     record = run.do("[PUT ON, rack.lower]").record
     assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM
+
+
+@pytest.mark.parametrize(
+    "where",
+    ["left of cup", "behind cup, near cup", "between cup and ball", "at left", "at 0.35 0.1"],
+)
+def test_put_beside_things(where: str) -> None:
+    run = episode(
+        0,
+        box=BOX | {"at": [0.30, -0.30]},
+        cup=CUP | {"at": [0.42, -0.15]},
+        ball=BALL | {"at": [0.42, 0.25]},
+    )
+    action = parse_plan(f"[PUT ON, desk] ({where})")[0]
+    after = run.must("[PICK UP, box]", str(action))
+    assert all(holds(item, "box", after) for item in action.where)
+    assert after.states["box"].on == ("desk",)
