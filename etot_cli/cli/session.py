@@ -104,8 +104,10 @@ class Session:
                 report.files["page"] = write(told).name
         except KeyboardInterrupt:
             report.interrupted = True
-        except EtotError as error:
-            print(f"warning: no page was written: {error}", file=sys.stderr)
+        except Exception as error:  # a defect of the page must not hide the answer
+            known = isinstance(error, EtotError)
+            words = str(error) if known else f"{type(error).__name__}: {error} (a defect of etot)"
+            print(f"warning: no page was written: {words}", file=sys.stderr)
         self.save(report)
 
     @contextmanager

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import OK
-from etot_cli.cli.options import Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.options import Html, Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
 from etot_cli.cli.session import Session
 
 
@@ -34,6 +34,7 @@ def simulate(
     vary: Vary = False,
     video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
+    html: Html = True,
     out: Out = None,
     seed: Seed = 0,
     json: Json = False,
@@ -59,7 +60,9 @@ def simulate(
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
 
-    options = SimulateOptions(task=task, plan=plan, seed=seed, vary=vary, record=video or frames)
+    options = SimulateOptions(
+        task=task, plan=plan, seed=seed, vary=vary, record=video or frames or html
+    )
     simulation = run_simulate(options, session.log())
     report = simulation.report
     # Saved before rendering: what happened is on record even where OpenGL is missing.
@@ -67,4 +70,8 @@ def simulate(
     if (video or frames) and not report.interrupted:
         render_files(simulation, session.folder, video=video, frames=frames)
         session.save(report)
+    if html and not report.interrupted:
+        from etot_cli.commands.pages import write_simulate_page
+
+        session.add_page(report, lambda told: write_simulate_page(simulation, session.folder, told))
     return session.conclude(report, path, lambda summary: summary.simulate(report, path))

@@ -16,10 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from etot_cli.commands.plan import Planning
+from etot_cli.commands.simulate import Simulation
 from etot_cli.errors import EtotError
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.pictures import Frame, Picture
 from etot_cli.reporting.page.plan_page import plan_page
+from etot_cli.reporting.page.simulate_page import Track, simulate_page
 from etot_cli.reporting.page.topview import top_view
 from etot_cli.reporting.provenance import add_phase
 from etot_cli.skills.simulated import WorldOutcome
@@ -39,6 +41,10 @@ QUALITY = 72
 RATIO = 16 / 10
 RENDER_SECONDS = 120.0
 """Longest time for a page's pictures; what is left over is drawn from above."""
+REPLAY_RATE = 5.0
+"""Frames of a replay per second of film: single actions can be followed, at a fifth of a video."""
+MAX_REPLAY_FRAMES = 240
+"""Frames of a replay at most, so that they stay large enough to see something."""
 AFTERMATH_S = 0.25
 """A failure is best seen when its effect shows, shortly after its cause [s]."""
 
@@ -85,6 +91,59 @@ def write_plan_page(
     path = folder / PAGE_NAME
     write_atomically(path, plan_page(report, frames, pictures, notice))
     return path
+
+
+def write_simulate_page(
+    simulation: Simulation,
+    folder: Path,
+    progress: Progress | None = None,
+    *,
+    jobs: int | None = None,
+) -> Path:
+    """Renders a simulation as single frames and writes the page into ``folder``.
+
+    Raises:
+        EtotError: the page cannot be written.
+    """
+    report = simulation.report
+    films = [t for t in simulation.trajectories if isinstance(t, Trajectory) and len(t.times)]
+    whole = len(films) == len(report.steps) and films
+    durations = (
+        [float(t.times[-1] - t.times[0]) for t in films] if whole else [1.0] * len(report.steps)
+    )
+    wanted: list[_Plan] = []
+    frames: list[tuple[float, str]] = []
+    start = 0.0
+    rate = min(REPLAY_RATE, MAX_REPLAY_FRAMES / max(sum(durations), 1e-3))
+    for index, (record, duration) in enumerate(zip(simulation.records, durations, strict=True)):
+        cause = report.steps[index].cause
+        culprits = tuple(cause.objects) if cause is not None else ()
+        since = duration if cause is None or cause.time_s is None else cause.time_s
+        moments = np.linspace(0.0, duration, max(2, round(duration * rate) + 1))
+        for time_s in moments if whole else (0.0, duration):
+            key = f"f{len(frames)}"
+            shot = None
+            if whole:
+                times = films[index].times - films[index].times[0]
+                row = int(np.argmin(np.abs(times - time_s)))
+                shot = Shot(films[index].qpos[row], culprits if time_s >= since else ())
+            first = time_s < duration / 2
+            wanted.append(_Plan(key, shot, record, first, () if first else culprits))
+            frames.append((start + float(time_s), key))
+        start += duration
+    begun = time.monotonic()
+    pictures, notice = _take(simulation.scene, _coarse_first(wanted), progress, jobs)
+    add_phase(report.timing, "render", time.monotonic() - begun)
+    track = Track("The simulation", frames)
+    path = folder / PAGE_NAME
+    write_atomically(path, simulate_page(report, durations, [track], pictures, notice))
+    return path
+
+
+def _coarse_first(wanted: Sequence[_Plan]) -> list[_Plan]:
+    """In such an order that those rendered when time is up are evenly spread over the film."""
+    order = sorted(range(len(wanted)), key=lambda index: -((index & -index) or len(wanted)))
+    return [wanted[index] for index in order]
 
 
 def _by_importance(planning: Planning) -> list[int]:

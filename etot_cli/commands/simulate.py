@@ -14,6 +14,7 @@ from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.conditions import holds
 from etot_cli.planning.survival import NOMINAL
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
+from etot_cli.reporting.evidence import contact_models, moved_models
 from etot_cli.reporting.models import action_fields, cause_model, seconds
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.replay import plan_from_report
@@ -28,7 +29,7 @@ from etot_cli.skills.simulated import Simulator
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 from etot_cli.specs.wording import describe
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import RolloutRecord, SceneState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +64,8 @@ class Simulation:
     scene: Scene | None
     """As simulated, varied or not; None when interrupted before it was read."""
     trajectories: list[object] = field(default_factory=list)
+    records: list[RolloutRecord] = field(default_factory=list)
+    """What each step did, in order."""
 
 
 @dataclass(slots=True)
@@ -74,6 +77,7 @@ class _Run:
     plan: tuple[Action, ...] = ()
     steps: list[StepModel] = field(default_factory=list)
     trajectories: list[object] = field(default_factory=list)
+    records: list[RolloutRecord] = field(default_factory=list)
     final: SceneState | None = None
     interrupted: bool = False
 
@@ -114,7 +118,7 @@ def run_simulate(
             _carry_out(run, simulator, reasoner, rooms, observer)
     except KeyboardInterrupt:
         run.interrupted = True
-    return Simulation(_report(options, run, watch), run.scene, run.trajectories)
+    return Simulation(_report(options, run, watch), run.scene, run.trajectories, run.records)
 
 
 def read_plan(given: str) -> tuple[Action, ...]:
@@ -154,7 +158,8 @@ def _carry_out(
         state = simulated.end
         if outcome.trajectory is not None:
             run.trajectories.append(outcome.trajectory)
-        step = _step(index, action, verdict, outcome.record.simulated_s, simulated.wall_s)
+        run.records.append(outcome.record)
+        step = _step(index, action, verdict, outcome.record, simulated.wall_s)
         run.steps.append(step)
         if observer is not None:
             observer.step_judged(step)
@@ -169,8 +174,9 @@ def _check_targets(plan: Sequence[Action], targets: Sequence[str]) -> None:
 
 
 def _step(
-    index: int, action: Action, verdict: Verdict, simulated_s: float, wall_s: float
+    index: int, action: Action, verdict: Verdict, record: RolloutRecord, wall_s: float
 ) -> StepModel:
+    blamed = verdict.cause.objects if verdict.cause is not None else verdict.changes
     return StepModel.model_validate(
         {
             **action_fields(action),
@@ -178,7 +184,9 @@ def _step(
             "status": verdict.outcome.value,
             "cause": cause_model(verdict.cause),
             "changes": list(verdict.changes),
-            "simulated_s": seconds(simulated_s),
+            "moved": moved_models(record, verdict.changes),
+            "contacts": contact_models(record, blamed),
+            "simulated_s": seconds(record.simulated_s),
             "wall_s": seconds(wall_s),
         }
     )

@@ -14,6 +14,8 @@ SEEN_MOVE_M = 0.005
 """Displacements below this are settling, which nobody sees [m]."""
 MAX_CONTACTS = 8
 """Contacts in a report, the hardest of those that matter; more than a person reads."""
+RESTING_S, RESTING_N = 0.05, 5.0
+"""A contact seen at the first look is only rest, unless it is pressed harder."""
 WEAK_IMPULSE_NS = 0.005
 """Touches that transfer less change nothing: 5 mN for a second [N s]."""
 
@@ -82,7 +84,10 @@ def contact_models(record: RolloutRecord, blamed: Iterable[str]) -> list[Contact
     touching = [
         event
         for event in record.contacts
-        if ends(event) & concerned and DESK not in ends(event) and event.impulse > WEAK_IMPULSE_NS
+        if ends(event) & concerned
+        and DESK not in ends(event)
+        and event.impulse > WEAK_IMPULSE_NS
+        and (event.time_s > RESTING_S or event.peak_force > RESTING_N)
     ]
     touching.sort(key=lambda event: (not ends(event) & culprits, -event.impulse))
     return [

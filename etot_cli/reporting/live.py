@@ -12,7 +12,7 @@ from rich.text import Text
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.tree import FAILED, NodeStatus, PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
-from etot_cli.reporting.style import LOOKS, RUNNING, badge, speaks_unicode
+from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unicode
 
 REFRESHES_PER_SECOND = 4
 """Often enough for a running clock; drawing must not take time from the simulation."""
@@ -103,7 +103,7 @@ class LiveView:
         parts = [
             f"{evaluated} evaluated",
             f"{waiting} waiting",
-            f"{self._reflections} reflections",
+            counted(self._reflections, "reflection"),
             f"{simulated:.0f} s simulated",
             f"{time.monotonic() - self._started:.0f} s elapsed",
         ]
@@ -144,7 +144,7 @@ class LiveView:
         if node.action.safe:
             line.append(" safe place", style="dim")
         if node.status is NodeStatus.SUCCESS and node.losses and node.survived is not None:
-            line.append(f" {len(node.survived)} worlds hold", style="yellow")
+            line.append(f" {counted(len(node.survived), 'world')} left", style="yellow")
         verdict = node.verdict
         if node.status in FAILED and verdict is not None:
             kind = verdict.cause.kind.value if verdict.cause else ""

@@ -8,7 +8,7 @@ from etot_cli.planning.result import SearchResult
 from etot_cli.planning.tree import FAILED, NodeStatus, PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.reporting.simulate_report import StepModel
-from etot_cli.reporting.style import speaks_unicode, symbol
+from etot_cli.reporting.style import counted, speaks_unicode, symbol
 from etot_cli.skills.action import Action, format_plan
 
 
@@ -28,7 +28,7 @@ class PlainLog:
     def proposed(self, tree: PlanTree) -> None:
         """Says how large the first tree is."""
         branches = sum(node.end is not None for node in tree)
-        self._say(f"{branches} branches proposed, {len(tree)} nodes")
+        self._say(f"{counted(branches, 'branch')} proposed, {counted(len(tree), 'node')}")
         if self._detailed:
             for node in tree:
                 if node.end is not None:
@@ -48,7 +48,7 @@ class PlainLog:
             if verdict is not None and verdict.cause is not None:
                 line += f": {verdict.cause.text}"
         if node.status is NodeStatus.SUCCESS and node.losses and node.survived is not None:
-            line += f"  ({len(node.survived)} worlds hold)"
+            line += f"  ({counted(len(node.survived), 'world')} left)"
         if self._detailed and verdict is not None:
             changed = ", ".join(verdict.changes) or "nothing"
             line += f"  [{node.simulated_s:.1f} s simulated, changed: {changed}]"

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from etot_cli.reporting.evidence import ContactModel, MovedModel
 from etot_cli.reporting.models import ActionModel, CauseModel, Count, Model, Report, Seconds
 
 
@@ -18,6 +19,10 @@ class StepModel(ActionModel):
     cause: CauseModel | None
     changes: list[str]
     """Objects whose state changed."""
+    moved: list[MovedModel] = Field(default_factory=list)
+    """What moved or changed, the farthest first."""
+    contacts: list[ContactModel] = Field(default_factory=list)
+    """Contacts that had to do with it, in order of time."""
     simulated_s: Seconds
     wall_s: Seconds
 

@@ -45,6 +45,12 @@ def make_console(stream: IO[str]) -> Console:
     return Console(file=stream, highlight=False, soft_wrap=False)
 
 
+def counted(count: int, noun: str) -> str:
+    """A number with its noun, e.g. ``1 branch``, ``2 branches``."""
+    ending = "" if count == 1 else "es" if noun.endswith(("ch", "sh", "s", "x")) else "s"
+    return f"{count} {noun}{ending}"
+
+
 def speaks_unicode(stream: IO[str]) -> bool:
     """Whether symbols beyond ASCII reach the reader."""
     return (getattr(stream, "encoding", None) or "ascii").lower().startswith("utf")

@@ -1,4 +1,8 @@
-"""The last words of a command in the terminal, made from its report."""
+"""The last words of a command in the terminal, made from its report.
+
+On a terminal, lines wrap under their own indent, down to forty columns; in a pipe every line is
+whole, whatever reads it.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +10,22 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
-from etot_cli.reporting.models import CauseModel
+from etot_cli.reporting.failures import Failure, distinct_failures
 from etot_cli.reporting.plan_report import NodeModel, PlanReport, VlmModel
 from etot_cli.reporting.simulate_report import SimulateReport
-from etot_cli.reporting.style import LOOKS, Verbosity, badge, speaks_unicode
+from etot_cli.reporting.style import LOOKS, Verbosity, badge, counted, speaks_unicode
 
 MAX_FAILURES = 6
-"""Different failures shown unless more detail is asked for."""
+"""Different failures shown unless more detail is asked for, and fewer on a low screen."""
+LINES_PER_FAILURE = 2
+LINES_BESIDES = 10
+"""Headline, numbers, files and the prompt: what else has to fit on the screen."""
+WIDE = 64
+"""From this width on, what an action changed stands beside it [columns]."""
+LONGEST_NAME = 44
+"""Actions are padded to the longest one, up to this [columns]."""
 
 HEADLINES = {
     "feasible": "feasible plan",
@@ -39,46 +48,43 @@ class Summary:
 
     def plan(self, report: PlanReport, path: Path) -> None:
         """What a search found."""
+        failures = distinct_failures(report.tree.nodes)
         if self._verbosity is Verbosity.QUIET:
-            self._plain(" ".join([f"{report.status}:", *report.plan]))
+            self._line(f"{report.status}: {_answer(report, failures)}")
             return
         self._headline(report.status, report.task.instruction)
         if report.understood.goal_holds:
-            self._plain("  The goal already holds; there is nothing to do.")
+            self._say("The goal already holds; there is nothing to do.", 2)
         by_id = {node.id: node for node in report.tree.nodes}
         self._steps([by_id[number] for number in report.plan_nodes])
-        self._failures(report)
+        self._failures(failures, len(report.plan_nodes))
         if report.stopped:
-            self._plain(f"  {report.stopped}")
+            self._say(report.stopped, 2)
         self._numbers(report)
         self._files(path, report.files)
 
     def simulate(self, report: SimulateReport, path: Path) -> None:
         """How a plan went."""
         if self._verbosity is Verbosity.QUIET:
-            self._plain(f"{report.status}: {report.cause or ' '.join(report.plan)}")
+            self._line(f"{report.status}: {report.cause or ' '.join(report.plan)}")
             return
         self._headline(report.status, report.task.instruction)
-        table = _grid()
+        widest = _widest([*report.plan])
         for step in report.steps:
-            table.add_row(
-                str(step.index + 1),
-                badge(step.status, self._unicode),
-                _name(step.action, step.safe),
-                _why(step.status, step.cause),
-                ", ".join(step.changes),
-            )
+            self._action(step.index + 1, step.status, step.action, step.safe, step.changes, widest)
+            if step.status != "success":
+                kind = step.status if step.cause is None else f"{step.status}, {step.cause.kind}"
+                self._why(step.status, kind, step.cause.text if step.cause else "", 6)
         for index, action in enumerate(report.plan[len(report.steps) :], len(report.steps)):
-            table.add_row(str(index + 1), badge("pending", self._unicode), action, "not tried", "")
-        self._show(table)
+            self._action(index + 1, "pending", action, False, ["not tried"], widest)
         if report.success_conditions is not None:
             for condition in report.success_conditions.conditions:
                 status = "success" if condition.held else "failure"
                 word = "holds" if condition.held else "does not hold"
-                line = Text("  ").append_text(badge(status, self._unicode))
-                self._console.print(line.append(f" {condition.condition}: {word}"))
+                line = badge(status, self._unicode).append(f" {condition.condition}: {word}")
+                self._say(line, 2, 4)
         if report.cause is not None:
-            self._plain(f"  {report.cause}")
+            self._say(report.cause, 2)
         self._files(path, report.files)
 
     def _headline(self, status: str, instruction: str) -> None:
@@ -87,103 +93,110 @@ class Summary:
         if instruction:
             line.append(f"  {instruction}", style="italic")
         self._console.print()
-        self._console.print(line)
+        self._say(line, 0, 2)
 
     def _steps(self, nodes: Sequence[NodeModel]) -> None:
-        if not nodes:
-            return
-        table = _grid()
+        widest = _widest([node.action + (" safe place" if node.safe else "") for node in nodes])
         for number, node in enumerate(nodes, 1):
-            note = node.origin if self._verbosity is Verbosity.VERBOSE else ""
-            table.add_row(
-                str(number),
-                badge(node.status, self._unicode),
-                _name(node.action, node.safe),
-                note,
-                ", ".join(node.changes),
-            )
-        self._show(table)
+            notes = [node.origin] if self._verbosity is Verbosity.VERBOSE else []
+            self._action(number, node.status, node.action, node.safe, notes + node.changes, widest)
 
-    def _failures(self, report: PlanReport) -> None:
-        failed = [node for node in report.tree.nodes if node.status in ("failure", "unsafe")]
-        if not failed:
+    def _action(
+        self,
+        number: int,
+        status: str,
+        action: str,
+        safe: bool,
+        notes: Sequence[str],
+        widest: int,
+    ) -> None:
+        line = Text(f"{number} ", style="dim")
+        line = Text().append_text(line).append_text(badge(status, self._unicode))
+        line.append(" ").append_text(_name(action, safe))
+        if notes and (not self._console.is_terminal or self._console.width >= WIDE):
+            line.append(" " * max(2, widest + 4 - line.cell_len + len(str(number)) + 1))
+            line.append(", ".join(notes), style="dim")
+        self._say(line, 2, 6)
+
+    def _failures(self, failures: Sequence[Failure], steps: int) -> None:
+        if not failures:
             return
-        # One line per action and cause: the same failure often recurs behind other histories.
-        distinct: dict[tuple[str, str], tuple[NodeModel, int]] = {}
-        for node in failed:
-            key = (node.action, node.cause.text if node.cause else node.status)
-            first, count = distinct.get(key, (node, 0))
-            distinct[key] = (first, count + 1)
-        shown = list(distinct.values())
+        shown = list(failures)
         if self._verbosity is not Verbosity.VERBOSE:
-            shown = shown[:MAX_FAILURES]
-        self._plain("  What did not work")
-        table = _grid()
-        for node, count in shown:
-            times = f"{count} times" if count > 1 else ""
-            table.add_row(
-                "",
-                badge(node.status, self._unicode),
-                _name(node.action, node.safe),
-                _why(node.status, node.cause),
-                times,
-            )
-        self._show(table)
-        hidden = len(distinct) - len(shown)
+            room = MAX_FAILURES
+            if self._console.is_terminal:
+                room = (self._console.height - steps - LINES_BESIDES) // LINES_PER_FAILURE
+            shown = shown[: max(1, min(room, MAX_FAILURES))]
+        self._say("What did not work", 2)
+        for failure in shown:
+            line = badge(failure.node.status, self._unicode).append(" ")
+            if failure.history:
+                line.append(f"{failure.history} ", style="dim")
+            line.append_text(_name(failure.node.action, failure.node.safe))
+            if failure.times > 1:
+                line.append(f"  {failure.times} times", style="dim")
+            self._say(line, 4, 6)
+            self._why(failure.node.status, failure.kind, failure.text, 6)
+        hidden = len(failures) - len(shown)
         if hidden:
-            self._plain(f"     {hidden} more in the report")
+            self._say(f"{hidden} more in the report", 4)
+
+    def _why(self, status: str, kind: str, text: str, indent: int) -> None:
+        line = Text().append(kind.replace("_", " "), style=LOOKS[status].style)
+        self._say(line.append(f": {text}") if text else line, indent)
 
     def _numbers(self, report: PlanReport) -> None:
         cost = report.statistics
         line = (
-            f"  {cost.nodes_evaluated} nodes evaluated, {cost.reflections} reflections, "
+            f"{counted(cost.nodes_evaluated, 'node')} evaluated, "
+            f"{counted(cost.reflections, 'reflection')}, "
             f"{cost.simulated_s:.1f} s simulated in {cost.wall_s:.1f} s"
         )
         if cost.limit is not None:
-            named = f"--{cost.limit.replace('_', '-')}"
-            line += f"; stopped by {'the service' if cost.limit == 'service' else named}"
-        self._console.print(Text(line, style="dim"))
+            line += f"; {_limit(report)}"
+        self._say(Text(line, style="dim"), 2)
         if report.vlm is not None:
             self._model(report.vlm)
         survival = report.survival
         if survival is not None and survival.worlds > 1:
             low, high = survival.ci95
-            self._plain(
-                f"  holds in {survival.alive} of {survival.worlds} varied worlds: "
-                f"{survival.probability:.0%} (95 % interval {low:.0%} to {high:.0%})"
+            self._say(
+                f"holds in {survival.alive} of {survival.worlds} varied worlds: "
+                f"{survival.probability:.0%} (95 % interval {low:.0%} to {high:.0%})",
+                2,
             )
 
     def _model(self, vlm: VlmModel) -> None:
         total = vlm.total
         line = (
-            f"  {vlm.model}: {total.requests} requests, {total.cached} cached, "
+            f"{vlm.model}: {counted(total.requests, 'request')}, {total.cached} cached, "
             f"{total.input_tokens} + {total.output_tokens} tokens"
         )
         if total.cost is not None and total.requests:
             line += f", ${total.cost:.4f}"
-        self._console.print(Text(line, style="dim"))
+        self._say(Text(line, style="dim"), 2)
 
     def _files(self, path: Path, files: dict[str, str]) -> None:
-        for purpose, name in files.items():
-            self._plain(f"  {purpose}: {path.parent / name}")
-        self._plain(f"  report: {path}")
+        # Never wrapped: a path in two pieces cannot be copied.
+        for purpose, name in [*files.items(), ("report", path.name)]:
+            self._line(f"  {purpose}: {path.parent / name}")
 
-    def _plain(self, text: str) -> None:
-        # Paths and actions hold brackets, which are no markup; nothing is cut at the width.
+    def _line(self, text: str) -> None:
+        """One line, however long; brackets are no markup."""
         self._console.print(text, markup=False, soft_wrap=True)
 
-    def _show(self, table: Table) -> None:
-        self._console.print(Padding(table, (0, 0, 0, 2)))
-
-
-def _grid() -> Table:
-    table = Table.grid(padding=(0, 2, 0, 0))
-    table.add_column(justify="right", style="dim")
-    table.add_column()
-    table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    table.add_column(style="dim", overflow="fold")
-    return table
+    def _say(self, content: str | Text, indent: int = 0, hanging: int | None = None) -> None:
+        """Prints a line; on a terminal what does not fit goes on below, indented by ``hanging``."""
+        text = Text(content) if isinstance(content, str) else content
+        first, rest = " " * indent, " " * (indent if hanging is None else hanging)
+        if not self._console.is_terminal:
+            self._console.print(Text(first).append_text(text), soft_wrap=True)
+            return
+        width = max(8, self._console.width - len(rest))
+        for number, line in enumerate(text.wrap(self._console, width)):
+            line.rstrip()
+            start = Text(first if number == 0 else rest)
+            self._console.print(start.append_text(line), soft_wrap=True)
 
 
 def _name(action: str, safe: bool) -> Text:
@@ -191,9 +204,29 @@ def _name(action: str, safe: bool) -> Text:
     return text.append(" safe place", style="dim") if safe else text
 
 
-def _why(status: str, cause: CauseModel | None) -> Text:
-    if status == "success":
-        return Text("")
-    kind = status if cause is None else f"{status}, {cause.kind.value}"
-    text = Text().append(kind, style=LOOKS[status].style)
-    return text if cause is None else text.append(f": {cause.text}")
+def _widest(names: Sequence[str]) -> int:
+    return min(LONGEST_NAME, max(map(len, names), default=0))
+
+
+def _limit(report: PlanReport) -> str:
+    limit = report.statistics.limit
+    named = "the service" if limit == "service" else f"--{(limit or '').replace('_', '-')}"
+    return f"stopped by {named}"
+
+
+def _answer(report: PlanReport, failures: Sequence[Failure]) -> str:
+    """The plan in a line, or the cause that there is none."""
+    if report.status == "feasible":
+        return " ".join(report.plan) or "the goal already holds"
+    reasons = []
+    if report.stopped:
+        reasons.append(report.stopped)
+    elif report.statistics.limit is not None:
+        reasons.append(_limit(report))
+    if failures:
+        first = failures[0]
+        where = " ".join(filter(None, [first.history, first.node.action]))
+        reasons.append(f"{where}: {first.text or first.node.status}")
+    if len(failures) > 1:
+        reasons.append(f"{len(failures) - 1} more")
+    return "; ".join(reasons) or "no branch was proposed"

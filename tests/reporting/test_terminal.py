@@ -16,6 +16,7 @@ from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.live import LiveView, window
 from etot_cli.reporting.log import PlainLog
+from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.style import Verbosity, make_console
 from etot_cli.reporting.summary import Summary
 from etot_cli.world.state import CauseKind
@@ -105,7 +106,7 @@ def plan_summary(verbosity: Verbosity, *, worlds: int = 1, feasible: bool = True
 def test_plan_summary() -> None:
     text = plan_summary(Verbosity.NORMAL)
     assert "✓ feasible plan  Leave the cup alone." in text
-    assert "1  ✓  [PICK UP, x]" in text and "3  ✓  [PICK UP, b]" in text
+    assert "1 ✓ [PICK UP, x]" in text and "3 ✓ [PICK UP, b]" in text
     assert "failure, blocked: it was blocked" in text
     assert "5 nodes evaluated, 2 reflections" in text
     assert "report: out/report.json" in text
@@ -123,6 +124,71 @@ def test_plan_summary_without_a_plan() -> None:
 def test_quiet_is_one_line() -> None:
     text = plan_summary(Verbosity.QUIET)
     assert text == "feasible: [PICK UP, x] [PICK UP, a] [PICK UP, b]\n"
+
+
+def toy_report(branches: list[str], *failing: str) -> PlanReport:
+    rooms = ToyRooms(ToySimulator(fails(*failing)), ToyReasoner(branches)).rooms()
+    return run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms)
+
+
+def shown(report: PlanReport, console: Console, verbosity: Verbosity = Verbosity.NORMAL) -> str:
+    Summary(console, verbosity).plan(report, Path("out") / ("deep" * 12) / "report.json")
+    stream = console.file
+    assert isinstance(stream, io.StringIO)
+    return stream.getvalue()
+
+
+def test_failures_come_with_the_history_that_led_to_them() -> None:
+    report = toy_report(["a b", "c d"], "a b")
+    text = shown(report, make_console(Stream("utf-8")))
+    assert "[PICK UP, a] [PICK UP, b]" in text
+
+
+def test_narrow_terminal_loses_no_word() -> None:
+    report = toy_report(["a b", "c d"], "a b")
+    report.tree.nodes[1].cause.text = "the long word about what was in the way of all this"
+    console = Console(
+        file=Stream("utf-8"), force_terminal=True, width=40, height=30, color_system=None
+    )
+    text = shown(report, console)
+    lines = text.splitlines()
+    assert all(len(line) <= 40 for line in lines if "out/" not in line)
+    words = " ".join(text.split())
+    assert "the long word about what was in the way of all this" in words
+    assert "…" not in text
+
+
+def test_piped_lines_are_whole() -> None:
+    report = toy_report(["a b", "c d"], "a b")
+    report.tree.nodes[1].cause.text = "because " + "of something far away " * 10
+    text = shown(report, make_console(Stream("utf-8")))
+    assert report.tree.nodes[1].cause.text.strip() in text
+    assert not any(line.endswith(" ") for line in text.splitlines() if "because" not in line)
+
+
+def test_many_failures_fit_the_screen() -> None:
+    names = [f"x{number}" for number in range(9)]
+    report = toy_report([*names, "good"], *names)
+    console = Console(
+        file=Stream("utf-8"), force_terminal=True, width=80, height=24, color_system=None
+    )
+    text = shown(report, console)
+    assert len(text.splitlines()) <= 24
+    assert "more in the report" in text
+
+
+def test_quiet_names_the_cause() -> None:
+    report = toy_report(["a b"], "a b")
+    text = shown(report, make_console(Stream("utf-8")), Verbosity.QUIET)
+    assert text == "infeasible: [PICK UP, a] [PICK UP, b]: it was blocked\n"
+
+
+def test_one_is_singular() -> None:
+    stream = io.StringIO()
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"])).rooms()
+    report = run_plan(PlanOptions(task=Path("toy.yaml")), PlainLog(stream), rooms=rooms)
+    assert "1 branch proposed, 1 node\n" in stream.getvalue()
+    assert "1 node evaluated, 0 reflections" in shown(report, make_console(Stream("utf-8")))
 
 
 def test_simulate_summary() -> None:
