@@ -8,13 +8,16 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test lint format schemas bench check-tasks check-random check-reconstruct clean
+.PHONY: demo test test-fast lint format schemas bench check-tasks check-random check-reconstruct clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
 
 test: $(VENV)/.dev  ## all tests
 	$(BIN)/python -m pytest -n $(WORKERS)
+
+test-fast: $(VENV)/.dev  ## a cross-section of the tests, in a minute
+	$(BIN)/python -m pytest -n $(WORKERS) -m "not slow"
 
 lint: $(VENV)/.dev  ## style and types
 	$(BIN)/ruff check .

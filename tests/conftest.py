@@ -1,8 +1,23 @@
-"""What all tests share."""
+"""What all tests share: MuJoCo without OpenGL, no pages, and the marker of those that render."""
 
 from __future__ import annotations
 
 import os
 
+import pytest
+
+from etot_cli.world.engine import import_mujoco
+from tests.opengl import need_opengl
+
 # Pages have tests of their own; the hundreds of other runs need not render pictures.
 os.environ.setdefault("ETOT_HTML", "0")
+
+# Before any test module does it: a MUJOCO_GL that cannot be used would make that fail.
+import_mujoco()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Before any fixture renders."""
+    if item.get_closest_marker("render"):
+        need_opengl()

@@ -32,9 +32,6 @@ def run_capture(path: Path, folder: Path, *, noisy: bool, seed: int, vary: bool)
         from etot_cli.specs.vary import vary as varied
 
         scene = varied(scene, seed)
-    from etot_cli.world.engine import import_mujoco_for_pictures
-
-    import_mujoco_for_pictures()
     from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
 
     picture = capture(scene)

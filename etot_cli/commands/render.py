@@ -28,7 +28,7 @@ def render_files(simulation: Simulation, folder: Path, *, video: bool, frames: b
     except ImportError as error:
         raise ServiceError(
             f"rendering is not available here ({error}); it needs OpenGL, e.g. the packages "
-            "libegl1 and libgl1, and MUJOCO_GL=egl or osmesa"
+            "libegl1 and libgl1-mesa-dri"
         ) from error
     files = simulation.report.files
     if frames:

@@ -90,9 +90,6 @@ class Rooms:
 
 def default_rooms() -> Rooms:
     """The rooms of this package."""
-    from etot_cli.world.engine import import_mujoco
-
-    import_mujoco()
     from etot_cli.reasoning.builtin import BuiltinReasoner
     from etot_cli.skills.simulator import known_targets, open_simulator
     from etot_cli.specs.load import load_task

@@ -17,10 +17,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.errors import ServiceError, SpecError
+from etot_cli.errors import SpecError
 from etot_cli.specs.scene import Camera, Scene
 from etot_cli.world.build.surroundings import camera_rotation
 from etot_cli.world.model import World, build_world
+from etot_cli.world.offscreen import OffscreenRenderer
 from etot_cli.world.placing import object_bounds, place_objects
 
 DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
@@ -153,7 +154,7 @@ def _settle(world: World, data: mujoco.MjData) -> None:
 
 def _render(
     world: World, data: mujoco.MjData, name: str, camera: Camera, *, show_robot: bool
-) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.int64]]:
+) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.int32]]:
     """Colour, depth and geom ids (−1 for none), each (h, w)."""
     model = world.model
     # Rounder balls than the viewer's: the truth is a ball, not its tessellation.
@@ -165,24 +166,13 @@ def _render(
                 model.geom_rgba[geom, 3] = 0.0
                 model.geom_group[geom] = 5
     _aim(model, name, camera)
-    try:
-        renderer = mujoco.Renderer(model, camera.height, camera.width)
-    except Exception as error:  # each GL backend raises its own kinds
-        raise ServiceError(
-            f"cannot render: {error}; rendering needs OpenGL, e.g. MUJOCO_GL=egl or osmesa"
-        ) from error
-    try:
-        renderer.update_scene(data, camera=name)
-        color = renderer.render().copy()
-        renderer.enable_depth_rendering()
-        depth = renderer.render().astype(np.float64)
-        renderer.disable_depth_rendering()
-        renderer.enable_segmentation_rendering()
-        segments = renderer.render()
-    finally:
-        renderer.close()
-    is_geom = segments[..., 1] == int(mujoco.mjtObj.mjOBJ_GEOM)
-    ids = np.where(is_geom, segments[..., 0], -1).astype(np.int64)
+    view = mujoco.MjvCamera()
+    view.type = mujoco.mjtCamera.mjCAMERA_FIXED
+    view.fixedcamid = model.camera(name).id
+    with OffscreenRenderer(model, camera.width, camera.height) as renderer:
+        renderer.look(data, view)
+        color = renderer.color()
+        depth, ids = renderer.depth_and_geoms()
     depth[ids < 0] = 0.0  # the sky
     return color, depth, ids
 

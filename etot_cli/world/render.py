@@ -19,17 +19,13 @@ from numpy.typing import NDArray
 from etot_cli.errors import ServiceError, WorldError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
-from etot_cli.world.opengl import open_context
+from etot_cli.world.offscreen import Image, OffscreenRenderer
 from etot_cli.world.recorder import Trajectory
-
-Image = NDArray[np.uint8]
-"""RGB, (height, width, 3)."""
 
 DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
 DEFAULT_FOV_DEG = 45.0
 DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG = 180.0, -38.0
 """A scene without cameras is seen from the front, obliquely, towards the robot."""
-MAX_GEOMS = 5000
 MIN_SIDE = 16
 """Smallest picture side [px]."""
 
@@ -76,17 +72,9 @@ class WorldRenderer:
         self.world = world
         self.width, self.height = fit_size(world.scene, camera, width, height)
         self._model = world.model
-        limits = self._model.vis.global_
-        limits.offwidth = max(limits.offwidth, self.width)
-        limits.offheight = max(limits.offheight, self.height)
         self._data = mujoco.MjData(self._model)
-        self._context = open_context(self.width, self.height)
-        self._scene = mujoco.MjvScene(self._model, MAX_GEOMS)
-        self._option = mujoco.MjvOption()
         self._camera = self._view(camera)
-        self._rectangle = mujoco.MjrRect(0, 0, self.width, self.height)
-        self._renderer = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._renderer)
+        self._renderer = OffscreenRenderer(self._model, self.width, self.height)
 
     def __enter__(self) -> WorldRenderer:
         return self
@@ -102,7 +90,7 @@ class WorldRenderer:
     def frame(self, qpos: NDArray[Any]) -> Image:
         """A picture (height, width, 3) of the configuration ``qpos`` (nq,)."""
         self._place(qpos)
-        return self._draw()
+        return self._renderer.color()
 
     def picture(self, qpos: NDArray[Any], outlined: Sequence[str] = ()) -> Image:
         """As :meth:`frame`, with an outline and the name of some objects."""
@@ -111,21 +99,7 @@ class WorldRenderer:
     def geoms(self, qpos: NDArray[Any]) -> NDArray[np.int32]:
         """For every pixel (height, width) the id of the geom seen there; -1 where there is none."""
         self._place(qpos)
-        flags = self._scene.flags
-        kept = flags.copy()
-        flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = True
-        flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = True
-        try:
-            coded = self._draw().astype(np.int32)
-        finally:
-            np.copyto(flags, kept)
-        segments = coded[..., 0] + (coded[..., 1] << 8) + (coded[..., 2] << 16)
-        # Segment numbers count the drawn things from 1; 0 is the background.
-        geoms = np.full(self._scene.ngeom + 1, -1, dtype=np.int32)
-        for item in self._scene.geoms[: self._scene.ngeom]:
-            if item.segid >= 0 and item.objtype == mujoco.mjtObj.mjOBJ_GEOM:
-                geoms[item.segid + 1] = item.objid
-        return np.asarray(geoms[np.clip(segments, 0, self._scene.ngeom)], dtype=np.int32)
+        return self._renderer.depth_and_geoms()[1]
 
     def visible_pixels(self, qpos: NDArray[Any]) -> dict[str, NDArray[np.bool_]]:
         """For every object that is seen, the mask (height, width) of its pixels."""
@@ -141,30 +115,14 @@ class WorldRenderer:
 
     def close(self) -> None:
         """Frees what the graphics driver holds; idempotent."""
-        if self._context is not None:
-            self._context.make_current()
-            self._renderer.free()
-            self._context.free()
-            self._context = None
+        self._renderer.close()
 
     def _place(self, qpos: NDArray[Any]) -> None:
         self._data.qpos[:] = qpos
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
-        mujoco.mjv_updateScene(
-            self._model, self._data, self._option, None, self._camera,
-            mujoco.mjtCatBit.mjCAT_ALL.value, self._scene,
-        )  # fmt: skip
-
-    def _draw(self) -> Image:
-        if self._context is None:
-            raise WorldError("the renderer has been closed")
-        self._context.make_current()
-        image = np.empty((self.height, self.width, 3), dtype=np.uint8)
-        mujoco.mjr_render(self._rectangle, self._scene, self._renderer)
-        mujoco.mjr_readPixels(image, None, self._rectangle, self._renderer)
-        return np.ascontiguousarray(image[::-1])  # OpenGL counts rows from the bottom
+        self._renderer.look(self._data, self._camera)
 
     def _view(self, camera: str | None) -> mujoco.MjvCamera:
         view = mujoco.MjvCamera()

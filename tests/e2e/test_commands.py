@@ -126,8 +126,11 @@ def test_limits_end_the_search(tmp_path: Path) -> None:
     assert report["statistics"]["nodes_evaluated"] == 3
 
 
-def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(tmp_path: Path) -> None:
-    broken = {"MUJOCO_GL": "off"}
+@pytest.mark.parametrize("choice", ["off", "nonsense"])
+def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(
+    choice: str, tmp_path: Path
+) -> None:
+    broken = {"MUJOCO_GL": choice}
     done = etot("plan", "tasks/task3.yaml", "-q", "--out", tmp_path / "plan", env=broken)
     assert done.returncode == 0, done.stderr
     done = etot(
@@ -135,8 +138,20 @@ def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(tmp_path: P
         "--out", tmp_path / "simulate", env=broken,
     )  # fmt: skip
     assert done.returncode == 3
-    assert "OpenGL" in done.stderr
+    assert f"MUJOCO_GL={choice}" in done.stderr.replace("'", "")
     assert (tmp_path / "simulate" / "report.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [(["simulate", "tasks/task3.yaml", "--capture"], 3), (["reconstruct", "docs", "--out"], 2)],
+)
+def test_an_unknown_opengl_library_is_no_defect(
+    arguments: list[str], code: int, tmp_path: Path
+) -> None:
+    done = etot(*arguments, tmp_path, env={"MUJOCO_GL": "nonsense"})
+    assert done.returncode == code
+    assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
 
 
 def test_interrupt_leaves_a_valid_report(tmp_path: Path) -> None:

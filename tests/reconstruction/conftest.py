@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-os.environ.setdefault("MUJOCO_GL", "egl")
-
-from etot_cli.errors import ServiceError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import Picture, capture
+from tests.opengl import need_opengl
 from tests.reconstruction.scenes import BALL, CUP, PEN, scene
 
 
-def render(what: Scene, **options: object) -> Picture:
+def render(what: Scene, **options: Any) -> Picture:
     """A capture of a scene; the test is skipped where there is no OpenGL."""
-    try:
-        return capture(what, **options)  # type: ignore[arg-type]
-    except ServiceError as error:
-        pytest.skip(str(error))
+    need_opengl()
+    return capture(what, **options)
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.pipeline import Options, reconstruct
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.scene import Scene
-from etot_cli.world.capture import KINECT, add_noise, capture, write_capture
+from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import CUP, PEN, scene, unit
 
@@ -91,8 +91,7 @@ def test_nothing_is_lost_or_invented(what, tmp_path: Path, seed: int) -> None:
 def test_what_hangs_in_the_air_is_no_object(tmp_path: Path) -> None:
     box = {"kind": "box", "size": [0.12, 0.10, 0.08], "color": "red", "at": [0.45, 0.0, 0.26]}
     ball = {"kind": "sphere", "diameter": 0.07, "color": "green", "at": [0.45, -0.25]}
-    render(scene({"ball": ball}))  # skips where there is no OpenGL
-    picture = capture(scene({"box": box, "ball": ball}), settle=False)
+    picture = render(scene({"box": box, "ball": ball}), settle=False)
     write_capture(add_noise(picture, KINECT, np.random.default_rng(0)), tmp_path,
                   scale=KINECT.scale, masks=False)  # fmt: skip
     (found,) = find_segments(calibrate(read_capture(tmp_path)))

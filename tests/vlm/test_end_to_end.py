@@ -12,12 +12,11 @@ import pytest
 from numpy.typing import NDArray
 
 from etot_cli.cli.app import run
-from etot_cli.errors import ServiceError
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.player import Player, Received
 from etot_cli.skills.perform import Workshop
 from etot_cli.specs.load import load_task
-from etot_cli.world.render import WorldRenderer, open_context
+from etot_cli.world.render import WorldRenderer
 from tests.vlm.scripts import TASKS, Rules, rule, with_common
 
 ROOT = Path(__file__).parents[2]
@@ -25,19 +24,7 @@ TASK_FILES = {number: ROOT / "tasks" / f"task{number}.yaml" for number in TASKS}
 SIDE = 768
 
 
-def has_opengl() -> bool:
-    try:
-        open_context(16, 16).free()
-    except ServiceError:
-        return False
-    return True
-
-
-pytestmark = [
-    pytest.mark.render,
-    pytest.mark.skipif(not has_opengl(), reason="needs OpenGL"),
-    pytest.mark.skipif(not TASK_FILES[1].exists(), reason="the task files are not here"),
-]
+pytestmark = pytest.mark.render
 
 PLANS = {
     1: "[PICK UP, tennis_ball] [PUT ON, desk] [OPEN, microwave]",

@@ -18,7 +18,6 @@ from etot_cli.world.render import (
     WorldRenderer,
     fit_size,
     key_moments,
-    open_context,
     render_frames,
     write_frames,
     write_video,
@@ -26,16 +25,6 @@ from etot_cli.world.render import (
 from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
 from tests.vlm.scenes import kitchen
 
-
-def has_opengl() -> bool:
-    try:
-        open_context(16, 16).free()
-    except ServiceError:
-        return False
-    return True
-
-
-needs_opengl = pytest.mark.skipif(not has_opengl(), reason="needs OpenGL")
 SCENE = Scene.model_validate(
     {
         "cameras": {"front": {"position": [1.2, 0.0, 0.8], "look_at": [0.4, 0.0, 0.15],
@@ -61,7 +50,6 @@ def trajectory() -> Trajectory:
     return Trajectory(times, rows, (0.8, 0.8, 1.9999))
 
 
-@needs_opengl
 @pytest.mark.render
 def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> None:
     files = write_frames(SCENE, [trajectory, trajectory], tmp_path / "frames")
@@ -77,7 +65,6 @@ def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> N
     assert red[1] < red[0] - 20  # the block has gone up in the picture
 
 
-@needs_opengl
 @pytest.mark.render
 def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
     write_video(SCENE, [trajectory, trajectory], tmp_path / "deep" / "run.mp4", 10)
@@ -92,7 +79,6 @@ def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
         write_video(SCENE, [trajectory], tmp_path / "file" / "run.mp4")
 
 
-@needs_opengl
 @pytest.mark.render
 def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) -> None:
     bare = SCENE.model_copy(update={"cameras": {}})
@@ -109,7 +95,6 @@ def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) 
         assert set(masks) == {"block", "marble"} and columns["block"] > columns["marble"]
 
 
-@needs_opengl
 @pytest.mark.render
 def test_an_unknown_camera_is_named(trajectory: Trajectory) -> None:
     with pytest.raises(WorldError, match="no camera 'rear'; it has front"):

@@ -1,0 +1,118 @@
+"""The one way in which pixels come into being: a model drawn into memory, without a window."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Self
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.errors import ServiceError, WorldError
+from etot_cli.world.opengl import NO_OPENGL, open_context
+
+Image = NDArray[np.uint8]
+"""RGB, (height, width, 3)."""
+
+MAX_GEOMS = 10_000
+"""Things drawn at once; MuJoCo's own renderer has room for as many."""
+
+
+class OffscreenRenderer:
+    """Draws configurations of one model as colours, depths and geom ids. A context manager.
+
+    Args:
+        model: what is drawn; its off-screen buffer grows to the picture's size if need be.
+        width: of the pictures [px].
+        height: of the pictures [px].
+
+    Raises:
+        ServiceError: there is no OpenGL.
+    """
+
+    def __init__(self, model: mujoco.MjModel, width: int, height: int) -> None:
+        self.width, self.height = width, height
+        self._model = model
+        limits = model.vis.global_
+        limits.offwidth = max(limits.offwidth, width)
+        limits.offheight = max(limits.offheight, height)
+        self._scene = mujoco.MjvScene(model, MAX_GEOMS)
+        self._option = mujoco.MjvOption()
+        self._rectangle = mujoco.MjrRect(0, 0, width, height)
+        self._context = open_context(width, height)
+        try:
+            self._buffers = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
+        except mujoco.FatalError as error:  # a context, but not the OpenGL that MuJoCo needs
+            self._context.free()
+            raise ServiceError(NO_OPENGL.format(reason=error)) from error
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._buffers)
+        self._buffers.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Frees what the graphics driver holds; idempotent."""
+        if self._context is not None:
+            self._context.make_current()
+            self._buffers.free()
+            self._context.free()
+            self._context = None
+
+    def look(self, data: mujoco.MjData, camera: mujoco.MjvCamera) -> None:
+        """Takes over what is to be drawn: ``data`` with its kinematics done, seen by ``camera``."""
+        mujoco.mjv_updateScene(
+            self._model, data, self._option, None, camera, mujoco.mjtCatBit.mjCAT_ALL.value,
+            self._scene,
+        )  # fmt: skip
+
+    def color(self) -> Image:
+        """The picture (height, width, 3)."""
+        return self._draw()[0]
+
+    def depth_and_geoms(self) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Depth along the view axis [m] and id of the geom seen, both (height, width).
+
+        Where no geom is seen the id is -1 and the depth that of the far plane.
+        """
+        flags = self._scene.flags
+        kept = flags.copy()
+        # One colour for each geom, without light and sky.
+        flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = True
+        flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = True
+        try:
+            coded, buffer = self._draw()
+        finally:
+            np.copyto(flags, kept)
+        segments = coded.astype(np.int32) @ (1, 1 << 8, 1 << 16)
+        # Segment numbers count the drawn things from 1; 0 is the background.
+        ids = np.full(self._scene.ngeom + 1, -1, dtype=np.int32)
+        for item in self._scene.geoms[: self._scene.ngeom]:
+            if item.segid >= 0 and item.objtype == mujoco.mjtObj.mjOBJ_GEOM:
+                ids[item.segid + 1] = item.objid
+        geoms = ids[np.clip(segments, 0, self._scene.ngeom)]
+        # The buffer holds 1 at the near plane and 0 at the far one, linear in 1 / depth.
+        planes, extent = self._model.vis.map, self._model.stat.extent
+        near, far = planes.znear * extent, planes.zfar * extent
+        depth = near * far / (near + buffer.astype(np.float64) * (far - near))
+        return depth, geoms
+
+    def _draw(self) -> tuple[Image, NDArray[np.float32]]:
+        """Colours and the depth buffer, first row on top."""
+        if self._context is None:
+            raise WorldError("the renderer has been closed")
+        self._context.make_current()
+        image = np.empty((self.height, self.width, 3), dtype=np.uint8)
+        depth = np.empty((self.height, self.width), dtype=np.float32)
+        mujoco.mjr_render(self._rectangle, self._scene, self._buffers)
+        mujoco.mjr_readPixels(image, depth, self._rectangle, self._buffers)
+        return np.ascontiguousarray(image[::-1]), depth[::-1]  # OpenGL counts from the bottom
