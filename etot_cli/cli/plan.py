@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from etot_cli.cli.exits import MISSING, NO
+from etot_cli.cli.exits import MISSING, NO, OK
 from etot_cli.cli.options import (
     Html,
     Json,
@@ -125,8 +125,8 @@ def plan(
 ) -> int:
     """Find a plan that works in the simulator, and say why others do not.
 
-    Exit code 0: a feasible plan; 1: none found; 2: unusable input; 3: the model's endpoint cannot
-    be used; 130: interrupted.
+    Exit code 0: a feasible plan, after which the task's success conditions hold; 1: none found, or
+    they do not hold; 2: unusable input; 3: the model's endpoint cannot be used; 130: interrupted.
     """
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose)
     from etot_cli.commands.plan import PlanOptions, plan_task
@@ -160,6 +160,8 @@ def plan(
 
         session.add_page(report, lambda told: write_plan_page(planning, session.folder, told))
     code = session.conclude(report, path, lambda summary: summary.plan(report, path))
+    if code == OK and report.success is not None and not report.success.holds:
+        return NO
     if code == NO and report.statistics.limit == "service":
         print(f"error: {report.stopped}", file=sys.stderr)
         return MISSING

@@ -24,7 +24,9 @@ from etot_cli.reporting.models import TaskModel
 from etot_cli.reporting.plan_report import (
     PlanOptionsModel,
     PlanReport,
+    prefix_model,
     statistics_model,
+    success_model,
     survival_model,
     tree_model,
     understood_model,
@@ -177,6 +179,8 @@ def _report(
         plan=[str(action) for action in result.plan],
         plan_nodes=[] if result.leaf is None else [node.id for node in result.leaf.path],
         survival=survival_model(result.survival),
+        success=None if task is None else success_model(task.success, result.final),
+        prefix=prefix_model(result.prefix),
         understood=understood_model(result.goal_holds, result.branches),
         tree=tree_model(result),
         statistics=statistics_model(result),

@@ -7,11 +7,14 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol
 
+from etot_cli.planning.alternatives import Prefix
+from etot_cli.planning.options import Limits
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.skills.action import Action
 from etot_cli.skills.simulated import WorldOutcome
+from etot_cli.world.state import SceneState
 
 
 class SearchStatus(StrEnum):
@@ -20,9 +23,9 @@ class SearchStatus(StrEnum):
     FEASIBLE = "feasible"
     """A plan was found and simulated to its end (an empty one when the goal already holds)."""
     INFEASIBLE = "infeasible"
-    """Every branch and every revision failed."""
+    """Every branch and every correction of every failure failed; no bound cut anything off."""
     LIMIT = "limit"
-    """A limit was reached before a plan was found."""
+    """A bound was reached, or cut something off, before a plan was found."""
     INTERRUPTED = "interrupted"
     """Stopped from outside; the tree and any plan found so far are kept."""
 
@@ -32,12 +35,44 @@ class LimitKind(StrEnum):
 
     MAX_NODES = "max_nodes"
     TIME = "time_limit"
+    REVISIONS = "revisions"
+    """A branch had been corrected so often in a row that it was given up."""
+    CORRECTIONS = "corrections"
+    """A failure had more corrections than are looked at."""
+    REFLECTIONS = "reflections"
+    """The reasoner had been asked about so many failures that the search was given up."""
+    MAX_CHOICES = "max_choices"
+    """The instruction leaves more choices than are looked at."""
+    ABANDONED = "abandoned"
+    """An action could not be simulated to its end, which says nothing about it."""
     MAX_CALLS = "max_calls"
     """The reasoner's limit on requests to its model."""
     MAX_COST = "max_cost"
     """The reasoner's limit on what its model costs."""
     SERVICE = "service"
     """A service that the reasoner needs is not there."""
+
+
+def told(limit: LimitKind | None, limits: Limits) -> str:
+    """What a bound of the search cut off, in a sentence; empty for bounds that are not its own."""
+    match limit:
+        case LimitKind.MAX_NODES:
+            return f"{limits.max_nodes} actions were simulated, the most that --max-nodes allows"
+        case LimitKind.TIME:
+            return f"the {limits.time_limit_s:g} s that --time-limit allows were over"
+        case LimitKind.REVISIONS:
+            count = limits.revisions_per_branch
+            return f"branches were given up after {count} corrections in a row"
+        case LimitKind.CORRECTIONS:
+            count = limits.corrections_per_failure
+            return f"a failure had more than the {count} corrections that are looked at"
+        case LimitKind.REFLECTIONS:
+            return f"corrections of {limits.max_reflections} failures did not lead to a plan"
+        case LimitKind.MAX_CHOICES:
+            return "the instruction leaves more choices than are looked at"
+        case LimitKind.ABANDONED:
+            return "an action could not be simulated to its end, so it may work or not"
+    return ""
 
 
 @dataclass(slots=True)
@@ -64,7 +99,7 @@ class SearchResult:
     tree: PlanTree
     statistics: Statistics
     branches: tuple[Branch, ...]
-    """The branches proposed at the start, those left out by an ablation not among them."""
+    """The proposed branches that entered the tree, in that order."""
     goal_holds: bool = False
     """Nothing was to be done: the goal already held at the start."""
     survival: Survival | None = None
@@ -72,7 +107,11 @@ class SearchResult:
     limit: LimitKind | None = None
     """The bound that was reached, even when a plan had been found before."""
     stopped: str = ""
-    """Why the reasoner could not go on, in a sentence; empty when it could."""
+    """What ended the search before all was tried, in a sentence; empty when nothing did."""
+    prefix: Prefix | None = None
+    """Without a plan, the successful history that came nearest to one."""
+    final: SceneState | None = None
+    """The nominal world after the plan's last action; None without a plan."""
     rollouts: Mapping[int, WorldOutcome] = field(default_factory=dict)
     """Per evaluated node id, what the nominal world did."""
 

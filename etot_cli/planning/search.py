@@ -2,16 +2,20 @@
 
 Breadth first: simulate a node from its parent's end state, judge it, go on with its children; on a
 failure, take it out of the tree and let the reasoner revise every branch that ran through it.
-What goes beyond the algorithm (several worlds, known failures, limits) is told in docs/plan.md.
+What goes beyond the algorithm (alternatives, several worlds, known failures, limits) is told in
+docs/plan.md.
 """
 
 from __future__ import annotations
 
 import time
 from collections import deque
+from collections.abc import Iterator
+from itertools import islice
 
-from etot_cli.planning.lookahead import Lookahead, OutOfTimeError
-from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.alternatives import Corrections, best_prefix
+from etot_cli.planning.lookahead import Lookahead
+from etot_cli.planning.options import BRANCHES_AT_ONCE, Ablation, Limits
 from etot_cli.planning.result import (
     LimitKind,
     SearchObserver,
@@ -19,6 +23,7 @@ from etot_cli.planning.result import (
     SearchStatus,
     SilentObserver,
     Statistics,
+    told,
 )
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
@@ -31,6 +36,7 @@ from etot_cli.reasoning.protocol import (
     StopReason,
 )
 from etot_cli.skills.action import Action
+from etot_cli.skills.deadline import NEVER, OutOfTimeError
 from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
@@ -87,11 +93,15 @@ class _Search:
 
         self._tree = PlanTree()  # [T]
         self._queue: deque[PlanNode] = deque()  # [Q]
-        self._lookahead = Lookahead(simulator, self._start_of)
         self._worlds = tuple(range(simulator.world_count))
         self._statistics = Statistics()
         self._started = time.monotonic()
-        self._branches: tuple[Branch, ...] = ()
+        seconds = limits.time_limit_s
+        self._until_s = NEVER if seconds is None else self._started + seconds
+        self._lookahead = Lookahead(simulator, self._start_of, self._until_s)
+        self._proposals: Iterator[Branch] = iter(())
+        self._branches: list[Branch] = []
+        self._untried: deque[Corrections] = deque()
         self._root_state: StateToken = b""
         self._root_scene: SceneState | None = None
         self._end_states: dict[int, StateToken] = {}
@@ -101,6 +111,7 @@ class _Search:
         self._best: PlanNode | None = None
         self._goal_holds = False
         self._limit: LimitKind | None = None
+        self._cut: LimitKind | None = None
         self._stopped = ""
 
     def result(self) -> SearchResult:
@@ -115,30 +126,35 @@ class _Search:
             # A reasoner without an answer has given up; any other reason is a limit.
             if stop.reason is not StopReason.NO_ANSWER:
                 self._limit = LimitKind(stop.reason.value)
+        except OutOfTimeError:
+            self._limit = LimitKind.TIME
         finally:
             self._lookahead.cancel()
+        if not self._found:
+            self._limit = self._limit or self._cut
         self._statistics.wall_s = time.monotonic() - self._started
         result = SearchResult(
             status=self._status(interrupted),
             leaf=self._best,
             tree=self._tree,
             statistics=self._statistics,
-            branches=self._branches,
+            branches=tuple(self._branches),
             goal_holds=self._goal_holds,
             survival=self._survival(),
             limit=self._limit,
             rollouts=self._rollouts,
-            stopped=self._stopped,
+            stopped=self._stopped or told(self._limit, self._limits),
+            prefix=None if self._found else best_prefix(self._tree),
+            final=self._final(),
         )
         self._observer.finished(result)
         return result
 
     def _run(self) -> None:
-        self._root_state, self._root_scene = self._simulator.start()
+        self._root_state, self._root_scene = self._simulator.start(self._until_s)
         self._branch_a_priori(self._root_scene)
         self._observer.proposed(self._tree)
-        self._queue.extend(self._tree.roots)
-        while self._queue:
+        while self._queue or self._widen():
             node = self._queue.popleft()
             if not self._can_beat_best(node):
                 continue
@@ -146,16 +162,11 @@ class _Search:
             if self._limit is not None:
                 return
             self._observer.started(node)
-            try:
-                simulated = self._lookahead.fetch(
-                    node,
-                    (ahead for ahead in self._queue if self._can_beat_best(ahead)),
-                    allowance=self._limits.max_nodes - self._statistics.nodes_evaluated,
-                    timeout_s=self._time_left(),
-                )
-            except OutOfTimeError:
-                self._limit = LimitKind.TIME
-                return
+            simulated = self._lookahead.fetch(
+                node,
+                (ahead for ahead in self._queue if self._can_beat_best(ahead)),
+                allowance=self._limits.max_nodes - self._statistics.nodes_evaluated,
+            )
             self._judge(node, simulated)
             self._observer.judged(node)
             if node.status is NodeStatus.SUCCESS:
@@ -167,13 +178,37 @@ class _Search:
 
     def _branch_a_priori(self, scene: SceneState) -> None:
         """[PrioriBranching] Builds the initial tree."""
-        branches = tuple(self._reasoner.propose(self._assignment, scene))
-        self._goal_holds = not branches
+        self._proposals = iter(self._reasoner.propose(self._assignment, scene))
         if Ablation.PRIORI in self._without:
-            branches = branches[:1]
-        self._branches = branches
-        for branch in branches:
-            self._tree.merge_branch(branch, Origin.PRIORI)
+            self._proposals = islice(self._proposals, 1)
+        self._propose()
+        self._goal_holds = not self._branches
+
+    def _propose(self) -> None:
+        """Takes the next of the proposed branches into the tree."""
+        try:
+            for branch in islice(self._proposals, BRANCHES_AT_ONCE):
+                self._branches.append(branch)
+                self._insert(TreePath(branch, 0), Origin.PRIORI)
+        except ReasonerStopped as stop:
+            if stop.reason is not StopReason.MAX_CHOICES:
+                raise
+            self._cut = LimitKind.MAX_CHOICES
+
+    def _widen(self) -> bool:
+        """Takes up what was left aside, now that all in the queue has failed; False at the end.
+
+        First the proposed branches that have not entered the tree yet, then the next corrections
+        of every failure in turn, each time one.
+        """
+        if self._found:
+            return False
+        self._propose()
+        while self._untried and not self._queue and not self._found:
+            if self._out_of_time():
+                raise OutOfTimeError
+            self._take(self._untried.popleft())
+        return bool(self._queue)
 
     def _judge(self, node: PlanNode, simulated: Simulated) -> None:
         """[VLMJudge] Puts the verdict on the node and keeps what later steps need of it."""
@@ -201,49 +236,60 @@ class _Search:
         """Takes a failed node out and reflects on every branch that ran through it."""
         paths = self._tree.extract_paths(node)  # [P]
         self._tree.remove_subtree(node)
-        if Ablation.REFLECTIVE in self._without or _abandoned(node):
+        if _abandoned(node):
+            self._cut = LimitKind.ABANDONED
             return
         for path in paths:
-            # With a plan in hand, only what the tree already holds is still compared with it.
-            if self._best is None:
-                self._reflect(node, path)
+            self._reflect(node, path)
 
     def _reflect(self, node: PlanNode, path: TreePath) -> None:
-        """[ReflectiveBranching] Revises one branch.
+        """[ReflectiveBranching] Revises one branch; its other corrections wait for later.
 
         A revision that runs into another known failure is revised in turn from the record of that
         failure, which is what simulating the failed action again would lead to.
         """
-        failed: PlanNode | None = node
-        while (
-            failed is not None
-            and path.revisions < self._limits.revisions_per_branch
-            and (failed.id, path.branch.actions) not in self._reflected
-        ):
+        key = (node.id, path.branch.actions)
+        # With a plan in hand, only what the tree already holds is still compared with it.
+        if Ablation.REFLECTIVE in self._without or self._best is not None or key in self._reflected:
+            return
+        if path.revisions >= self._limits.revisions_per_branch:
+            self._cut = LimitKind.REVISIONS
+        elif len(self._reflected) >= self._limits.max_reflections:
+            self._cut = LimitKind.REFLECTIONS
+        else:
             if self._out_of_time():
-                self._limit = LimitKind.TIME
-                return
-            self._reflected.add((failed.id, path.branch.actions))
-            revised = self._reasoner.reflect(self._failed_step(failed, path.branch))  # [B]
+                raise OutOfTimeError
+            self._reflected.add(key)
             self._statistics.reflections += 1
-            self._observer.revised(failed, revised)
-            if revised is None:
-                return
-            path = TreePath(revised, path.revisions + 1)
-            failed = self._insert(path)
+            branches = self._reasoner.reflect(self._failed_step(node, path.branch))  # [B]
+            self._take(Corrections(node, path.revisions + 1, iter(branches)))
 
-    def _insert(self, path: TreePath) -> PlanNode | None:
-        """[mergeBranch, nInQ] Merges a revision; returns the known failure it runs into, if any."""
-        merged, new, blocked = self._tree.merge_branch(
-            path.branch, Origin.REFLECTIVE, path.revisions
-        )
-        if new is not None:
+    def _take(self, corrections: Corrections) -> None:
+        """Takes the next correction of a failure into the tree, and puts the rest aside."""
+        revised = next(corrections.rest, None)
+        if revised is None:
+            if not corrections.taken:
+                self._observer.revised(corrections.node, None)
+            return
+        if corrections.taken == self._limits.corrections_per_failure:
+            self._cut = LimitKind.CORRECTIONS
+            return
+        corrections.taken += 1
+        self._observer.revised(corrections.node, revised)
+        self._untried.append(corrections)
+        self._insert(TreePath(revised, corrections.revisions), Origin.REFLECTIVE)
+
+    def _insert(self, path: TreePath, origin: Origin) -> None:
+        """[mergeBranch, nInQ] Takes a branch into the tree, and what is new of it to the queue."""
+        merged, new, blocked = self._tree.merge_branch(path.branch, origin, path.revisions)
+        if blocked is not None:
+            self._reflect(blocked, path)
+        elif new is not None:
             # Behind a node that still waits, the new one gets its turn when that one succeeds.
             if not any(node in self._queue for node in merged):
                 self._queue.append(new)
-        elif blocked is None and merged and merged[-1].status is NodeStatus.SUCCESS:
-            self._offer(merged[-1])  # the revision is a plan whose every step has succeeded
-        return blocked
+        elif merged and merged[-1].status is NodeStatus.SUCCESS:
+            self._offer(merged[-1])  # a plan whose every step has succeeded
 
     def _failed_step(self, node: PlanNode, branch: Branch) -> FailedStep:
         assert node.verdict is not None  # a failed node has been judged
@@ -283,19 +329,22 @@ class _Search:
             return LimitKind.MAX_NODES
         return LimitKind.TIME if self._out_of_time() else None
 
-    def _time_left(self) -> float | None:
-        if self._limits.time_limit_s is None:
-            return None
-        return max(0.0, self._started + self._limits.time_limit_s - time.monotonic())
-
     def _out_of_time(self) -> bool:
-        left = self._time_left()
-        return left is not None and left <= 0.0
+        return self._until_s != NEVER and time.monotonic() >= self._until_s
+
+    @property
+    def _found(self) -> bool:
+        return self._best is not None or self._goal_holds
+
+    def _final(self) -> SceneState | None:
+        if self._best is not None:
+            return self._rollouts[self._best.id].record.after
+        return self._root_scene if self._goal_holds else None
 
     def _status(self, interrupted: bool) -> SearchStatus:
         if interrupted:
             return SearchStatus.INTERRUPTED
-        if self._best is not None or self._goal_holds:
+        if self._found:
             return SearchStatus.FEASIBLE
         return SearchStatus.INFEASIBLE if self._limit is None else SearchStatus.LIMIT
 

@@ -7,7 +7,7 @@ and Reflective Branching".
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -74,6 +74,8 @@ class StopReason(StrEnum):
 
     MAX_CALLS = "max_calls"
     MAX_COST = "max_cost"
+    MAX_CHOICES = "max_choices"
+    """The assignment leaves more choices than it looks at."""
     SERVICE = "service"
     """A service that it needs is not there."""
     NO_ANSWER = "no_answer"
@@ -83,7 +85,8 @@ class StopReason(StrEnum):
 class ReasonerStopped(EtotError):
     """The reasoner cannot go on; what was found so far counts.
 
-    Any of a reasoner's methods may raise it. A search ends with it and keeps its tree.
+    Any of a reasoner's methods may raise it. A search ends with it and keeps its tree, but for
+    MAX_CHOICES, which only says that no more branches will be proposed.
     """
 
     def __init__(self, reason: StopReason, message: str) -> None:
@@ -95,8 +98,10 @@ class ReasonerStopped(EtotError):
 class Reasoner(Protocol):
     """Scene and task understanding, branching, judging and reflecting."""
 
-    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
-        """Priori branching: all candidate branches, best first; empty when the goal already holds.
+    def propose(self, assignment: Assignment, scene: SceneState) -> Iterable[Branch]:
+        """Priori branching: all candidate branches, best first; none when the goal already holds.
+
+        They may be worked out one at a time, as they are asked for.
 
         Raises:
             InstructionError: the assignment cannot be understood against this scene.
@@ -107,6 +112,8 @@ class Reasoner(Protocol):
         """Compares all objects before and after the action."""
         ...
 
-    def reflect(self, failed: FailedStep) -> Branch | None:
-        """A corrected branch from the root, or None where no revision keeps the purpose."""
+    def reflect(self, failed: FailedStep) -> Iterable[Branch]:
+        """All corrected branches from the root, best first; none where no revision keeps the
+        purpose. They may be worked out one at a time, as they are asked for.
+        """
         ...

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from etot_cli.planning.alternatives import Prefix
+from etot_cli.planning.conditions import holds
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode
@@ -31,7 +34,9 @@ from etot_cli.reporting.models import (
     cause_model,
     seconds,
 )
-from etot_cli.world.state import RolloutRecord
+from etot_cli.specs.task import Condition
+from etot_cli.specs.wording import describe
+from etot_cli.world.state import RolloutRecord, SceneState
 
 
 class PlanOptionsModel(Model):
@@ -116,6 +121,33 @@ class TreeModel(Model):
     nodes: list[NodeModel]
 
 
+class PrefixModel(Model):
+    """The successful beginning of a branch that came nearest to a plan."""
+
+    actions: list[str]
+    """They succeeded, one after the other."""
+    nodes: list[Count]
+    """Their tree nodes."""
+    missing: list[str]
+    """The rest of the branch; its first action failed or was not tried."""
+
+
+class HoldingModel(Model):
+    """One of the task's success conditions in the plan's final scene."""
+
+    condition: str
+    """In words."""
+    holds: bool
+
+
+class SuccessModel(Model):
+    """The task's own success conditions, which the search never sees, after the plan."""
+
+    holds: bool
+    """All of them hold."""
+    conditions: list[HoldingModel]
+
+
 class StatisticsModel(Model):
     """What the search cost."""
 
@@ -125,8 +157,23 @@ class StatisticsModel(Model):
     wall_s: Seconds
     steps: Count
     """Physics steps, all worlds together."""
-    limit: Literal["max_nodes", "time_limit", "max_calls", "max_cost", "service"] | None
-    """The bound that stopped the search; service: what the reasoner needs is not there."""
+    limit: (
+        Literal[
+            "max_nodes",
+            "time_limit",
+            "revisions",
+            "corrections",
+            "reflections",
+            "max_choices",
+            "abandoned",
+            "max_calls",
+            "max_cost",
+            "service",
+        ]
+        | None
+    )
+    """The bound that stopped the search or cut something off; docs/plan.md lists them. Service:
+    what the reasoner needs is not there."""
 
 
 class VlmRoleModel(Model):
@@ -185,11 +232,15 @@ class PlanReport(Report):
     """The tree nodes of the plan's actions, in order."""
     survival: SurvivalModel | None
     """Null without a plan."""
+    success: SuccessModel | None
+    """In the nominal world after the plan; null without a plan."""
+    prefix: PrefixModel | None
+    """How far the search came; null with a plan, or where no action succeeded."""
     understood: UnderstoodModel
     tree: TreeModel
     statistics: StatisticsModel
     stopped: str
-    """Why the reasoner could not go on, in a sentence; empty when it could."""
+    """What ended the search before all was tried, in a sentence; empty when nothing did."""
     vlm: VlmModel | None
     """Null unless a vision-language model reasoned."""
 
@@ -214,6 +265,31 @@ def survival_model(survival: Survival | None) -> SurvivalModel | None:
         alive=survival.alive,
         probability=survival.probability,
         ci95=survival.interval,
+    )
+
+
+def success_model(conditions: Sequence[Condition], final: SceneState | None) -> SuccessModel | None:
+    """A task's conditions in the scene after a plan; None without a plan.
+
+    Raises:
+        SpecError: a condition names something that the scene does not have.
+    """
+    if final is None:
+        return None
+    found = [
+        HoldingModel(condition=describe(item), holds=holds(item, final)) for item in conditions
+    ]
+    return SuccessModel(holds=all(item.holds for item in found), conditions=found)
+
+
+def prefix_model(prefix: Prefix | None) -> PrefixModel | None:
+    """How far a search came, as it stands in reports."""
+    if prefix is None:
+        return None
+    return PrefixModel(
+        actions=[str(action) for action in prefix.last.actions],
+        nodes=[node.id for node in prefix.last.path],
+        missing=[str(node.action) for node in prefix.missing],
     )
 
 

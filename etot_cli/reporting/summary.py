@@ -57,9 +57,18 @@ class Summary:
             self._say("The goal already holds; there is nothing to do.", 2)
         by_id = {node.id: node for node in report.tree.nodes}
         self._steps([by_id[number] for number in report.plan_nodes])
+        if report.prefix is not None and report.status != "infeasible":
+            self._say("As far as it came", 2)
+            self._steps([by_id[number] for number in report.prefix.nodes])
+            self._say(f"then {' '.join(report.prefix.missing)}", 4)
         self._failures(failures, len(report.plan_nodes))
         if report.stopped:
             self._say(report.stopped, 2)
+        shortfall = _shortfall(report)
+        if report.success is not None and shortfall:
+            self._say(shortfall, 2)
+            for condition in report.success.conditions:
+                self._condition(condition.condition, condition.holds)
         self._numbers(report)
         self._files(path, report.files)
 
@@ -79,10 +88,7 @@ class Summary:
             self._action(index + 1, "pending", action, False, ["not tried"], widest)
         if report.success_conditions is not None:
             for condition in report.success_conditions.conditions:
-                status = "success" if condition.held else "failure"
-                word = "holds" if condition.held else "does not hold"
-                line = badge(status, self._unicode).append(f" {condition.condition}: {word}")
-                self._say(line, 2, 4)
+                self._condition(condition.condition, condition.held)
         if report.cause is not None:
             self._say(report.cause, 2)
         self._files(path, report.files)
@@ -145,6 +151,11 @@ class Summary:
         line = Text().append(kind.replace("_", " "), style=LOOKS[status].style)
         self._say(line.append(f": {text}") if text else line, indent)
 
+    def _condition(self, condition: str, holds: bool) -> None:
+        line = badge("success" if holds else "failure", self._unicode)
+        line.append(f" {condition}: {'holds' if holds else 'does not hold'}")
+        self._say(line, 2, 4)
+
     def _numbers(self, report: PlanReport) -> None:
         cost = report.statistics
         line = (
@@ -152,8 +163,6 @@ class Summary:
             f"{counted(cost.reflections, 'reflection')}, "
             f"{cost.simulated_s:.1f} s simulated in {cost.wall_s:.1f} s"
         )
-        if cost.limit is not None:
-            line += f"; {_limit(report)}"
         self._say(Text(line, style="dim"), 2)
         if report.vlm is not None:
             self._model(report.vlm)
@@ -208,21 +217,20 @@ def _widest(names: Sequence[str]) -> int:
     return min(LONGEST_NAME, max(map(len, names), default=0))
 
 
-def _limit(report: PlanReport) -> str:
-    limit = report.statistics.limit
-    named = "the service" if limit == "service" else f"--{(limit or '').replace('_', '-')}"
-    return f"stopped by {named}"
+def _shortfall(report: PlanReport) -> str:
+    """Why a feasible plan is not the answer, in a sentence; empty when it is."""
+    if report.success is None or report.success.holds:
+        return ""
+    missing = [item.condition for item in report.success.conditions if not item.holds]
+    return f"the plan works, but the task is not done after it: {', '.join(missing)} does not hold"
 
 
 def _answer(report: PlanReport, failures: Sequence[Failure]) -> str:
     """The plan in a line, or the cause that there is none."""
     if report.status == "feasible":
-        return " ".join(report.plan) or "the goal already holds"
-    reasons = []
-    if report.stopped:
-        reasons.append(report.stopped)
-    elif report.statistics.limit is not None:
-        reasons.append(_limit(report))
+        plan = " ".join(report.plan) or "the goal already holds"
+        return "; ".join(filter(None, [_shortfall(report), plan]))
+    reasons = [report.stopped] if report.stopped else []
     if failures:
         first = failures[0]
         where = " ".join(filter(None, [first.history, first.node.action]))

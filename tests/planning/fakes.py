@@ -8,7 +8,7 @@ from __future__ import annotations
 import random
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
@@ -155,14 +155,17 @@ class ToyReasoner:
 
     Args:
         branches: what it proposes.
-        revisions: ``"branch @ index"`` → revised branch, or None; both in the short form. A
-            missing entry means that it knows no revision.
+        revisions: ``"branch @ index"`` → revised branch, or several, best first, or None; in the
+            short form. A missing entry means that it knows no revision. Or a function of the
+            failed step.
     """
 
     def __init__(
         self,
         branches: Sequence[str],
-        revisions: Mapping[str, str | None] | Callable[[FailedStep], Branch | None] | None = None,
+        revisions: Mapping[str, str | Sequence[str] | None]
+        | Callable[[FailedStep], Branch | Iterable[Branch] | None]
+        | None = None,
     ) -> None:
         self._branches = [branch(text, f"idea {number}") for number, text in enumerate(branches)]
         self._revisions = revisions or {}
@@ -182,14 +185,16 @@ class ToyReasoner:
         unsafe = record.cause.kind in UNSAFE_KINDS
         return Verdict(Outcome.UNSAFE if unsafe else Outcome.FAILURE, record.cause)
 
-    def reflect(self, failed: FailedStep) -> Branch | None:
+    def reflect(self, failed: FailedStep) -> Iterator[Branch]:
         key = f"{names(failed.branch.actions)} @ {failed.index}"
         self.reflected.append(key)
         self.failed_steps.append(failed)
         if callable(self._revisions):
-            return self._revisions(failed)
-        revised = self._revisions.get(key)
-        return None if revised is None else branch(revised, "revised")
+            found = self._revisions(failed)
+            return iter(() if found is None else [found] if isinstance(found, Branch) else found)
+        texts = self._revisions.get(key)
+        texts = () if texts is None else (texts,) if isinstance(texts, str) else texts
+        return (branch(text, "revised") for text in texts)
 
 
 def fails(*histories: str, kind: CauseKind = CauseKind.BLOCKED) -> Rule:

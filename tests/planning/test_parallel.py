@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 
 import pytest
 
 from etot_cli.planning.options import Limits
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.search import search
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import Cause, CauseKind
-from tests.planning.fakes import ToyReasoner, ToySimulator, cause
+from etot_cli.skills.simulated import Simulated, StateToken
+from etot_cli.world.state import Cause, CauseKind, RolloutRecord
+from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, cause, names
 
 LETTERS = "abcdef"
+
+
+class SlowSimulator(ToySimulator):
+    """Two jobs; one action takes its time, the others none."""
+
+    def __init__(self, rule: Rule, slow: str) -> None:
+        super().__init__(rule, jobs=2)
+        self._slow = slow
+
+    def _simulate(self, state: StateToken, action: Action, delay: float) -> Simulated:
+        return super()._simulate(state, action, 0.3 if action.target == self._slow else 0.0)
 
 
 def digest(result: SearchResult) -> object:
@@ -42,14 +55,13 @@ def random_search(seed: int, jobs: int, worlds: int) -> tuple[SearchResult, ToyS
             return cause(chance.choice(list(CauseKind)), action.target)
         return None
 
-    def revise(failed: FailedStep) -> Branch | None:
+    def revise(failed: FailedStep) -> Iterator[Branch]:
         chance = random.Random(f"{seed} {failed.branch} {failed.index}")
-        if chance.random() < 0.3:
-            return None
-        actions = list(failed.branch.actions)
-        spare = Action(Verb.PICK_UP, chance.choice(LETTERS))
-        actions.insert(chance.randrange(failed.index + 1), spare)
-        return Branch(tuple(actions), "revised")
+        for _ in range(chance.choice((0, 1, 1, 3))):
+            actions = list(failed.branch.actions)
+            spare = Action(Verb.PICK_UP, chance.choice(LETTERS))
+            actions.insert(chance.randrange(failed.index + 1), spare)
+            yield Branch(tuple(actions), "revised")
 
     chance = random.Random(seed)
     branches = [
@@ -86,3 +98,47 @@ def test_work_ahead_is_not_counted() -> None:
     assert len(simulator.submitted) > 1
     assert result.statistics.nodes_evaluated == 1
     assert [node.status.value for node in result.tree] == ["success", *["pending"] * 3]
+
+
+def test_jobs_run_ahead_along_a_branch() -> None:
+    """While the first branch's slow action runs, the second one goes on behind its own success."""
+    simulator = SlowSimulator(lambda *_: None, "a")
+    result = search(Assignment("do it"), simulator, ToyReasoner(["a", "b c d e"]))
+    simulator.close()
+    assert names(result.plan) == "a"
+    ahead = [action for _, action in simulator.submitted]
+    assert ahead == ["[PICK UP, a]", *(f"[PICK UP, {name}]" for name in "bcde")]
+    assert result.statistics.nodes_evaluated == 1
+    assert simulator.most_running == 2
+
+
+def test_nothing_runs_ahead_of_an_action_that_missed_its_effect() -> None:
+    simulator = SlowSimulator(lambda h, action, w: cause() if action.target == "b" else None, "a")
+    search(Assignment("do it"), simulator, ToyReasoner(["a", "b c"]))
+    simulator.close()
+    assert [action for _, action in simulator.submitted] == ["[PICK UP, a]", "[PICK UP, b]"]
+
+
+def test_running_ahead_keeps_to_the_allowance() -> None:
+    simulator = SlowSimulator(lambda *_: None, "a")
+    limits = Limits(max_nodes=3)
+    search(Assignment("do it"), simulator, ToyReasoner(["a", "b c d e"]), limits=limits)
+    simulator.close()
+    assert len(simulator.submitted) == 3
+
+
+def test_what_runs_ahead_below_a_failure_is_dropped() -> None:
+    """The judge refuses what had its effect: its child, already under way, is never asked for."""
+
+    class Strict(ToyReasoner):
+        def judge(self, action: Action, record: RolloutRecord) -> Verdict:
+            if action.target == "b":
+                return Verdict(Outcome.FAILURE, cause(CauseKind.COLLISION, "cup"))
+            return super().judge(action, record)
+
+    simulator = SlowSimulator(lambda *_: None, "a")
+    result = search(Assignment("do it"), simulator, Strict(["a f", "b c d"], {"a f @ 1": None}))
+    simulator.close()
+    assert ("[PICK UP, b]", "[PICK UP, c]") in simulator.submitted
+    assert {names(n.actions): n.status.value for n in result.tree}["b c"] == "removed"
+    assert names(result.plan) == "a f"

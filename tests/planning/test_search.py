@@ -163,7 +163,9 @@ def test_revisions_per_branch_are_bounded() -> None:
     )
     reasoner = ToyReasoner(["a"], longer)
     result = run(simulator, reasoner, limits=Limits(revisions_per_branch=3))
-    assert result.status is SearchStatus.INFEASIBLE
+    assert result.status is SearchStatus.LIMIT
+    assert result.limit is LimitKind.REVISIONS
+    assert "3 corrections in a row" in result.stopped
     assert result.statistics.reflections == 3
     assert max(node.end.revisions for node in result.tree if node.end) == 3
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
-from etot_cli.reasoning.protocol import Branch, FailedStep
+from etot_cli.reasoning.protocol import Branch, FailedStep, Reasoner
 from etot_cli.skills.action import format_plan, parse_plan
 from etot_cli.world.state import (
     Cause,
@@ -81,8 +81,18 @@ def failed(
 
 def revision(step: FailedStep) -> str | None:
     """What the built-in reasoner makes of a failed step."""
-    branch = BuiltinReasoner().reflect(step)
+    branch = first_revision(BuiltinReasoner(), step)
     return None if branch is None else format_plan(branch.actions)
+
+
+def first_revision(reasoner: Reasoner, step: FailedStep) -> Branch | None:
+    """The best revision that a reasoner has."""
+    return next(iter(reasoner.reflect(step)), None)
+
+
+def revisions(step: FailedStep) -> list[str]:
+    """All that the built-in reasoner makes of a failed step."""
+    return [format_plan(branch.actions) for branch in BuiltinReasoner().reflect(step)]
 
 
 __all__ = ["ObjectState", "cause", "changed", "contact", "failed", "held", "record", "released"]

@@ -361,14 +361,13 @@ def test_boards_of_a_shelf() -> None:
     assert plans("Put the mug on the rack.", state) == ["[PICK UP, mug] [PUT ON, rack]"]
 
 
-def test_too_many_branches_are_cut_and_it_is_said(caplog: pytest.LogCaptureFixture) -> None:
+def test_many_branches_are_all_there() -> None:
     balls = [scenes.ball(f"ball_{i}", (0.3, 0.1 * i), label="ball") for i in range(5)]
     cups = [scenes.cup(f"cup_{i}", (0.5, 0.1 * i), label="cup") for i in range(3)]
     state = scenes.scene(*balls, *cups)
     from etot_cli.reasoning.builtin import BuiltinReasoner
     from etot_cli.reasoning.protocol import Assignment
 
-    branches = BuiltinReasoner().propose(Assignment("Put each ball in a cup."), state)
-    assert len(branches) == 64
-    assert "first 64" in branches[-1].reason
-    assert "too many choices" in caplog.text
+    proposed = BuiltinReasoner().propose(Assignment("Put each ball in a cup."), state)
+    branches = [branch.actions for branch in proposed]
+    assert len(branches) == len(set(branches)) == 3**5

@@ -16,7 +16,7 @@ from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import Cause, CauseKind, SceneState
 from tests.reasoning import scenes
-from tests.reasoning.records import changed, held, record
+from tests.reasoning.records import changed, first_revision, held, record
 
 KITCHEN = scenes.kitchen()
 MOVABLE = [name for name, info in KITCHEN.infos.items() if info.movable]
@@ -108,7 +108,7 @@ def test_revisions_are_well_formed_keep_the_purpose_and_stay_short(
         rollout = record(before, effect=False, cause=reason)
         verdict = reasoner.judge(branch.actions[index], rollout)
         assert verdict.outcome is Outcome.FAILURE
-        revised = reasoner.reflect(FailedStep(branch, index, rollout, verdict, start))
+        revised = first_revision(reasoner, FailedStep(branch, index, rollout, verdict, start))
         if revised is None:
             break
         assert revised.actions != branch.actions
@@ -154,7 +154,7 @@ words = st.sampled_from(WORDS.split())
 def test_any_text_is_read_or_refused(text: str) -> None:
     try:
         goal_of(text, KITCHEN)
-        found = BuiltinReasoner().propose(Assignment(text), KITCHEN)
+        found = list(BuiltinReasoner().propose(Assignment(text), KITCHEN))
     except InstructionError as error:
         assert str(error)
         return

@@ -11,7 +11,7 @@ from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
 from etot_cli.world.state import CauseKind, Swept
 from tests.reasoning import scenes
-from tests.reasoning.records import cause, changed, failed, held, record, revision
+from tests.reasoning.records import cause, changed, failed, first_revision, held, record, revision
 
 RELOCATE = "[PICK UP, {0}] [PUT ON, desk]"
 
@@ -32,7 +32,9 @@ def test_a_safe_place_keeps_clear_of_what_moved_and_swept() -> None:
     )  # fmt: skip
     actions = parse_plan("[OPEN, microwave]")
     verdict = BuiltinReasoner().judge(actions[0], rollout)
-    revised = BuiltinReasoner().reflect(FailedStep(Branch(actions), 0, rollout, verdict, start))
+    revised = first_revision(
+        BuiltinReasoner(), FailedStep(Branch(actions), 0, rollout, verdict, start)
+    )
     assert revised is not None
     put = revised.actions[1]
     assert put.safe
@@ -190,7 +192,7 @@ def test_only_the_first_movable_blocker_moves_and_only_once() -> None:
     reason = cause(CauseKind.NO_GRASP, "chest", "box", "plate", "bottle")
     first = failed(start, "[PICK UP, bottle]", 0, reason)
     assert revision(first) == "[PICK UP, box] [PUT ON, desk] [PICK UP, bottle]"
-    again = BuiltinReasoner().reflect(first)
+    again = first_revision(BuiltinReasoner(), first)
     assert again is not None
     second = replace(first, branch=again, index=2)
     assert revision(second) == (
@@ -216,7 +218,9 @@ def test_another_surface_for_a_safe_place() -> None:
     before = held(start, "toy")
     rollout = record(before, effect=False, cause=cause(CauseKind.NO_ROOM, "toy"))
     verdict = BuiltinReasoner().judge(actions[1], rollout)
-    revised = BuiltinReasoner().reflect(FailedStep(Branch(actions), 1, rollout, verdict, start))
+    revised = first_revision(
+        BuiltinReasoner(), FailedStep(Branch(actions), 1, rollout, verdict, start)
+    )
     assert revised is not None
     assert format_plan(revised.actions) == "[PICK UP, toy] [PUT ON, drawer] [CLOSE, drawer]"
     assert revised.actions[1].safe
@@ -227,7 +231,7 @@ def test_a_failure_between_the_action_s_own_objects_never_swaps_them(kind: Cause
     start = scenes.pens()
     plan = "[PICK UP, pen] [PUT INTO, black_holder]"
     step = failed(start, plan, 1, cause(kind, "black_holder", "pen"), held(start, "pen"))
-    revised = BuiltinReasoner().reflect(step)
+    revised = first_revision(BuiltinReasoner(), step)
     if kind is CauseKind.SLIP:  # another grasp may hold better
         assert revised is not None
         assert revised.actions[0].pose is GraspPose.VERTICAL
@@ -264,7 +268,7 @@ def test_what_the_goal_wants_in_place_comes_back() -> None:
     assert format_plan(branch.actions) == "[PICK UP, holder] [PUT ON, drawer]"
     rollout = record(start, effect=False, cause=cause(CauseKind.NO_GRASP, "apple", "holder"))
     verdict = reasoner.judge(branch.actions[0], rollout)
-    revised = reasoner.reflect(FailedStep(branch, 0, rollout, verdict, start))
+    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
     assert revised is not None
     assert format_plan(revised.actions) == (
         "[PICK UP, apple] [PUT ON, desk] [PICK UP, holder] [PUT ON, drawer] "

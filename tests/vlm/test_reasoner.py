@@ -50,7 +50,7 @@ class StateJudge:
     def judge(self, action: Action, record: RolloutRecord) -> Verdict:
         return self.verdict
 
-    def reflect(self, failed: FailedStep) -> Branch | None:
+    def reflect(self, failed: FailedStep) -> list[Branch]:
         raise NotImplementedError
 
 
@@ -216,7 +216,9 @@ def reflect(
     make: Make, rules: list[dict[str, Any]], step: FailedStep
 ) -> tuple[Branch | None, FakeServer, Notebook]:
     with model(make, rules) as (reasoner, server, notes):
-        return reasoner.reflect(step), server, notes
+        revised = list(reasoner.reflect(step))
+        assert len(revised) <= 1
+        return (revised[0] if revised else None), server, notes
 
 
 def test_a_revision(make_settings: Make) -> None:

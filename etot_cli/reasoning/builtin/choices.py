@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, permutations, product
-from typing import NamedTuple
+from itertools import permutations, product
 
 from etot_cli.reasoning.builtin.goal import (
     Close,
@@ -17,19 +16,9 @@ from etot_cli.reasoning.builtin.goal import (
     Relation,
     Thing,
 )
+from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import container_parts, is_closed, owner_of
 from etot_cli.world.state import DESK, PartInfo, SceneState
-
-MAX_WAYS = 1024
-"""Ways of distributing one step's objects over its places that are looked at."""
-
-
-class Placement(NamedTuple):
-    """An object and where it is to be."""
-
-    name: str
-    relation: Relation
-    target: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,17 +52,38 @@ class Choice:
         return tuple(found.values())
 
 
-def choices(goal: Goal, scene: SceneState) -> Iterator[Choice]:
-    """All ways of resolving a goal; what comes first in the instruction varies slowest."""
+def choices(goal: Goal, scene: SceneState) -> Iterator[Choice | None]:
+    """All ways of resolving a goal; what comes first in the instruction varies slowest.
+
+    Yields:
+        A way; None for a combination that makes no sense, so that looking at them can be bounded.
+    """
     referents = [_with_parts(goal, index, scene) for index in range(len(goal.referents))]
     puts = {index: step for index, step in enumerate(goal.steps) if isinstance(step, Put)}
     for things in product(*(referent.options for referent in referents)):
         if not _distinct(referents, things):
+            yield None
             continue
-        ways = (islice(_placements(step, things, scene), MAX_WAYS) for step in puts.values())
-        for placed in product(*ways):
-            if _consistent(placed):
+        for placed in _combined(list(puts.values()), things, scene):
+            if placed is None or not _consistent(placed):
+                yield None
+            else:
                 yield Choice(things, dict(zip(puts, placed, strict=True)))
+
+
+def _combined(
+    steps: Sequence[Put], things: tuple[tuple[Thing, ...], ...], scene: SceneState
+) -> Iterator[tuple[tuple[Placement, ...], ...] | None]:
+    """The ways of several steps together, worked out one at a time, unlike by ``product``."""
+    if not steps:
+        yield ()
+        return
+    for placed in _placements(steps[0], things, scene):
+        if placed is None:
+            yield None
+            continue
+        for rest in _combined(steps[1:], things, scene):
+            yield None if rest is None else (placed, *rest)
 
 
 def address_of(thing: Thing, relation: Relation, scene: SceneState) -> tuple[str, ...]:
@@ -144,8 +154,8 @@ def _distinct(referents: list[Referent], things: tuple[tuple[Thing, ...], ...]) 
 
 def _placements(
     step: Put, things: tuple[tuple[Thing, ...], ...], scene: SceneState
-) -> Iterator[tuple[Placement, ...]]:
-    """Ways of distributing a step's objects over its places."""
+) -> Iterator[tuple[Placement, ...] | None]:
+    """Ways of distributing a step's objects over its places; None for one that makes no sense."""
     names = [thing.name for index in step.what for thing in things[index]]
     if len(set(names)) < len(names):
         return
@@ -156,10 +166,8 @@ def _placements(
         for address in address_of(thing, place.relation, scene)
     ]
     for selected in _distributions(list(dict.fromkeys(places)), len(names), step.grouping):
-        if all(name != owner_of(place[1]) for name, place in zip(names, selected, strict=True)):
-            yield tuple(
-                Placement(name, *place) for name, place in zip(names, selected, strict=True)
-            )
+        placed = tuple(Placement(name, *place) for name, place in zip(names, selected, strict=True))
+        yield None if any(item.name == owner_of(item.target) for item in placed) else placed
 
 
 _Place = tuple[Relation, str]

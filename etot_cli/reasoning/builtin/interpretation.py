@@ -81,7 +81,7 @@ def _best_reading(state: _Interpreter, sentence: Sentence) -> _Interpreter:
         for _, attempt in found:
             goal = Goal(tuple(attempt.discourse.referents), tuple(attempt.steps))
             with suppress(InstructionError):
-                if branches_of((goal,), state.discourse.scene):
+                if any(True for _ in branches_of((goal,), state.discourse.scene)):
                     return attempt
     return found[0][1]
 

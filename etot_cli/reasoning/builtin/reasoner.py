@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
@@ -25,11 +25,12 @@ class BuiltinReasoner:
     def __init__(self) -> None:
         self._goals: tuple[Goal, ...] = ()
 
-    def propose(self, assignment: Assignment, scene: SceneState) -> Sequence[Branch]:
+    def propose(self, assignment: Assignment, scene: SceneState) -> Iterator[Branch]:
         """Priori branching: all candidate branches, in the order of the instruction's own words.
 
         Raises:
             InstructionError: the assignment cannot be understood against this scene.
+            ReasonerStopped: there are more choices than are looked at; raised behind the last one.
         """
         if assignment.goal is not None:
             self._goals = goals_of(assignment.goal, scene)
@@ -44,7 +45,6 @@ class BuiltinReasoner:
         """Compares all objects before and after the action."""
         return judge_action(action, record)
 
-    def reflect(self, failed: FailedStep) -> Branch | None:
-        """A corrected branch from the root, or None where no revision keeps the purpose."""
-        revised = reflect_on(failed)
-        return None if revised is None else completed(revised, failed, self._goals)
+    def reflect(self, failed: FailedStep) -> Iterator[Branch]:
+        """All corrected branches from the root, best first, worked out as they are asked for."""
+        return (completed(revised, failed, self._goals) for revised in reflect_on(failed))

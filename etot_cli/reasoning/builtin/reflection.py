@@ -58,29 +58,27 @@ class Correction(NamedTuple):
     change: str
 
 
-def reflect_on(failed: FailedStep) -> Branch | None:
-    """The first correction that is well-formed and keeps the branch's purpose.
+def reflect_on(failed: FailedStep) -> Iterator[Branch]:
+    """All corrections that are well-formed and keep the branch's purpose, best first.
 
     Args:
         failed: the failed step; everything used is its record and the branch.
 
-    Returns:
-        A whole branch from the root, or None where no correction keeps the purpose.
+    Yields:
+        Whole branches from the root, no two of them the same.
     """
     cause = failed.verdict.cause or failed.record.cause
     if cause is None or not 0 <= failed.index < len(failed.branch.actions):
-        return None
+        return
     case = _Case(failed, cause)
     aim = purpose(case.actions, failed.start)
-    for correction in case.corrections():
-        actions = correction.actions
-        if (
-            actions != case.actions
-            and purpose(actions, failed.start) == aim
-            and not check_plan(actions, failed.start)
-        ):
-            return Branch(actions, f"{correction.change}, because {cause.text}")
-    return None
+    seen = {case.actions}
+    for actions, change in case.corrections():
+        if actions in seen:
+            continue
+        seen.add(actions)
+        if purpose(actions, failed.start) == aim and not check_plan(actions, failed.start):
+            yield Branch(actions, f"{change}, because {cause.text}")
 
 
 @dataclass(frozen=True, slots=True)

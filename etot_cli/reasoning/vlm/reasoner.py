@@ -176,13 +176,14 @@ class VlmReasoner:
 
     # -- reflective branching ------------------------------------------------------------------
 
-    def reflect(self, failed: FailedStep) -> Branch | None:
-        """The model's revision, when it is well formed, keeps the purpose and leans on no trick.
+    def reflect(self, failed: FailedStep) -> Sequence[Branch]:
+        """The model's one revision, when it is well formed, keeps the purpose, leans on no trick.
 
         Raises:
             ReasonerStopped: a limit was reached, or the service is gone.
         """
-        return self._reflection.revise(failed, self._instruction)
+        revised = self._reflection.revise(failed, self._instruction)
+        return () if revised is None else (revised,)
 
 
 class _Proposals:

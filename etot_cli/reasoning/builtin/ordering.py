@@ -1,0 +1,59 @@
+"""The order in which placements can be carried out: goals are sets, and the world is not.
+
+What stands on something comes after its support has its own place, and what closes a vessel comes
+after its contents, whatever the order given. Where nothing of that decides, the order given stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from etot_cli.reasoning.builtin.goal import Relation
+from etot_cli.reasoning.builtin.relations import owner_of
+
+
+class Placement(NamedTuple):
+    """An object and where it is to be."""
+
+    name: str
+    relation: Relation
+    target: str
+
+
+def supports_first(placements: Sequence[Placement]) -> list[int]:
+    """The places of the placements in an order in which they can be carried out.
+
+    A vessel's own placement is not brought before its contents: a filled cup can be carried.
+
+    Args:
+        placements: each object's final place, in the order given.
+
+    Returns:
+        Indices into ``placements``. Placements that wait for each other keep the order given.
+    """
+    waiting = list(range(len(placements)))
+    order: list[int] = []
+    while waiting:
+        free = (
+            index
+            for index in waiting
+            if not any(
+                _comes_before(placements[other], placements[index])
+                for other in waiting
+                if other != index
+            )
+        )
+        chosen = next(free, waiting[0])
+        waiting.remove(chosen)
+        order.append(chosen)
+    return order
+
+
+def _comes_before(first: Placement, second: Placement) -> bool:
+    """Whether ``second`` cannot be done, or would be undone, unless ``first`` is done."""
+    if second.relation is not Relation.ON:
+        return False
+    support = owner_of(second.target)
+    is_content = first.relation is Relation.INSIDE and first.target == second.target
+    return first.name == support or is_content
