@@ -29,6 +29,7 @@ RUN_BY_CI = {
     "format": "it would rewrite the sources that are being tested",
     "bench": "it measures for minutes",
     "check-tasks": "it simulates for minutes",
+    "check-random": "it plans for minutes",
     "check-reconstruct": "it renders and fits for minutes",
     "schemas": "tests/reporting compares the schemas with the models",
     "clean": "it would delete the environment of this test",
