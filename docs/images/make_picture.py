@@ -10,8 +10,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.perform import Workshop
 from etot_cli.specs.load import load_task
 from etot_cli.world.render import render_frames
 
@@ -29,7 +29,7 @@ PANELS = (
 SIZE = (1280, 720)
 
 
-def panel(workshop: Workshop, plan: str, note: str, good: bool) -> np.ndarray:
+def panel(workshop: SimulatedWorld, plan: str, note: str, good: bool) -> np.ndarray:
     """The end of a plan, with a caption."""
     state, _ = workshop.start()
     actions = parse_plan(plan)
@@ -50,7 +50,7 @@ def panel(workshop: Workshop, plan: str, note: str, good: bool) -> np.ndarray:
 
 def main() -> None:
     """Writes the picture beside this file."""
-    workshop = Workshop(load_task(ROOT / "tasks" / "task5.yaml").scene)
+    workshop = SimulatedWorld(load_task(ROOT / "tasks" / "task5.yaml").scene)
     images = [panel(workshop, *item) for item in PANELS]
     picture = np.vstack([np.hstack(images[:2]), np.hstack(images[2:])])
     cv2.imwrite(str(Path(__file__).parent / "task5.png"), picture)

@@ -17,6 +17,7 @@ import numpy as np
 
 from etot_cli.commands.plan import Planning
 from etot_cli.commands.simulate import Simulation
+from etot_cli.control.simulated import WorldOutcome
 from etot_cli.errors import EtotError
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.pictures import Frame, Picture
@@ -24,7 +25,6 @@ from etot_cli.reporting.page.plan_page import plan_page
 from etot_cli.reporting.page.simulate_page import Track, simulate_page
 from etot_cli.reporting.page.topview import top_view
 from etot_cli.reporting.provenance import add_phase
-from etot_cli.skills.simulated import WorldOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.state import RolloutRecord

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from etot_cli.control.simulated import Simulator
     from etot_cli.reasoning.protocol import Reasoner
     from etot_cli.reasoning.vlm.accounts import VlmAccount
-    from etot_cli.skills.simulated import Simulator
     from etot_cli.specs.scene import Scene
     from etot_cli.specs.task import Task
     from etot_cli.world.state import SceneState
@@ -90,8 +90,8 @@ class Rooms:
 
 def default_rooms() -> Rooms:
     """The rooms of this package."""
+    from etot_cli.control.simulator import known_targets, open_simulator
     from etot_cli.reasoning.builtin import BuiltinReasoner
-    from etot_cli.skills.simulator import known_targets, open_simulator
     from etot_cli.specs.load import load_task
     from etot_cli.specs.vary import vary
 

@@ -10,6 +10,7 @@ from typing import Protocol
 
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.plan import task_model
+from etot_cli.control.simulated import Simulator
 from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.conditions import holds
 from etot_cli.planning.survival import NOMINAL
@@ -25,7 +26,6 @@ from etot_cli.reporting.simulate_report import (
     SuccessConditionsModel,
 )
 from etot_cli.skills.action import Action, parse_plan
-from etot_cli.skills.simulated import Simulator
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 from etot_cli.specs.wording import describe

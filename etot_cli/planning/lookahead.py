@@ -13,10 +13,10 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 
+from etot_cli.control.simulated import Simulated, Simulator, StateToken
 from etot_cli.planning.survival import NOMINAL
 from etot_cli.planning.tree import LIVE, PlanNode
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 
 SUBMISSIONS_PER_JOB = 2
 """One running and one ready per worker, so that none idles while a slow node holds up the order."""

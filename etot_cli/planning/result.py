@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol
 
+from etot_cli.control.simulated import WorldOutcome
 from etot_cli.planning.alternatives import Prefix
 from etot_cli.planning.options import Limits
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.skills.action import Action
-from etot_cli.skills.simulated import WorldOutcome
 from etot_cli.world.state import SceneState
 
 

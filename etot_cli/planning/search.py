@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Iterator
 from itertools import islice
 
+from etot_cli.control.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.planning.alternatives import Corrections, best_prefix
 from etot_cli.planning.lookahead import Lookahead
 from etot_cli.planning.options import BRANCHES_AT_ONCE, Ablation, Limits
@@ -37,7 +38,6 @@ from etot_cli.reasoning.protocol import (
 )
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
 

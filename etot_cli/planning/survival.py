@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from math import sqrt
 from typing import NamedTuple
 
+from etot_cli.control.simulated import Simulated
 from etot_cli.planning.tree import WorldLoss
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.skills.action import Action
-from etot_cli.skills.simulated import Simulated
 from etot_cli.world.state import RolloutRecord
 
 NOMINAL = 0

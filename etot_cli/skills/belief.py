@@ -6,41 +6,66 @@ carries the motion out has a world of its own.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.skills.deadline import Deadline
+from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
 from etot_cli.skills.motion.transit import plan_transit
 from etot_cli.world.model import World
+from etot_cli.world.relations import held_object
 
 Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Twin:
+    """What is built once for a scene and used for every motion that is worked out in it.
+
+    ``scratch``: data for kinematics that may be overwritten at any time.
+    """
+
+    world: World
+    arm: Arm
+    checker: CollisionChecker
+    solids: Solids
+    scratch: mujoco.MjData
+
+
+def build_twin(world: World, deadline: Deadline) -> Twin:
+    """The planning side of a world; what is worked out in it ends at ``deadline``."""
+    return Twin(
+        world,
+        Arm(world.robot.spec, deadline),
+        CollisionChecker(world, deadline),
+        Solids(world),
+        mujoco.MjData(world.model),
+    )
 
 
 class Belief:
     """A twin in one state, with what is needed to work out motions in it.
 
     Args:
-        world: the twin's model.
+        twin: the twin.
         data: its state; read, never stepped.
-        arm: kinematics of the robot.
-        checker: collision checks against the state as it was frozen last.
         rng: for the random choices of this action.
-        scratch: data for kinematics that may be overwritten at any time.
     """
 
-    def __init__(
-        self,
-        world: World,
-        data: mujoco.MjData,
-        arm: Arm,
-        checker: CollisionChecker,
-        rng: np.random.Generator,
-        scratch: mujoco.MjData,
-    ) -> None:
-        self.world, self.data, self.arm = world, data, arm
-        self.checker, self.rng, self.scratch = checker, rng, scratch
+    def __init__(self, twin: Twin, data: mujoco.MjData, rng: np.random.Generator) -> None:
+        self.world, self.arm, self.checker = twin.world, twin.arm, twin.checker
+        self.solids, self.scratch = twin.solids, twin.scratch
+        self.data, self.rng = data, rng
+        self._twin = twin
+
+    def in_state(self, data: mujoco.MjData) -> Belief:
+        """The same twin in another state."""
+        return Belief(self._twin, data, self.rng)
 
     @property
     def joints(self) -> Vector:
@@ -74,34 +99,8 @@ class Belief:
         return Attached(name, self.tool().inverse() @ self.object_pose(name))
 
     def held(self) -> str | None:
-        """The movable object that both fingers touch, if any."""
-        data, world = self.data, self.world
-        touched: dict[str, set[int]] = {}
-        fingers = world.robot.finger_bodies
-        geoms = data.contact.geom
-        bodies = world.model.geom_bodyid
-        for i in range(data.ncon):
-            one, two = int(geoms[i][0]), int(geoms[i][1])
-            for hand, other in ((one, two), (two, one)):
-                if int(bodies[hand]) in fingers:
-                    owner = world.geom_object[other]
-                    if owner in world.entries and world.entries[owner].info.movable:
-                        touched.setdefault(owner, set()).add(int(bodies[hand]))
-        for name, hands in touched.items():
-            if len(hands) == 2:
-                return name
-        return None
-
-    def touched_by_robot(self) -> list[str]:
-        """Objects in contact with the robot, the desk left out."""
-        world, data = self.world, self.data
-        found: dict[str, None] = {}
-        for one, two in data.contact.geom:
-            pair = (world.geom_object[int(one)], world.geom_object[int(two)])
-            for robot, other in (pair, pair[::-1]):
-                if robot in ("robot", "gripper") and other in world.entries:
-                    found[other] = None
-        return list(found)
+        """The movable object in the hand, if any."""
+        return held_object(self.world, self.data)
 
     def plan_transit(
         self,

@@ -12,28 +12,32 @@ from etot_cli.world.state import Cause, CauseKind
 
 @dataclass(frozen=True)
 class SkillOutcome:
-    """``effect``: the skill ran to its end and saw its own effect; else ``cause`` says why not.
+    """``effect``: the motion ran to its end and its effect was seen; else ``cause`` says why not.
 
-    ``roughness``: how far it strayed from what it meant to do (slip in the hand, a drop, travel
-    that is missing) [m]; of two ways with their effect the smoother one is kept.
+    ``another_way``: the failure lies in how it was done (a slip, a missed handle), so that another
+    way of doing it may succeed.
     """
 
     effect: bool
     cause: Cause | None = None
-    roughness: float = 0.0
+    another_way: bool = False
 
 
 DONE = SkillOutcome(True)
 
 
 def failed(
-    kind: CauseKind, objects: Iterable[str], text: str, time_s: float | None = None
+    kind: CauseKind,
+    objects: Iterable[str],
+    text: str,
+    time_s: float | None = None,
+    *,
+    another_way: bool = False,
 ) -> SkillOutcome:
     """A failure with its physical cause; duplicate and foreign names are dropped."""
     names = tuple(dict.fromkeys(name.split(".")[0] for name in objects))
-    return SkillOutcome(
-        False, Cause(kind, names, text, None if time_s is None else round(time_s, 3))
-    )
+    cause = Cause(kind, names, text, None if time_s is None else round(time_s, 3))
+    return SkillOutcome(False, cause, another_way)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import mujoco
@@ -62,7 +63,6 @@ class Recorder:
         self._keep_frames = keep_frames
         self._times: list[float] = []
         self._frames: list[NDArray[np.float32]] = []
-        self._key_times: list[float] = []
         self._baseline = self._touching(data)
         self._frame(data)
 
@@ -124,10 +124,6 @@ class Recorder:
         self._times.append(float(data.time))
         self._frames.append(data.qpos.astype(np.float32))
 
-    def mark(self, data: mujoco.MjData) -> None:
-        """Remembers this moment as worth a picture."""
-        self._key_times.append(float(data.time) - self.start_time)
-
     def contacts(self) -> tuple[ContactEvent, ...]:
         """Contacts that began during the action or pressed notably, in order of time."""
         events = []
@@ -172,12 +168,15 @@ class Recorder:
                 discs.append(Swept(name, round(x, 4), round(y, 4), round(own, 4)))
         return tuple(discs)
 
-    def trajectory(self) -> Trajectory | None:
-        """The stored configurations, or None when none were kept."""
+    def trajectory(self, key_times: Iterable[float] = ()) -> Trajectory | None:
+        """The stored configurations, or None when none were kept.
+
+        ``key_times``: moments worth a picture, since the start [s].
+        """
         if not self._keep_frames:
             return None
         return Trajectory(
             np.array(self._times, dtype=np.float32),
             np.array(self._frames, dtype=np.float32),
-            tuple(self._key_times),
+            tuple(key_times),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import mujoco
 import numpy as np
@@ -96,6 +97,30 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         forward=forward_of(world.scene),
     )
     return scene, Memory(memory.up, frozenset(toppled), inside, frozenset(opened))
+
+
+def held_object(world: World, data: mujoco.MjData) -> str | None:
+    """The movable object that both fingers touch, if any."""
+    touched: dict[str, set[int]] = {}
+    for hand, other in _robot_contacts(world, data):
+        body = int(world.model.geom_bodyid[hand])
+        if body in world.robot.finger_bodies and world.entries[other].info.movable:
+            touched.setdefault(other, set()).add(body)
+    return next((name for name, bodies in touched.items() if len(bodies) == 2), None)
+
+
+def touched_by_robot(world: World, data: mujoco.MjData) -> list[str]:
+    """Objects in contact with the robot, the desk left out."""
+    return list(dict.fromkeys(other for _, other in _robot_contacts(world, data)))
+
+
+def _robot_contacts(world: World, data: mujoco.MjData) -> Iterator[tuple[int, str]]:
+    """Geoms of the robot and the objects that they touch."""
+    for one, two in data.contact.geom:
+        for first, second in ((int(one), int(two)), (int(two), int(one))):
+            other = world.geom_object[second]
+            if world.geom_object[first] in ("robot", "gripper") and other in world.entries:
+                yield first, other
 
 
 def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], list[str]]:
@@ -217,4 +242,12 @@ def _quadruple(values: NDArray[np.float64]) -> tuple[float, float, float, float]
     return w, x, y, z
 
 
-__all__ = ["CLOSED_AT", "OPEN_AT", "initial_memory", "read_scene", "to_region"]
+__all__ = [
+    "CLOSED_AT",
+    "OPEN_AT",
+    "held_object",
+    "initial_memory",
+    "read_scene",
+    "to_region",
+    "touched_by_robot",
+]

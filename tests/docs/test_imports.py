@@ -14,15 +14,17 @@ BELOW: dict[str, set[str]] = {
     "specs": set(),
     "world": {"specs"},
     "skills": {"specs", "world"},
-    "reasoning": {"specs", "world", "skills"},
-    "planning": {"specs", "world", "skills", "reasoning"},
+    "control": {"specs", "world", "skills"},
+    "reasoning": {"specs", "world", "skills", "control"},
+    "planning": {"specs", "world", "skills", "control", "reasoning"},
     "reconstruction": {"specs", "world"},
-    "reporting": {"specs", "world", "skills", "reasoning", "planning"},
-    "benchmark": {"specs", "world", "skills", "reasoning", "planning"},
+    "reporting": {"specs", "world", "skills", "control", "reasoning", "planning"},
+    "benchmark": {"specs", "world", "skills", "control", "reasoning", "planning"},
     "commands": {
         "specs",
         "world",
         "skills",
+        "control",
         "reasoning",
         "planning",
         "reporting",
@@ -34,11 +36,12 @@ BELOW: dict[str, set[str]] = {
 everything."""
 WITHOUT_MUJOCO = ("specs", "reasoning/builtin", "planning", "reporting", "commands", "cli")
 WITHOUT_HTTP = (
-    "specs", "world", "skills", "reasoning/builtin", "planning", "reporting",
+    "specs", "world", "skills", "control", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
 PLAIN_DATA = {
     "etot_cli.world": {"state", "colors", "spatial"},
-    "etot_cli.skills": {"action", "deadline", "simulated"},
+    "etot_cli.skills": {"action", "deadline"},
+    "etot_cli.control": {"simulated"},
 }
 """The modules of lower rooms that carry data alone; physics is behind a protocol."""
 ON_PLAIN_DATA = ("planning", "reasoning/builtin")
@@ -104,6 +107,18 @@ def test_physics_and_network_stay_in_their_rooms(library: str, without: tuple[st
             assert library not in used, f"{path.relative_to(ROOT)} imports {library}"
     everywhere = {m.split(".")[0] for room in rooms() for p in files(room) for m in imports(p)}
     assert "mujoco" in everywhere, "the parser finds imports at all"
+
+
+def test_who_plans_a_motion_does_not_step_physics() -> None:
+    """Skills read a belief; only control steps a world."""
+    for path in files("skills"):
+        assert not any(m.startswith("etot_cli.control") for m in imports(path)), path
+        called = {
+            node.func.attr
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+        }
+        assert not called & {"mj_step", "mj_step1", "mj_step2", "rollout"}, path
 
 
 def test_rules_have_no_circle() -> None:

@@ -20,13 +20,13 @@ from types import FrameType
 from typing import Any
 
 from etot_cli.benchmark.problems import FAMILIES, INFEASIBLE, Problem, problem
+from etot_cli.control.simulator import open_simulator
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Limits
 from etot_cli.planning.search import search
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment, Outcome
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.simulator import open_simulator
 from etot_cli.specs.load import load_task
 from etot_cli.specs.task import Task
 from tests.measure.final_state import Final

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.control.simulator import open_simulator
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.plan_report import PlanReport
-from etot_cli.skills.simulator import open_simulator
 from etot_cli.specs.load import load_task
 from etot_cli.world.state import SceneState
 from tests.metamorphic.variants import document, mirrored, new_words, renamed, reworded, write

@@ -11,10 +11,10 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
+from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, format_plan, parse_plan
 from etot_cli.skills.deadline import NEVER
-from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.world.state import (
     Cause,
     CauseKind,

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 
 import pytest
 
+from etot_cli.control.simulated import Simulated, StateToken
 from etot_cli.planning.options import Limits
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.simulated import Simulated, StateToken
 from etot_cli.world.state import Cause, CauseKind, RolloutRecord
 from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, cause, names
 

@@ -6,10 +6,10 @@ from concurrent.futures import Future
 from pathlib import Path
 
 from etot_cli.commands.rooms import Rooms
+from etot_cli.control.simulated import Simulated, Simulator, StateToken
 from etot_cli.errors import SpecError
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Condition, Task
 from etot_cli.world.state import SceneState

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.control.simulated_world import Performed, SimulatedWorld
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.perform import Performed, Workshop
-from etot_cli.skills.pilot import Pilot
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
-from etot_cli.world.recorder import Recorder
 from etot_cli.world.snapshot import Snapshot, restore
 from etot_cli.world.state import SceneState
 from tests.world.helpers import make_scene
@@ -37,14 +34,14 @@ class Episode:
 
     def __init__(self, scene: Scene, seed: int = 0, *, keep_frames: bool = False) -> None:
         varied = vary(scene, seed) if seed else scene
-        self.workshop = Workshop(varied, seed, keep_frames=keep_frames)
-        self.snapshot, self.state = self.workshop.start()
+        self.simulated = SimulatedWorld(varied, seed, keep_frames=keep_frames)
+        self.snapshot, self.state = self.simulated.start()
         self.done: list[Performed] = []
 
     def do(self, text: str) -> Performed:
         """One action as written, from where the last one ended."""
         (action,) = parse_plan(text)
-        performed = self.workshop.perform(self.snapshot, action)
+        performed = self.simulated.perform(self.snapshot, action)
         self.snapshot, self.state = performed.end, performed.record.after
         self.done.append(performed)
         return performed
@@ -62,16 +59,7 @@ def episode(seed: int = 0, *, keep_frames: bool = False, **objects: dict[str, An
     return Episode(make_scene(**objects), seed, keep_frames=keep_frames)
 
 
-def make_pilot(workshop: Workshop, snapshot: Snapshot, seed: int = 0) -> Pilot:
-    """A pilot in the stored state, for tests of what prepares a motion."""
-    restore(workshop.world, workshop.data, snapshot)
-    workshop.checker.freeze(workshop.data)
-    return Pilot(
-        workshop.world,
-        workshop.data,
-        workshop.arm,
-        workshop.checker,
-        Recorder(workshop.world, workshop.data, keep_frames=False),
-        np.random.default_rng(seed),
-        workshop.scratch,
-    )
+def robot_at(world: SimulatedWorld, snapshot: Snapshot) -> SimulatedRobot:
+    """The robot of a world that is put into a stored state."""
+    restore(world.world, world.data, snapshot)
+    return SimulatedRobot(world.world, world.data)

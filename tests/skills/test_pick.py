@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from etot_cli.world.state import CauseKind
-from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode, make_pilot
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
 
 SEEDS = range(3)
 THINGS = {
@@ -38,9 +38,9 @@ def test_wide_cup_is_held_by_its_rim_from_above(seed: int) -> None:
     run = episode(seed, cup=CUP | {"friction": 0.3, "slippery": True})
     after = run.must("[PICK UP, cup] (vertical)")
     assert after.holding == "cup"
-    pilot = make_pilot(run.workshop, run.snapshot)
-    assert pilot.tool().rotation[2, 2] < -0.6
-    assert pilot.opening < 0.02
+    belief = run.simulated.believe(run.snapshot)
+    assert belief.tool().rotation[2, 2] < -0.6
+    assert belief.opening < 0.02
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -146,15 +146,6 @@ def test_bystanders_stay_where_they_are() -> None:
     assert run.done[-1].record.displacement["near"] < 0.03
 
 
-def test_what_comes_along_makes_a_grasp_rough() -> None:
-    """A ball wedged in a cup's mouth takes the cup along for a moment: that counts against it."""
-    cup = CUP | {"diameter": 0.0905, "height": 0.0645, "wall": 0.0065, "at": [0.42, 0.20]}
-    run = episode(4, cup=cup, ball=BALL | {"diameter": 0.0832, "on": "cup", "at": None})
-    performed = run.do("[PICK UP, ball]")
-    assert performed.record.effect
-    assert performed.roughness >= performed.record.displacement["cup"]
-
-
 FURNACE = OVEN | {
     "size": [0.30, 0.36, 0.28], "at": [0.55, 0.10], "yaw_deg": 180,
     "door": {"hinge": "right", "range_deg": 114, "open_deg": 112},
@@ -169,7 +160,7 @@ def test_comes_out_of_a_cabinet_through_the_front(seed: int) -> None:
     run = episode(seed, oven=FURNACE, mug=MUG | {"inside": "oven"})
     after = run.must("[PICK UP, mug] (horizontal)")
     assert after.states["mug"].in_hand and after.states["mug"].inside is None
-    assert run.done[-1].clean, "the oven stays as it is"
+    assert after.states["oven"].openness == run.done[-1].record.before.states["oven"].openness
 
 
 @pytest.mark.parametrize("board", ["lower", "middle"])

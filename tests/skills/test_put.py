@@ -119,11 +119,11 @@ def test_light_cup_with_a_narrow_foot_topples_under_the_pen(seed: int) -> None:
 def test_safe_place_keeps_clear_of_the_discs(seed: int) -> None:
     run = episode(seed, ball=BALL)
     run.must("[PICK UP, ball]")
-    plain = run.workshop.perform(run.snapshot, Action(Verb.PUT_ON, "desk"))
+    plain = run.simulated.perform(run.snapshot, Action(Verb.PUT_ON, "desk"))
     x, y, _ = plain.record.after.states["ball"].position
     disc = Keepout(x, y, 0.15)
     action = Action(Verb.PUT_ON, "desk", safe=True, keepout=(disc,))
-    record = run.workshop.perform(run.snapshot, action).record
+    record = run.simulated.perform(run.snapshot, action).record
     assert record.effect
     u, v, _ = record.after.states["ball"].position
     assert np.hypot(u - x, v - y) > disc.radius + 0.03

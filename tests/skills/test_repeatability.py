@@ -8,13 +8,15 @@ from contextlib import closing
 import numpy as np
 import pytest
 
+from etot_cli.control.robot import Guards
+from etot_cli.control.simulated_world import SimulatedWorld
+from etot_cli.control.simulator import known_targets, open_simulator
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.perform import Workshop
-from etot_cli.skills.simulator import known_targets, open_simulator
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
+from etot_cli.world.relations import held_object
 from etot_cli.world.snapshot import Snapshot
-from tests.skills.helpers import BALL, CUP, PEN, UNIT, drawers, episode, make_pilot
+from tests.skills.helpers import BALL, CUP, PEN, UNIT, drawers, episode, robot_at
 from tests.world.helpers import make_scene
 
 PLAN = parse_plan(
@@ -34,21 +36,21 @@ def scene() -> Scene:
     )
 
 
-def walk(workshop: Workshop) -> list[Snapshot]:
-    snapshot, _ = workshop.start()
+def walk(simulated: SimulatedWorld) -> list[Snapshot]:
+    snapshot, _ = simulated.start()
     ends = [snapshot]
     for action in PLAN:
-        ends.append(workshop.perform(ends[-1], action).end)
+        ends.append(simulated.perform(ends[-1], action).end)
     return ends
 
 
 @pytest.fixture(scope="module")
 def ends(scene: Scene) -> list[Snapshot]:
-    return walk(Workshop(scene, 3, keep_frames=False))
+    return walk(SimulatedWorld(scene, 3, keep_frames=False))
 
 
-def test_another_workshop_does_exactly_the_same(scene: Scene, ends: list[Snapshot]) -> None:
-    assert [end.physics for end in walk(Workshop(scene, 3, keep_frames=True))] == [
+def test_another_simulated_does_exactly_the_same(scene: Scene, ends: list[Snapshot]) -> None:
+    assert [end.physics for end in walk(SimulatedWorld(scene, 3, keep_frames=True))] == [
         end.physics for end in ends
     ]
     assert len({end.physics for end in ends}) == len(ends), "every action changed something"
@@ -56,10 +58,10 @@ def test_another_workshop_does_exactly_the_same(scene: Scene, ends: list[Snapsho
 
 def test_an_action_depends_on_its_start_alone(scene: Scene, ends: list[Snapshot]) -> None:
     """Actions repeated in another order, from stored states, end in the same bytes."""
-    workshop = Workshop(scene, 3, keep_frames=False)
+    simulated = SimulatedWorld(scene, 3, keep_frames=False)
     for index in (4, 1, 3, 0):
         start = pickle.loads(pickle.dumps(ends[index]))
-        assert workshop.perform(start, PLAN[index]).end.physics == ends[index + 1].physics
+        assert simulated.perform(start, PLAN[index]).end.physics == ends[index + 1].physics
 
 
 def test_number_of_jobs_changes_nothing(scene: Scene, ends: list[Snapshot]) -> None:
@@ -100,32 +102,32 @@ def test_known_targets_are_what_actions_may_name(scene: Scene) -> None:
 
 def test_seed_changes_the_random_choices_only(scene: Scene, ends: list[Snapshot]) -> None:
     """The start has no random choice in it."""
-    assert Workshop(scene, 4, keep_frames=False).start()[0].physics == ends[0].physics
+    assert SimulatedWorld(scene, 4, keep_frames=False).start()[0].physics == ends[0].physics
 
 
 # -- no teleporting --------------------------------------------------------------------------------
 
 
-def largest_step(workshop: Workshop, trajectory: Trajectory, name: str) -> float:
+def largest_step(simulated: SimulatedWorld, trajectory: Trajectory, name: str) -> float:
     """Largest displacement of an object between two stored frames [m]."""
-    address = int(workshop.world.model.joint(name).qposadr[0])
+    address = int(simulated.world.model.joint(name).qposadr[0])
     places = trajectory.qpos[:, address : address + 3]
     return float(np.linalg.norm(np.diff(places, axis=0), axis=1).max())
 
 
 def test_objects_move_in_small_steps(scene: Scene) -> None:
-    workshop = Workshop(scene, 3, keep_frames=True)
-    snapshot, _ = workshop.start()
+    simulated = SimulatedWorld(scene, 3, keep_frames=True)
+    snapshot, _ = simulated.start()
     moved = set()
     for action in PLAN:
-        performed = workshop.perform(snapshot, action)
+        performed = simulated.perform(snapshot, action)
         trajectory = performed.trajectory
         assert trajectory is not None
         assert np.diff(trajectory.times).max() < 1.5 * FRAME_PERIOD
-        for name, entry in workshop.world.entries.items():
+        for name, entry in simulated.world.entries.items():
             if not entry.free:
                 continue
-            step = largest_step(workshop, trajectory, name)
+            step = largest_step(simulated, trajectory, name)
             assert step < FASTEST * 1.5 * FRAME_PERIOD, (str(action), name)
             if step > 0.005:
                 moved.add(name)
@@ -134,12 +136,12 @@ def test_objects_move_in_small_steps(scene: Scene) -> None:
 
 
 def test_frames_lead_from_start_to_end(scene: Scene) -> None:
-    workshop = Workshop(scene, 3, keep_frames=True)
-    snapshot, _ = workshop.start()
-    performed = workshop.perform(snapshot, PLAN[0])
+    simulated = SimulatedWorld(scene, 3, keep_frames=True)
+    snapshot, _ = simulated.start()
+    performed = simulated.perform(snapshot, PLAN[0])
     assert performed.trajectory is not None
     qpos = performed.trajectory.qpos
-    states = workshop.world.model.nq
+    states = simulated.world.model.nq
     first = np.frombuffer(snapshot.physics)[1 : 1 + states]
     last = np.frombuffer(performed.end.physics)[1 : 1 + states]
     assert qpos[0] == pytest.approx(first, abs=1e-5)
@@ -147,11 +149,11 @@ def test_frames_lead_from_start_to_end(scene: Scene) -> None:
 
 
 def test_arm_stays_within_its_limits_and_speed(scene: Scene) -> None:
-    workshop = Workshop(scene, 3, keep_frames=True)
-    robot = workshop.world.robot
-    snapshot, _ = workshop.start()
+    simulated = SimulatedWorld(scene, 3, keep_frames=True)
+    robot = simulated.world.robot
+    snapshot, _ = simulated.start()
     for action in PLAN:
-        performed = workshop.perform(snapshot, action)
+        performed = simulated.perform(snapshot, action)
         assert performed.trajectory is not None
         joints = performed.trajectory.qpos[:, robot.qpos]
         assert np.all(joints >= robot.lower - 0.02) and np.all(joints <= robot.upper + 0.02)
@@ -164,23 +166,23 @@ def test_held_object_falls_when_the_fingers_let_go() -> None:
     """Nothing but the fingers holds it: opened by hand, without a skill, they drop it."""
     run = episode(ball=BALL)
     run.must("[PICK UP, ball]")
-    workshop = run.workshop
-    pilot = make_pilot(workshop, run.snapshot)
-    height = float(workshop.data.body("ball").xpos[2])
-    pilot.wait(0.5)
-    assert workshop.data.body("ball").xpos[2] == pytest.approx(height, abs=0.003)
-    pilot.release(workshop.world.robot.spec.gripper.opening)
-    pilot.wait(0.5)
-    assert workshop.data.body("ball").xpos[2] < height - 0.05
-    assert pilot.held() is None
+    simulated = run.simulated
+    robot = robot_at(simulated, run.snapshot)
+    height = float(simulated.data.body("ball").xpos[2])
+    robot.wait(0.5, Guards())
+    assert simulated.data.body("ball").xpos[2] == pytest.approx(height, abs=0.003)
+    robot.set_opening(simulated.world.robot.spec.gripper.opening)
+    robot.wait(0.5, Guards())
+    assert simulated.data.body("ball").xpos[2] < height - 0.05
+    assert held_object(simulated.world, simulated.data) is None
 
 
 def test_record_counts_its_physics(scene: Scene) -> None:
-    workshop = Workshop(scene, 0, keep_frames=False)
-    snapshot, _ = workshop.start()
-    record = workshop.perform(snapshot, PLAN[0]).record
+    simulated = SimulatedWorld(scene, 0, keep_frames=False)
+    snapshot, _ = simulated.start()
+    record = simulated.perform(snapshot, PLAN[0]).record
     assert record.steps > 500
-    assert record.simulated_s == pytest.approx(record.steps * workshop.world.model.opt.timestep)
+    assert record.simulated_s == pytest.approx(record.steps * simulated.world.model.opt.timestep)
     names = {event.first for event in record.contacts} | {e.second for e in record.contacts}
     assert {"gripper", "ball"} <= names
     assert record.displacement["ball"] > 0.05

@@ -10,8 +10,8 @@ import pytest
 import trimesh
 import yaml
 
-from etot_cli.skills.perform import Workshop
-from etot_cli.skills.simulator import known_targets
+from etot_cli.control.simulated_world import SimulatedWorld
+from etot_cli.control.simulator import known_targets
 from etot_cli.specs.load import load_scene, load_task
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
@@ -37,7 +37,7 @@ POT = """
 
 
 def started(scene: Scene) -> SceneState:
-    return Workshop(scene, keep_frames=False).start()[1]
+    return SimulatedWorld(scene, keep_frames=False).start()[1]
 
 
 def scene_of(text: str, folder: Path) -> Scene:
@@ -96,7 +96,7 @@ def test_fingertips_are_measured() -> None:
 
 def test_arm_starts_where_its_home_is() -> None:
     scene = load_task(FOLDER / "seven_joints.yaml").scene
-    shop = Workshop(scene, keep_frames=False)
+    shop = SimulatedWorld(scene, keep_frames=False)
     shop.start()
     robot = shop.world.robot
     assert shop.data.qpos[robot.qpos] == pytest.approx(robot.spec.home, abs=0.01)

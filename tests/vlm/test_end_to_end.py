@@ -12,9 +12,9 @@ import pytest
 from numpy.typing import NDArray
 
 from etot_cli.cli.app import run
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.player import Player, Received
-from etot_cli.skills.perform import Workshop
 from etot_cli.specs.load import load_task
 from etot_cli.world.render import WorldRenderer
 from tests.vlm.scripts import TASKS, Rules, rule, with_common
@@ -96,12 +96,12 @@ def test_the_right_plan_in_spite_of_wrong_answers(number: int) -> None:
 def _check_first_frame(number: int, sent: NDArray[np.uint8]) -> None:
     """The frame is the scene: every object is seen where it is, in its own colours."""
     scene = load_task(TASK_FILES[number]).scene
-    workshop = Workshop(scene)
-    workshop.start()
+    simulated = SimulatedWorld(scene)
+    simulated.start()
     height, width = sent.shape[:2]
-    with WorldRenderer(workshop.world, next(iter(scene.cameras)), width, height) as renderer:
-        expected = renderer.frame(workshop.data.qpos)
-        masks = renderer.visible_pixels(workshop.data.qpos)
+    with WorldRenderer(simulated.world, next(iter(scene.cameras)), width, height) as renderer:
+        expected = renderer.frame(simulated.data.qpos)
+        masks = renderer.visible_pixels(simulated.data.qpos)
     assert (renderer.width, renderer.height) == (width, height)
     assert set(masks) == set(scene.objects)
     empty = np.median(sent.reshape(-1, 3), axis=0)

@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.errors import ServiceError, WorldError
 from etot_cli.reasoning.vlm.frames import draw_marks, moments
-from etot_cli.skills.perform import Workshop
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.render import (
@@ -41,10 +41,10 @@ SCENE = Scene.model_validate(
 @pytest.fixture(scope="module")
 def trajectory() -> Trajectory:
     """The block moves up by 10 cm in two seconds."""
-    workshop = Workshop(SCENE)
-    workshop.start()
-    rows = np.repeat(workshop.data.qpos[None].astype(np.float32), 51, axis=0)
-    address = int(workshop.world.model.joint("block").qposadr[0])
+    simulated = SimulatedWorld(SCENE)
+    simulated.start()
+    rows = np.repeat(simulated.data.qpos[None].astype(np.float32), 51, axis=0)
+    address = int(simulated.world.model.joint("block").qposadr[0])
     rows[:, address + 2] += np.linspace(0.0, 0.1, 51)
     times = np.linspace(3.0, 5.0, 51).astype(np.float32)
     return Trajectory(times, rows, (0.8, 0.8, 1.9999))
@@ -87,8 +87,8 @@ def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) 
             scene, trajectory.qpos[:1], width=320, height=200 if scene is SCENE else 180
         )
         assert image.shape == (*size, 3) and image.std() > 15
-        workshop = Workshop(scene)
-        with WorldRenderer(workshop.world, next(iter(scene.cameras), None), 320, 180) as renderer:
+        simulated = SimulatedWorld(scene)
+        with WorldRenderer(simulated.world, next(iter(scene.cameras), None), 320, 180) as renderer:
             masks = renderer.visible_pixels(trajectory.qpos[0])
             # From the front, towards the robot, its left is on the right of the picture.
             columns = {name: np.nonzero(mask)[1].mean() for name, mask in masks.items()}

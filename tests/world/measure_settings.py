@@ -7,26 +7,28 @@ seconds and says how often they stayed, how far they crept in the fingers, and w
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
 
+from etot_cli.control.robot import Guards
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.errors import WorldError
-from etot_cli.skills import pilot as pilot_module
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.perform import Workshop
+from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.specs.load import load_task
 from etot_cli.specs.vary import vary
 from etot_cli.world.recorder import Recorder
+from etot_cli.world.relations import held_object
 from etot_cli.world.snapshot import restore, save
-from tests.skills.helpers import BALL, BOX, CUP, PEN, make_pilot
+from tests.skills.helpers import BALL, BOX, CUP, PEN, robot_at
 from tests.world.helpers import make_scene
 
 THINGS = {
     "ball": BALL,
-    "apple": BALL | {"diameter": 0.085 - 0.005, "mass": 0.15},
+    "apple": BALL | {"diameter": 0.085, "mass": 0.15},
     "box": BOX,
     "pen": PEN,
     "cup rim": CUP | {"slippery": True, "friction": 0.4},
@@ -59,56 +61,46 @@ SETTINGS: dict[str, Change] = {
 }
 
 
-@contextmanager
-def _steps_per_control(count: int) -> Iterator[None]:
-    kept = pilot_module.STEPS_PER_CONTROL
-    pilot_module.STEPS_PER_CONTROL = count
-    try:
-        yield
-    finally:
-        pilot_module.STEPS_PER_CONTROL = kept
-
-
 def _hold(name: str, seed: int, change: Change) -> float | None:
     """Creep in the fingers [m] over three seconds, None when it was not held."""
     scene = make_scene(thing=THINGS[name])
-    workshop = Workshop(vary(scene, seed) if seed else scene, seed, keep_frames=False)
-    change(workshop.world.model)
-    period = pilot_module.CONTROL_PERIOD
-    with _steps_per_control(round(period / workshop.world.model.opt.timestep)):
-        try:
-            start, _ = workshop.start()
-            (action,) = parse_plan("[PICK UP, thing]")
-            done = workshop.perform(start, action)
-            if not done.record.effect:
-                return None
-            pilot = make_pilot(workshop, done.end)
-            before = pilot.attach("thing").in_tool.position
-            pilot.wait(3.0)
-            if pilot.held() != "thing":
-                return None
-            return float(np.linalg.norm(pilot.attach("thing").in_tool.position - before))
-        except WorldError:
+    simulated = SimulatedWorld(vary(scene, seed) if seed else scene, seed, keep_frames=False)
+    change(simulated.world.model)
+    try:
+        start, _ = simulated.start()
+        (action,) = parse_plan("[PICK UP, thing]")
+        done = simulated.perform(start, action)
+        if not done.record.effect:
             return None
+        before = simulated.believe(done.end).attach("thing").in_tool.position
+        robot_at(simulated, done.end).wait(3.0, Guards())
+        if held_object(simulated.world, simulated.data) != "thing":
+            return None
+        memory = done.end.memory
+        after = simulated.believe(save(simulated.world, simulated.data, memory))
+        return float(np.linalg.norm(after.attach("thing").in_tool.position - before))
+    except WorldError:
+        return None
 
 
 def _speed() -> None:
-    workshop = Workshop(load_task("tasks/task7.yaml").scene, 0, keep_frames=False)
-    start, _ = workshop.start()
-    model, data = workshop.world.model, workshop.data
+    simulated = SimulatedWorld(load_task("tasks/task7.yaml").scene, 0, keep_frames=False)
+    start, _ = simulated.start()
+    model, data = simulated.world.model, simulated.data
     bare, driven, steps = [], [], 10_000
     for _ in range(5):
-        restore(workshop.world, data, start)
+        restore(simulated.world, data, start)
         begun = time.process_time()
         mujoco.mj_step(model, data, steps)
         bare.append(time.process_time() - begun)
-        restore(workshop.world, data, start)
-        pilot = make_pilot(workshop, start)
-        pilot.recorder = Recorder(workshop.world, data, keep_frames=False)
-        targets = np.repeat(pilot.commanded[None], steps // pilot_module.STEPS_PER_CONTROL, axis=0)
+        restore(simulated.world, data, start)
+        recorder = Recorder(simulated.world, data, keep_frames=False)
+        robot = SimulatedRobot(simulated.world, data, recorder)
+        periods = round(steps * model.opt.timestep / CONTROL_PERIOD)
+        targets = np.repeat(robot.state().targets[None], periods, axis=0)
         begun = time.process_time()
-        pilot.follow(targets)
-        driven.append((time.process_time() - begun) * steps / pilot.steps)
+        robot.follow(targets, Guards())
+        driven.append((time.process_time() - begun) * steps / robot.steps)
     each = min(bare) / steps
     print(f"{model.nv} degrees of freedom, {model.ngeom} geoms: {each * 1e6:.1f} µs a step, "
           f"{model.opt.timestep / each:.0f} simulated seconds a second")  # fmt: skip
@@ -117,11 +109,11 @@ def _speed() -> None:
     )
     begun = time.process_time()
     for _ in range(2000):
-        stored = save(workshop.world, data, start.memory)
+        stored = save(simulated.world, data, start.memory)
     saved = (time.process_time() - begun) / 2000
     begun = time.process_time()
     for _ in range(2000):
-        restore(workshop.world, data, stored)
+        restore(simulated.world, data, stored)
     restored = (time.process_time() - begun) / 2000
     print(f"save {saved * 1e6:.1f} µs, restore {restored * 1e6:.1f} µs")
 

@@ -115,8 +115,7 @@ def test_frames_come_at_their_period_and_start_with_the_start() -> None:
     before = stage.data.qpos.copy()
     recorder = Recorder(stage.world, stage.data)
     run(stage, recorder, 0.4)
-    recorder.mark(stage.data)
-    trajectory = recorder.trajectory()
+    trajectory = recorder.trajectory([0.4])
     assert trajectory is not None
     assert np.diff(trajectory.times) == pytest.approx(FRAME_PERIOD, abs=1e-4)
     assert trajectory.qpos.shape == (11, stage.world.model.nq)

@@ -9,11 +9,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.control.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.reasoning.vlm.chat import KEY_LENGTH, Picture
 from etot_cli.reasoning.vlm.frames import SMALLEST_MARKED, draw_marks, moments
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
-from etot_cli.skills.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.recorder import Trajectory

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from etot_cli.control.simulated import Simulator
 from etot_cli.errors import EtotError
 from etot_cli.reasoning.protocol import Reasoner
 from etot_cli.reasoning.vlm.accounts import VlmAccount
@@ -16,7 +17,6 @@ from etot_cli.reasoning.vlm.reasoner import VlmReasoner
 from etot_cli.reasoning.vlm.redact import public_url
 from etot_cli.reasoning.vlm.rendered import RenderedFrames
 from etot_cli.reasoning.vlm.settings import VlmSettings
-from etot_cli.skills.simulated import Simulator
 from etot_cli.specs.scene import Scene
 
 

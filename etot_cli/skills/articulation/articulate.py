@@ -7,7 +7,10 @@ Every way is prepared kinematically first; how far the arm can follow decides wh
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.part_path import (
@@ -19,11 +22,12 @@ from etot_cli.skills.articulation.part_path import (
 )
 from etot_cli.skills.articulation.search import PartSearch
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, Evidence, SkillOutcome, failed
-from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.ways import NoWay, Ways, dealt
 from etot_cli.world.index import Part
-from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
+from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState
+
+Vector = NDArray[np.float64]
 
 EFFORTS = (
     Effort(),
@@ -32,50 +36,57 @@ EFFORTS = (
     Effort(lenient=True, thorough=True),
 )
 """Looked at in turn until one has a way."""
-AJAR_SHARE = 0.08
-"""... and the share of the part's travel that must have come of it."""
+ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
+"""Shares of its travel from which on a part is left as it is."""
 TOOL_SPEED = 0.16
+GRIP_TIME, RELEASE_TIME = 0.45, 0.35
 SETTLE_TIME = 1.2
+PRESSED = 0.3
+"""An object that the part presses on harder than this is in its way [N]."""
+EXIT_SPACING = 3
+"""Ways out are worked out for every so many waypoints along the part's path."""
 
 
-def articulation_ways(belief: Belief, action: Action) -> Ways | SkillOutcome:
-    """Ways to carry out OPEN or CLOSE."""
+def articulation_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcome]:
+    """Motions that open or close a part, best first; the reason where there is none."""
     part = belief.world.parts.get(action.target)
     if part is None:
-        entry = belief.world.entries.get(action.target)
-        several = [item.info.address for item in entry.parts] if entry else []
-        text = (
-            f"{action.target} has several movable parts: {', '.join(several)}"
-            if several
-            else f"{action.target} has no movable part"
-        )
-        return failed(CauseKind.PRECONDITION, [action.target], text)
+        yield _no_part(belief, action)
+        return
     opening = action.verb is Verb.OPEN
     fraction = fraction_open(part, float(belief.data.joint(part.joint).qpos[0]))
-    if (opening and fraction >= 0.98) or (not opening and fraction <= 0.01):
-        return lambda lane: dealt([lambda _: DONE], lane)
-    return partial(_lane_ways, PartSearch(belief, part, opening))
-
-
-def _lane_ways(search: PartSearch, lane: int) -> Iterator[Attempt | NoWay]:
-    own = list(dealt(range(search.count), lane))
-    others = [index for index in range(search.count) if index not in own]
+    if (opening and fraction >= ALREADY_OPEN) or (not opening and fraction <= ALREADY_CLOSED):
+        yield Motion(str(action), ())
+        return
+    search = PartSearch(belief, part, opening)
     found = False
     for effort in EFFORTS:
-        for move in search.moves(own, effort):
-            found = True
-            yield partial(carry_out, part=search.part, move=move, opening=search.opening)
-        # What another lane finds with this effort is better than what more effort would find.
-        if found or next(search.moves(others, effort), None) is not None:
+        for move in search.moves(range(search.count), effort):
+            phases = _phases(belief, move)
+            if phases is not None:
+                found = True
+                yield _motion(belief, action, part, move, phases)
+        if found:
             return
-    ajar = search.ajar_moves() if search.opening else []
-    for move in dealt(ajar, lane):
-        yield partial(_open_in_two, part=search.part, move=move)
-    if not ajar:
-        info = search.part.info
-        verb = "open" if search.opening else "close"
-        explain = partial(_no_hold, info.owner, info.address, verb)
-        yield NoWay(search.evidence(), explain)
+    for move in search.ajar_moves() if opening else []:
+        both = _open_in_two(belief, part, move)
+        if both is not None:
+            found = True
+            yield _motion(belief, action, part, move, both)
+    if not found:
+        verb = "open" if opening else "close"
+        yield _no_hold(part.info.owner, part.info.address, verb, search.evidence())
+
+
+def _no_part(belief: Belief, action: Action) -> SkillOutcome:
+    entry = belief.world.entries.get(action.target)
+    several = [item.info.address for item in entry.parts] if entry else []
+    text = (
+        f"{action.target} has several movable parts: {', '.join(several)}"
+        if several
+        else f"{action.target} has no movable part"
+    )
+    return failed(CauseKind.PRECONDITION, [action.target], text)
 
 
 def _no_hold(owner: str, address: str, verb: str, evidence: Evidence) -> SkillOutcome:
@@ -91,92 +102,119 @@ def _no_hold(owner: str, address: str, verb: str, evidence: Evidence) -> SkillOu
     )
 
 
-def _open_in_two(pilot: Pilot, part: Part, move: PreparedMove) -> SkillOutcome:
-    """One move to leave the part ajar, and the best one from there."""
-    outcome = carry_out(pilot, part, move, True)
-    value = float(pilot.data.joint(part.joint).qpos[0])
-    if outcome.effect or abs(value - part.lower) < AJAR_SHARE * abs(part.upper - part.lower):
-        return outcome
-    search = PartSearch(pilot, part, True)
-    second = next(search.moves(range(search.count), Effort()), None)
-    return outcome if second is None else carry_out(pilot, part, second, True)
+def _motion(
+    belief: Belief, action: Action, part: Part, move: PreparedMove, phases: tuple[Phase, ...]
+) -> Motion:
+    return Motion(
+        str(action),
+        (*phases, Wait("rest", SETTLE_TIME, until_rest=True)),
+        tool_at=framed(
+            part.info.address, belief.object_pose(part.body), belief.arm.forward(move.approach[-1])
+        ),
+        details={"opening": move.opening, "length": move.length},
+    )
 
 
-def carry_out(pilot: Pilot, part: Part, move: PreparedMove, opening: bool) -> SkillOutcome:
-    """Carries one prepared move out in physics and sees how far the part has come."""
-    recorder, owner = pilot.recorder, part.info.owner
-    pilot.command_opening(move.opening)
-    end = pilot.transit(move.before)
-    if end is None:
-        return failed(
-            CauseKind.UNREACHABLE, [owner], f"no collision-free way of the arm to {owner}"
-        )
-    if end is PhaseEnd.DONE:
-        end = pilot.follow_line(move.approach, STANDOFF, TOOL_SPEED)
-    if end is PhaseEnd.BLOCKED:
-        struck = pilot.touched_by_robot()
+def _phases(belief: Belief, move: PreparedMove) -> tuple[Phase, ...] | None:
+    """The phases of one move; None where the arm finds no free way to it."""
+    transit = belief.plan_transit(move.before, opening=move.opening)
+    if transit is None:
+        return None
+    grip = (Hand("grip", 0.0, GRIP_TIME),) if move.grip else ()
+    release = (Hand("release", move.opening, RELEASE_TIME),) if move.grip else ()
+    return (
+        Move("transit", transit[1:], opening=move.opening, dwell=0.05),
+        Move("approach", move.approach, STANDOFF, TOOL_SPEED),
+        *grip,
+        Move(
+            "along", move.along, move.length, TOOL_SPEED,
+            may_block=True, exits=_exits(belief, move), dwell=0.15,
+        ),
+        *release,
+        Move("retreat", move.retreat, STANDOFF, TOOL_SPEED, may_block=True),
+    )  # fmt: skip
+
+
+def _exits(belief: Belief, move: PreparedMove) -> tuple[Vector, ...]:
+    """For every waypoint a way straight back from there or from shortly before."""
+    exits: list[Vector] = []
+    last = move.approach[:1]
+    for index, joints in enumerate(move.along):
+        if index % EXIT_SPACING == 0:
+            back = way_back(belief, joints)
+            last = last if back is None else back
+        exits.append(last)
+    return tuple(exits)
+
+
+def _open_in_two(belief: Belief, part: Part, move: PreparedMove) -> tuple[Phase, ...] | None:
+    """One move that leaves the part ajar, and the best one from there."""
+    first = _phases(belief, move)
+    if first is None:
+        return None
+    data = mujoco.MjData(belief.world.model)
+    data.qpos[:] = belief.data.qpos
+    data.ctrl[:] = belief.data.ctrl
+    robot = belief.world.robot
+    data.qpos[robot.qpos] = data.ctrl[robot.ctrl] = move.retreat[-1]
+    data.joint(part.joint).qpos[0] = move.reached
+    mujoco.mj_forward(belief.world.model, data)
+    ajar = belief.in_state(data)
+    search = PartSearch(ajar, part, True)
+    for second in search.moves(range(search.count), Effort()):
+        phases = _phases(ajar, second)
+        if phases is not None:
+            return (*first, *phases)
+    return None
+
+
+def articulation_outcome(
+    belief: Belief, action: Action, trace: Trace, after: SceneState
+) -> SkillOutcome:
+    """What a look at the part afterwards and the robot's own account say."""
+    part = belief.world.parts[action.target]
+    opening = action.verb is Verb.OPEN
+    owner, address = part.info.owner, part.info.address
+    fraction = after.openness(part.info)
+    if (fraction >= OPEN_AT) if opening else (fraction <= CLOSED_AT):
+        return DONE
+    stopped = trace.stopped
+    if stopped is not None and stopped.name in ("transit", "approach"):
         return failed(
             CauseKind.BLOCKED,
-            [*struck, owner],
-            f"the arm was stopped on its way to {part.info.address}",
-            pilot.data.time - recorder.start_time,
+            [*trace.touching, owner],
+            f"the arm was stopped on its way to {address}",
+            trace.seconds,
+            another_way=True,
         )
-    if move.grip:
-        pilot.grip()
-    recorder.mark(pilot.data)
-    end = pilot.follow_line(move.along, move.length, TOOL_SPEED)
-    pilot.wait(0.15)
-    recorder.mark(pilot.data)
-    value = float(pilot.data.joint(part.joint).qpos[0])
-    obstacles = _obstacles(pilot, part)
-    if move.grip:
-        pilot.release(move.opening)
-    if end is PhaseEnd.DONE:
-        pilot.follow_line(move.retreat, STANDOFF, TOOL_SPEED)
-    else:
-        back = way_back(pilot, pilot.commanded)
-        if back is not None:
-            pilot.follow_line(back, STANDOFF, TOOL_SPEED)
-    pilot.settle(SETTLE_TIME)
-    recorder.mark(pilot.data)
-    fraction = fraction_open(part, float(pilot.data.joint(part.joint).qpos[0]))
-    if (fraction >= OPEN_AT) if opening else (fraction <= CLOSED_AT):
-        return SkillOutcome(True, roughness=move.length * (1 - fraction if opening else fraction))
+    obstacles = _pressed(belief, part, trace)
     verb, state = ("open", "open") if opening else ("close", "closed")
-    at = pilot.data.time - recorder.start_time
     if obstacles:
         return failed(
             CauseKind.BLOCKED,
             [*obstacles, owner],
-            f"{part.info.address} did not {verb}: {obstacles[0]} blocks it "
-            f"at {fraction_open(part, value):.0%} of its travel",
-            at,
+            f"{address} did not {verb}: {obstacles[0]} blocks it at {fraction:.0%} of its travel",
+            trace.seconds,
         )
     return failed(
         CauseKind.NO_EFFECT,
         [owner],
-        f"{part.info.address} is not {state} ({fraction:.0%} of its travel)",
-        at,
+        f"{address} is not {state} ({fraction:.0%} of its travel)",
+        trace.seconds,
+        another_way=True,
     )
 
 
-def _obstacles(pilot: Pilot, part: Part) -> list[str]:
-    """Movable objects that the part presses on, the hardest pressed first."""
-    world, data = pilot.world, pilot.data
-    address = f"{part.info.owner}.{part.info.name}"
+def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
+    """Movable objects that the part pressed on when it halted, the hardest pressed first."""
+    entries = belief.world.entries
     force: dict[str, float] = {}
-    for index, (one, two) in enumerate(data.contact.geom):
-        row = int(data.contact.efc_address[index])
-        if row < 0:
-            continue
-        pair = (int(one), int(two))
-        for first, second in (pair, pair[::-1]):
-            name = world.geom_object[second]
-            touches = world.geom_address[first] == address or (
-                world.geom_object[first] == part.info.owner
-            )
-            level = abs(float(data.contact.frame[index][2])) < 0.7
-            if touches and level and name in world.entries and world.entries[name].info.movable:
-                force[name] = force.get(name, 0.0) + float(data.efc_force[row])
+    along = trace.phase("along")
+    for press in along.presses if along else ():
+        for first, second in ((press.first, press.second), (press.second, press.first)):
+            name = second.split(".")[0]
+            ours = first.split(".")[0] == part.info.owner
+            if press.level and ours and name in entries and entries[name].info.movable:
+                force[name] = force.get(name, 0.0) + press.force
     ranked = sorted(force.items(), key=lambda item: (-item[1], item[0]))
-    return [name for name, value in ranked if value > 0.3]
+    return [name for name, value in ranked if value > PRESSED]

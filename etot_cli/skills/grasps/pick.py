@@ -2,52 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
-from functools import partial
+from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
-from etot_cli.skills.action import GraspPose
+from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.kinematics import Pose
-from etot_cli.skills.outcome import Blockers, Evidence, SkillOutcome, failed
-from etot_cli.skills.pilot import Attempt, PhaseEnd, Pilot
-from etot_cli.skills.ways import NoWay, Ways, lane_of
-from etot_cli.world.state import CauseKind
-
-Vector = NDArray[np.float64]
+from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
+from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, failed
+from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
 LIFT_SPEED = 0.15
+SETTLE_TIME = 0.08
+"""Time for the arm to come to rest before the fingers close [s]."""
+GRIP_TIME = 0.45
+"""Time for the fingers to close and the grasp to settle [s]."""
 HOLD_TIME = 0.4
 """Time the object must stay in the hand after the lift [s]."""
-SLIP_LIMIT = 0.025
-"""Displacement in the hand that counts as slipping [m]."""
+HELD_SHARE = 0.4
+"""Fingers that close to less than this share of a grasp's width hold nothing: pads and walls give
+way by up to half a thin wall's thickness, and empty fingers close to nothing."""
 MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
 MAX_RANKED = 48
 TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
-SAME_PLACE, SAME_TURN = 0.02, 0.1
-"""Grasps closer to each other than this [m, rad] are much the same."""
 
 
-def pick_ways(belief: Belief, solids: Solids, name: str, pose: GraspPose | None) -> Ways:
-    """Grasps that can be reached and carried out."""
-    found = sample_grasps(belief.world, solids, belief.data, name, pose)
-    return partial(_lane_ways, belief, name, found)
-
-
-def _lane_ways(belief: Belief, name: str, found: GraspSet, lane: int) -> Iterator[Attempt | NoWay]:
+def pick_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcome]:
+    """Motions that pick the target up, best first; the reason as the only item where none does."""
+    name = action.target
+    found = sample_grasps(belief.world, belief.solids, belief.data, name, action.pose)
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
-    for candidate in _of_lane(_variants(found), lane):
+    for candidate in _variants(found):
         belief.checker.freeze(belief.data)
         result = prepare_grasp(belief, name, candidate, blockers)
         if result is None:
@@ -56,36 +49,89 @@ def _lane_ways(belief: Belief, name: str, found: GraspSet, lane: int) -> Iterato
         if result is None:
             unreachable += 1
         elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
+            motion = _motion(belief, action, result)
+            if motion is None:
+                unreachable += 1
+                continue
             prepared.append(result)
-            yield partial(execute_grasp, name=name, prepared=result)
+            yield motion
     if not prepared:
-        yield NoWay(
-            blockers.evidence(unreachable),
-            partial(
-                _explain,
-                name,
-                belief.world.robot.spec.gripper.opening,
-                replace(found, grasps=found.grasps[:1], too_wide=found.too_wide[:1]),
-            ),
+        opening = belief.world.robot.spec.gripper.opening
+        yield _explain(name, opening, found, blockers.evidence(unreachable))
+
+
+def _motion(belief: Belief, action: Action, prepared: PreparedGrasp) -> Motion | None:
+    """The phases of a grasp; None where the arm finds no free way to it."""
+    grasp = prepared.grasp
+    transit = belief.plan_transit(prepared.before, opening=grasp.opening)
+    if transit is None:
+        return None
+    holding = HELD_SHARE * grasp.width
+    return Motion(
+        str(action),
+        (
+            Move("transit", transit[1:], opening=grasp.opening, dwell=0.05),
+            Move("approach", prepared.approach, STANDOFF, APPROACH_SPEED, dwell=SETTLE_TIME),
+            Hand("grip", 0.0, GRIP_TIME, holding),
+            Move("lift", prepared.lift, prepared.lift_length, LIFT_SPEED, holding=holding),
+            Wait("hold", HOLD_TIME, holding=holding),
+        ),
+        tool_at=framed(action.target, belief.object_pose(action.target), grasp.tool),
+        details={"width": grasp.width, "opening": grasp.opening},
+    )
+
+
+def pick_outcome(
+    belief: Belief, action: Action, motion: Motion, trace: Trace, after: SceneState
+) -> SkillOutcome:
+    """What a look at the scene afterwards and the robot's own account say about a grasp."""
+    name, before = action.target, belief.object_pose(action.target)
+    stopped = trace.stopped
+    if stopped is not None and stopped.end is PhaseEnd.BLOCKED:
+        where = {"transit": "on the way to it", "approach": "during the approach"}.get(
+            stopped.name, "while lifting it"
         )
+        struck = [item for item in trace.touching if item != name]
+        return failed(
+            CauseKind.BLOCKED,
+            [*struck, name],
+            f"the arm was stopped {where}" + (f" by {struck[0]}" if struck else ""),
+            trace.seconds,
+            another_way=True,
+        )
+    if stopped is not None and stopped.end is PhaseEnd.MISSED:
+        return failed(
+            CauseKind.SLIP,
+            [name],
+            f"the fingers closed without getting hold of {name}",
+            trace.seconds,
+            another_way=True,
+        )
+    raised = after.states[name].position - before.position
+    if after.holding == name and float(np.linalg.norm(raised)) >= 0.3 * LIFT:
+        return DONE
+    return failed(
+        CauseKind.SLIP,
+        [name],
+        f"{name} slipped out of the fingers ({motion.details['width'] * 1000:.0f} mm wide, "
+        f"gripper opens {belief.world.robot.spec.gripper.opening * 1000:.0f} mm)",
+        trace.seconds,
+        another_way=True,
+    )
 
 
-def _of_lane(grasps: Iterable[Grasp], lane: int) -> Iterator[Grasp]:
-    """Grasps that nearly coincide go to the same lane, so that lanes try different ones."""
-    positions = np.empty((MAX_PREPARED, 3))
-    rotations = np.empty((MAX_PREPARED, 9))
-    groups = 0
-    for grasp in grasps:
-        position, rotation = grasp.tool.position, grasp.tool.rotation.ravel()
-        offset = positions[:groups] - position
-        near = np.einsum("ij,ij->i", offset, offset) < SAME_PLACE**2
-        near &= rotations[:groups] @ rotation > 1 + 2 * np.cos(SAME_TURN)
-        group = int(near.argmax()) if near.any() else groups
-        if group == groups:
-            positions[groups], rotations[groups] = position, rotation
-            groups += 1
-        if lane_of(group) == lane:
-            yield grasp
+def pick_precondition(belief: Belief, action: Action, scene: SceneState) -> SkillOutcome | None:
+    """Why it makes no sense to pick the target up now, if so."""
+    name = action.target
+    if scene.holding is not None:
+        text = f"the hand already holds {scene.holding}"
+        return failed(CauseKind.PRECONDITION, [scene.holding], text)
+    entry = belief.world.entries.get(name)
+    if entry is None or not entry.info.movable:
+        return failed(CauseKind.PRECONDITION, [name], f"{name} cannot be picked up")
+    if scene.states[name].lost:
+        return failed(CauseKind.UNREACHABLE, [name], f"{name} is off the desk")
+    return None
 
 
 def _variants(found: GraspSet) -> Iterator[Grasp]:
@@ -143,56 +189,4 @@ def _explain(name: str, opening: float, found: GraspSet, evidence: Evidence) -> 
         CauseKind.UNREACHABLE,
         [name],
         f"the arm reaches none of the {unreachable} grasps of {name}",
-    )
-
-
-def execute_grasp(pilot: Pilot, name: str, prepared: PreparedGrasp) -> SkillOutcome:
-    """Carries one prepared grasp out in physics."""
-    grasp, recorder = prepared.grasp, pilot.recorder
-    pilot.command_opening(grasp.opening)
-    end = pilot.transit(prepared.before)
-    if end is None:
-        return failed(CauseKind.UNREACHABLE, [name], f"no collision-free way of the arm to {name}")
-    if end is PhaseEnd.BLOCKED:
-        return _blocked(pilot, name, "on the way to it")
-    if pilot.follow_line(prepared.approach, STANDOFF, APPROACH_SPEED) is PhaseEnd.BLOCKED:
-        return _blocked(pilot, name, "during the approach")
-    pilot.wait(0.08)
-    recorder.mark(pilot.data)
-    before = pilot.object_pose(name)
-    pilot.grip()
-    recorder.mark(pilot.data)
-    if pilot.held() != name:
-        return failed(
-            CauseKind.SLIP,
-            [name],
-            f"the fingers closed without getting hold of {name}",
-            pilot.data.time - recorder.start_time,
-        )
-    carried = pilot.attach(name)
-    pilot.follow_line(prepared.lift, prepared.lift_length, LIFT_SPEED)
-    pilot.wait(HOLD_TIME)
-    recorder.mark(pilot.data)
-    expected = pilot.tool() @ carried.in_tool
-    slipped = float(np.linalg.norm(expected.position - pilot.object_pose(name).position))
-    carried_m = float(np.linalg.norm(pilot.object_pose(name).position - before.position))
-    if pilot.held() != name or slipped > SLIP_LIMIT or carried_m < 0.3 * LIFT:
-        return failed(
-            CauseKind.SLIP,
-            [name],
-            f"{name} slipped out of the fingers "
-            f"({grasp.width * 1000:.0f} mm wide, gripper opens "
-            f"{pilot.world.robot.spec.gripper.opening * 1000:.0f} mm)",
-            pilot.data.time - recorder.start_time,
-        )
-    return SkillOutcome(True, roughness=slipped)
-
-
-def _blocked(pilot: Pilot, name: str, where: str) -> SkillOutcome:
-    struck = pilot.touched_by_robot()
-    return failed(
-        CauseKind.BLOCKED,
-        [*struck, name],
-        f"the arm was stopped {where}" + (f" by {struck[0]}" if struck else ""),
-        pilot.data.time - pilot.recorder.start_time,
     )

@@ -58,3 +58,10 @@ def tool_speed_to_joint_speed(path: Vector, length: float, speed: float, limit: 
     if length <= 1e-6 or travel <= 1e-6:
         return limit
     return min(limit, travel * speed / length)
+
+
+def time_line(path: Vector, length: float, tool_speed: float, limit: float) -> Vector:
+    """Samples the joint path (k, n) of a straight tool way of ``length`` [m] at ``tool_speed``
+    [m/s], no joint faster than ``limit`` [rad/s].
+    """
+    return time_path(path, tool_speed_to_joint_speed(path, length, tool_speed, limit))

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli.control.workers import WorkerLostError, WorkerPool
 from etot_cli.skills.action import parse_plan
-from etot_cli.skills.workers import WorkerLostError, WorkerPool
 from etot_cli.world.state import CauseKind
 
 SOON_S = 15.0
@@ -115,8 +115,8 @@ def test_closing_ends_what_is_under_way() -> None:
 
 PARENT = """
 import time
-from etot_cli.skills.workers import WorkerPool
-from tests.skills.test_workers import nothing, who
+from etot_cli.control.workers import WorkerPool
+from tests.control.test_workers import nothing, who
 
 if __name__ == "__main__":
     pool = WorkerPool(2, nothing)
@@ -137,7 +137,7 @@ def test_no_worker_outlives_its_parent(tmp_path: Path, method: str, number: int)
     if method == "fork" and not sys.platform.startswith("linux"):
         pytest.skip("workers are forked on Linux alone")
     script = tmp_path / "parent.py"
-    head = f"import etot_cli.skills.workers as workers\nworkers.METHOD = {method!r}\n"
+    head = f"import etot_cli.control.workers as workers\nworkers.METHOD = {method!r}\n"
     script.write_text(head + PARENT)
     root = Path(__file__).parents[2]
     parent = subprocess.Popen(
@@ -158,16 +158,16 @@ def test_no_worker_outlives_its_parent(tmp_path: Path, method: str, number: int)
     parent.stdout.close()
 
 
-def lose_lane(*_: object) -> None:
+def lose_worker(*_: object) -> None:
     os._exit(9)
 
 
 def test_an_action_that_kills_its_workers_has_failed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from etot_cli.skills import simulator
+    from etot_cli.control import simulator
     from tests.skills.helpers import BALL
     from tests.world.helpers import make_scene
 
-    monkeypatch.setattr(simulator, "_run_lane", lose_lane)
+    monkeypatch.setattr(simulator, "_perform", lose_worker)
     opened = simulator.open_simulator(make_scene(ball=BALL), seed=0, jobs=2, worlds=1, record=False)
     with closing(opened):
         state, scene = opened.start()

@@ -15,12 +15,11 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
+from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
+from etot_cli.control.simulated_world import Performed, SimulatedWorld
+from etot_cli.control.workers import METHOD, WorkerLostError, WorkerPool
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
-from etot_cli.skills.perform import Performed, Workshop, choose
-from etot_cli.skills.simulated import Simulated, StateToken, WorldOutcome
-from etot_cli.skills.ways import LANES
-from etot_cli.skills.workers import METHOD, WorkerLostError, WorkerPool
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot
@@ -47,8 +46,8 @@ def open_simulator(
     """
     scenes = [scene]
     scenes += [vary(scene, seed * WORLD_SEED_STRIDE + index) for index in range(1, worlds)]
-    workshops = [Workshop(item, seed, keep_frames=record) for item in scenes]
-    return ActionSimulator(workshops, max(jobs, 1))
+    built = [SimulatedWorld(item, seed, keep_frames=record) for item in scenes]
+    return ActionSimulator(built, max(jobs, 1))
 
 
 def known_targets(scene: SceneState) -> list[str]:
@@ -65,17 +64,17 @@ def known_targets(scene: SceneState) -> list[str]:
 class _Shared:
     """What forked workers inherit, or spawned ones are sent."""
 
-    workshops: list[Workshop]
+    worlds: list[SimulatedWorld]
 
 
 _shared = _Shared([])
 
 
 class ActionSimulator:
-    """Implements :class:`etot_cli.skills.simulated.Simulator`."""
+    """Implements :class:`etot_cli.control.simulated.Simulator`."""
 
-    def __init__(self, workshops: list[Workshop], jobs: int) -> None:
-        self._workshops = workshops
+    def __init__(self, worlds: list[SimulatedWorld], jobs: int) -> None:
+        self._worlds = worlds
         self._jobs = jobs
         self._pool: WorkerPool | None = None
         self._start: tuple[StateToken, SceneState] | None = None
@@ -88,7 +87,7 @@ class ActionSimulator:
     @property
     def world_count(self) -> int:
         """Worlds in each state."""
-        return len(self._workshops)
+        return len(self._worlds)
 
     def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
         """The settled initial state of all worlds, and world 0's view of it.
@@ -100,9 +99,9 @@ class ActionSimulator:
             # Workers come up while the scene settles and the instruction is read.
             self._ensure_pool()
             begun = []
-            for workshop in self._workshops:
-                workshop.deadline.at_s = until_s
-                begun.append(workshop.start())
+            for world in self._worlds:
+                world.deadline.at_s = until_s
+                begun.append(world.start())
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start
 
@@ -117,9 +116,9 @@ class ActionSimulator:
             future: Future[Simulated] = Future()
             try:
                 performed = []
-                for workshop, snapshot in zip(self._workshops, snapshots, strict=True):
-                    workshop.deadline.at_s = until_s
-                    performed.append(workshop.perform(snapshot, action))
+                for world, snapshot in zip(self._worlds, snapshots, strict=True):
+                    world.deadline.at_s = until_s
+                    performed.append(world.perform(snapshot, action))
                 future.set_result(_combine(performed, begun))
             except MemoryError:
                 future.set_result(self._lost(snapshots, "out of memory", begun))
@@ -127,9 +126,8 @@ class ActionSimulator:
                 future.set_exception(error)
             return future
         parts = [
-            pool.submit(_run_lane, index, snapshot, action, lane, until_s)
+            pool.submit(_perform, index, snapshot, action, until_s)
             for index, snapshot in enumerate(snapshots)
-            for lane in range(LANES)
         ]
         return _gather(parts, begun, lambda why: self._lost(snapshots, why, begun))
 
@@ -139,9 +137,9 @@ class ActionSimulator:
             self.close()
             self._jobs = 1
         if self._pool is None and self._jobs > 1:
-            given: list[Any] = self._workshops
+            given: list[Any] = self._worlds
             if METHOD == "spawn":
-                given = [(w.world.scene, w.seed, w.keep_frames) for w in self._workshops]
+                given = [(w.world.scene, w.seed, w.keep_frames) for w in self._worlds]
             try:
                 self._pool = WorkerPool(self._jobs, _begin_worker, (given,))
             except (OSError, RuntimeError, MemoryError):
@@ -152,8 +150,8 @@ class ActionSimulator:
         """Stands for an action that could not be simulated to its end: nothing has moved."""
         cause = Cause(CauseKind.ABANDONED, (), f"the simulation was abandoned: {why}")
         performed = [
-            workshop.unperformed(snapshot, cause)
-            for workshop, snapshot in zip(self._workshops, snapshots, strict=True)
+            world.unperformed(snapshot, cause)
+            for world, snapshot in zip(self._worlds, snapshots, strict=True)
         ]
         return _combine(performed, begun)
 
@@ -165,18 +163,18 @@ class ActionSimulator:
 
 
 def _begin_worker(given: list[Any]) -> None:
-    _shared.workshops = [
-        item if isinstance(item, Workshop) else Workshop(item[0], item[1], keep_frames=item[2])
+    _shared.worlds = [
+        item
+        if isinstance(item, SimulatedWorld)
+        else SimulatedWorld(item[0], item[1], keep_frames=item[2])
         for item in given
     ]
 
 
-def _run_lane(
-    index: int, snapshot: Snapshot, action: Action, lane: int, until_s: float
-) -> Performed | None:
-    workshop = _shared.workshops[index]
-    workshop.deadline.at_s = until_s
-    return workshop.run_lanes(snapshot, action, [lane])[0]
+def _perform(index: int, snapshot: Snapshot, action: Action, until_s: float) -> Performed:
+    world = _shared.worlds[index]
+    world.deadline.at_s = until_s
+    return world.perform(snapshot, action)
 
 
 def _combine(performed: list[Performed], begun: float) -> Simulated:
@@ -188,7 +186,7 @@ def _combine(performed: list[Performed], begun: float) -> Simulated:
 
 
 def _gather(
-    parts: list[Future[Performed | None]], begun: float, lost: Callable[[str], Simulated]
+    parts: list[Future[Performed]], begun: float, lost: Callable[[str], Simulated]
 ) -> Future[Simulated]:
     """One future for all worlds of a node; cancelling it cancels what has not begun.
 
@@ -196,7 +194,7 @@ def _gather(
     """
     whole: Future[Simulated] = Future()
 
-    def finish(_: Future[Performed | None]) -> None:
+    def finish(_: Future[Performed]) -> None:
         if whole.cancelled():
             for part in parts:
                 part.cancel()
@@ -211,9 +209,7 @@ def _gather(
         elif any(part.cancelled() for part in parts):
             whole.cancel()
         else:
-            lanes = [part.result() for part in parts]
-            worlds = [choose(lanes[i : i + LANES]) for i in range(0, len(lanes), LANES)]
-            whole.set_result(_combine(worlds, begun))
+            whole.set_result(_combine([part.result() for part in parts], begun))
 
     for part in parts:
         part.add_done_callback(finish)

@@ -1,0 +1,1 @@
+"""Runs motions on a robot, the simulated one among them."""

@@ -1,0 +1,181 @@
+"""The robot in a simulated world: position servos, a gripper, and guards on what they sense."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.control.robot import Contacts, Guards, RobotState
+from etot_cli.errors import WorldError
+from etot_cli.skills.deadline import Deadline
+from etot_cli.skills.motion.motion import PhaseEnd, Press
+from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.world.model import World
+from etot_cli.world.recorder import Recorder
+from etot_cli.world.relations import touched_by_robot
+
+Vector = NDArray[np.float64]
+
+OBSERVE_EVERY = 4
+"""Control periods between observations of the recorder."""
+GUARD_EVERY = 2
+"""Control periods between looks at the guards."""
+BLOCKED_ERROR = 0.06
+"""Joint tracking error that means something is in the way [rad]; free motion stays below 0.02."""
+BLOCKED_PERIODS = 8
+"""... when it lasts for so many control periods."""
+REST_SPEED = 0.01
+"""Free objects slower than this [m/s] are at rest ..."""
+REST_PERIODS = 15
+"""... when they stay so for so many control periods."""
+TIME_LIMIT_S = 60.0
+"""Bound on the simulated time of one action [s]; the longest one seen takes 21."""
+LEVEL_SLOPE = 0.7
+"""A contact normal that rises less than this (sine) presses sideways."""
+
+
+class SimulatedRobot:
+    """Implements :class:`etot_cli.control.robot.Robot` by stepping ``data``.
+
+    Args:
+        world: the world that it stands in.
+        data: the state, which it steps.
+        recorder: watches while it is stepped; None to step unwatched.
+        deadline: by which stepping has to end; None for none.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        data: mujoco.MjData,
+        recorder: Recorder | None = None,
+        deadline: Deadline | None = None,
+    ) -> None:
+        self._world, self._data, self._recorder = world, data, recorder
+        self._deadline = deadline or Deadline()
+        self._periods = 0
+        self._start_time = float(data.time)
+        self._steps_per_period: int = round(CONTROL_PERIOD / world.model.opt.timestep)
+        model, robot = world.model, world.robot
+        gain = model.actuator_gainprm[robot.ctrl, 0]
+        damping = -model.actuator_biasprm[robot.ctrl, 2]
+        # A position servo with velocity damping follows this much later than its target.
+        self._lag = damping / np.maximum(gain, 1e-9)
+        self._low, self._high = model.actuator_ctrlrange[robot.ctrl].T
+        free = [name for name, entry in world.entries.items() if entry.free]
+        first = np.array([model.joint(name).dofadr[0] for name in free], dtype=np.int64)
+        self._free_dofs = (first[:, None] + np.arange(3)).ravel()
+
+    @property
+    def steps(self) -> int:
+        """Physics steps so far."""
+        return int(self._periods * self._steps_per_period)
+
+    def state(self) -> RobotState:
+        """What it senses now."""
+        robot, data = self._world.robot, self._data
+        return RobotState(
+            np.asarray(data.qpos[robot.qpos].copy()),
+            np.asarray(data.ctrl[robot.ctrl].copy()),
+            self._opening(),
+            float(data.time) - self._start_time,
+        )
+
+    def follow(self, targets: Vector, guards: Guards) -> PhaseEnd:
+        """Follows joint targets (m, n), one per control period.
+
+        The targets are led by the servo's lag, so the arm is where the path says, not behind it.
+        """
+        data, ctrl, qpos = self._data, self._world.robot.ctrl, self._world.robot.qpos
+        previous = np.vstack([data.ctrl[ctrl][None], targets[:-1]])
+        lead = (targets - previous) / CONTROL_PERIOD * self._lag
+        lead[0] = 0.0
+        commands = np.clip(targets + lead, self._low, self._high)
+        late = 0
+        for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
+            data.ctrl[ctrl] = command
+            self._tick()
+            if period % GUARD_EVERY:
+                continue
+            if self._slipped(guards):
+                data.ctrl[ctrl] = target
+                return PhaseEnd.SLIPPED
+            error = float(np.abs(data.qpos[qpos] - target).max())
+            late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
+            if late >= BLOCKED_PERIODS:
+                data.ctrl[ctrl] = data.qpos[qpos]
+                return PhaseEnd.BLOCKED
+            if self._exhausted:
+                return PhaseEnd.OUT_OF_TIME
+        data.ctrl[ctrl] = targets[-1]
+        return PhaseEnd.DONE
+
+    def set_opening(self, opening: float) -> None:
+        """Sends the gripper to a distance between the pads [m]."""
+        gripper = self._world.robot.spec.gripper
+        share = min(max(opening / gripper.opening, 0.0), 1.0)
+        self._data.ctrl[self._world.robot.gripper_ctrl] = gripper.command_closed + share * (
+            gripper.command_open - gripper.command_closed
+        )
+
+    def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
+        """Holds still; at rest, stepping on would change nothing."""
+        quiet = 0
+        for period in range(round(seconds / CONTROL_PERIOD)):
+            self._tick()
+            if period % GUARD_EVERY == 0 and self._slipped(guards):
+                return PhaseEnd.SLIPPED
+            if until_rest:
+                quiet = quiet + 1 if self._at_rest() else 0
+                if quiet >= REST_PERIODS:
+                    break
+        return PhaseEnd.OUT_OF_TIME if self._exhausted else PhaseEnd.DONE
+
+    def contacts(self) -> Contacts:
+        """Who touches the robot, and who is pressed by whom, now."""
+        data, world = self._data, self._world
+        presses = []
+        for index, (one, two) in enumerate(data.contact.geom):
+            row = int(data.contact.efc_address[index])
+            if row >= 0:
+                presses.append(
+                    Press(
+                        world.geom_address[int(one)],
+                        world.geom_address[int(two)],
+                        float(data.efc_force[row]),
+                        abs(float(data.contact.frame[index][2])) < LEVEL_SLOPE,
+                    )
+                )
+        return Contacts(tuple(touched_by_robot(world, data)), tuple(presses))
+
+    def _tick(self) -> None:
+        """One control period of physics.
+
+        Raises:
+            WorldError: the simulation diverged.
+            OutOfTimeError: the deadline has passed.
+        """
+        self._deadline.check()
+        mujoco.mj_step(self._world.model, self._data, self._steps_per_period)
+        self._periods += 1
+        if self._periods % OBSERVE_EVERY == 0:
+            if self._recorder is not None:
+                self._recorder.observe(self._data)
+            if not np.isfinite(self._data.qpos).all():
+                raise WorldError("the simulation diverged (NaN)")
+
+    def _opening(self) -> float:
+        return float(self._data.qpos[self._world.robot.finger_qpos].sum())
+
+    def _slipped(self, guards: Guards) -> bool:
+        return guards.holding is not None and self._opening() < guards.holding
+
+    def _at_rest(self) -> bool:
+        if not len(self._free_dofs):
+            return True
+        return float(np.abs(self._data.qvel[self._free_dofs]).max()) < REST_SPEED
+
+    @property
+    def _exhausted(self) -> bool:
+        return self._periods * CONTROL_PERIOD > TIME_LIMIT_S

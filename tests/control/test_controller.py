@@ -1,0 +1,168 @@
+"""One motion, run by the same code on three robots: simulated, logging, and one that slips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from etot_cli.control.controller import run_motion
+from etot_cli.control.robot import Contacts, Guards, RobotState
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.control.simulated_world import SimulatedWorld
+from etot_cli.skills.action import parse_plan
+from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
+from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.skills.motions import plan_motions
+from etot_cli.world.relations import held_object
+from etot_cli.world.snapshot import Snapshot, restore
+from tests.skills.helpers import BALL, UNIT, drawers
+from tests.world.helpers import make_scene
+
+SPEED = 1.0
+
+
+@dataclass
+class ScriptedRobot:
+    """Does as it is told, except where a phase is scripted to end otherwise; keeps a log."""
+
+    script: dict[int, PhaseEnd] = field(default_factory=dict)
+    opening: float = 0.085
+    joints: NDArray[np.float64] = field(default_factory=lambda: np.zeros(6))
+    held_width: float = 0.0
+    time_s: float = 0.0
+    calls: int = 0
+    log: list[str] = field(default_factory=list)
+
+    def state(self) -> RobotState:
+        return RobotState(self.joints.copy(), self.joints.copy(), self.opening, self.time_s)
+
+    def follow(self, targets: NDArray[np.float64], guards: Guards) -> PhaseEnd:
+        self.log.append(f"follow to {np.round(targets[-1], 2).tolist()}")
+        end = self.script.get(self.calls, PhaseEnd.DONE)
+        share = 1.0 if end is PhaseEnd.DONE else 0.5
+        self.calls += 1
+        self.joints = targets[int(share * (len(targets) - 1))].copy()
+        self.time_s += share * len(targets) * CONTROL_PERIOD
+        return end
+
+    def set_opening(self, opening: float) -> None:
+        self.log.append(f"open to {opening:.3f}")
+        self.opening = max(opening, self.held_width)
+
+    def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
+        self.time_s += seconds
+        slipped = guards.holding is not None and self.opening < guards.holding
+        return PhaseEnd.SLIPPED if slipped else PhaseEnd.DONE
+
+    def contacts(self) -> Contacts:
+        return Contacts()
+
+
+@pytest.fixture(scope="module")
+def world() -> SimulatedWorld:
+    scene = make_scene(
+        ball=BALL | {"at": [0.32, 0.22]},
+        unit=UNIT | {"at": [0.45, 0.02], "yaw_deg": -90, "drawers": drawers(open=0.03)},
+    )
+    return SimulatedWorld(scene, 0, keep_frames=False)
+
+
+@pytest.fixture(scope="module")
+def start(world: SimulatedWorld) -> Snapshot:
+    return world.start()[0]
+
+
+@pytest.fixture(scope="module")
+def grasp(world: SimulatedWorld, start: Snapshot) -> Motion:
+    return motion_of(world, start, "[PICK UP, ball]")
+
+
+def motion_of(world: SimulatedWorld, start: Snapshot, text: str) -> Motion:
+    (action,) = parse_plan(text)
+    belief = world.believe(start)
+    motion = next(plan_motions(belief, action, world.start()[1]))
+    assert isinstance(motion, Motion), motion
+    return motion
+
+
+def scripted(grasp: Motion, **script: object) -> ScriptedRobot:
+    first = grasp.phases[0]
+    assert isinstance(first, Move)
+    return ScriptedRobot(joints=np.zeros(first.path.shape[1]), **script)  # type: ignore[arg-type]
+
+
+def names(trace: Trace) -> list[str]:
+    return [phase.name for phase in trace.phases]
+
+
+def ended(trace: Trace, name: str) -> PhaseEnd | None:
+    phase = trace.phase(name)
+    return None if phase is None else phase.end
+
+
+def test_the_simulated_robot_lifts_the_ball(
+    world: SimulatedWorld, start: Snapshot, grasp: Motion
+) -> None:
+    restore(world.world, world.data, start)
+    trace = run_motion(grasp, SimulatedRobot(world.world, world.data), joint_speed=SPEED)
+    assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
+    assert trace.stopped is None
+    assert held_object(world.world, world.data) == "ball"
+    assert trace.phases[-1].opening == pytest.approx(BALL["diameter"], abs=0.006)
+
+
+def test_a_logging_robot_is_told_the_same(grasp: Motion) -> None:
+    robot = scripted(grasp, held_width=BALL["diameter"])
+    trace = run_motion(grasp, robot, joint_speed=SPEED, keep_targets=True)
+    assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
+    assert trace.stopped is None
+    assert [line.split(" to ")[0] for line in robot.log] == [
+        "open", "follow", "follow", "open", "follow"
+    ]  # fmt: skip
+    ends = [phase.path[-1] for phase in grasp.phases if isinstance(phase, Move)]
+    sent = [item.targets[-1] for item in trace.phases if item.targets is not None]
+    np.testing.assert_allclose(sent, ends, atol=1e-9)
+
+
+def test_fingers_that_meet_nothing_end_the_motion(grasp: Motion) -> None:
+    robot = scripted(grasp, held_width=0.0)
+    trace = run_motion(grasp, robot, joint_speed=SPEED)
+    assert names(trace) == ["transit", "approach", "grip"]
+    assert ended(trace, "grip") is PhaseEnd.MISSED
+
+
+def test_a_slip_ends_the_motion(grasp: Motion) -> None:
+    robot = scripted(grasp, held_width=BALL["diameter"], script={2: PhaseEnd.SLIPPED})
+    trace = run_motion(grasp, robot, joint_speed=SPEED)
+    assert names(trace) == ["transit", "approach", "grip", "lift"]
+    assert trace.stopped is not None and trace.stopped.end is PhaseEnd.SLIPPED
+
+
+def test_a_drawer_that_stops_is_let_go_and_left_the_way_out_from_there(
+    world: SimulatedWorld, start: Snapshot
+) -> None:
+    motion = motion_of(world, start, "[OPEN, unit]")
+    along = next(p for p in motion.phases if isinstance(p, Move) and p.name == "along")
+    assert len(along.exits) == len(along.path)
+    index = [p for p in motion.phases if isinstance(p, Move)].index(along)
+    robot = scripted(motion, script={index: PhaseEnd.BLOCKED})
+    trace = run_motion(motion, robot, joint_speed=SPEED, keep_targets=True)
+    assert ended(trace, "along") is PhaseEnd.BLOCKED
+    assert ended(trace, "retreat") is PhaseEnd.DONE
+    halted = np.array(next(p for p in trace.phases if p.name == "along").joints)
+    nearest = int(np.abs(along.path - halted).max(axis=1).argmin())
+    assert 0 < nearest < len(along.path) - 1
+    np.testing.assert_allclose(robot.joints, along.exits[nearest][-1], atol=1e-9)
+    if any(isinstance(phase, Hand) for phase in motion.phases):
+        assert ended(trace, "release") is PhaseEnd.DONE
+
+
+def test_planning_steps_nothing(world: SimulatedWorld, start: Snapshot) -> None:
+    restore(world.world, world.data, start)
+    before = world.data.time, world.data.qpos.tobytes()
+    motion_of(world, start, "[PICK UP, ball]")
+    restore(world.world, world.data, start)
+    assert (world.data.time, world.data.qpos.tobytes()) == before
