@@ -6,8 +6,6 @@ end otherwise, and even that shows its traceback on request alone.
 
 from __future__ import annotations
 
-import io
-import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -15,10 +13,12 @@ from typing import Annotated
 
 import typer
 
-from etot_cli.cli.exits import INTERNAL, INTERRUPTED, OK, UNUSABLE
+from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
+from etot_cli.cli.interrupts import finish, listen
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
 from etot_cli.cli.simulate import simulate
+from etot_cli.cli.streams import lost, protect
 from etot_cli.errors import EtotError
 
 app = typer.Typer(
@@ -79,6 +79,13 @@ def run(arguments: Sequence[str]) -> int:
     except (KeyboardInterrupt, typer.Abort):
         _complain("interrupted")
         return INTERRUPTED
+    except MemoryError:
+        _complain("there is not enough memory for this; --jobs 1 and --worlds 1 need least")
+        return MISSING
+    except OSError as error:
+        # Files that belong to the input are read with messages of their own.
+        _complain(f"the system refuses: {error}")
+        return MISSING
     except Exception as error:  # a defect: whatever it is, a person gets a sentence
         return _confess(error, detailed="-v" in arguments or "--verbose" in arguments)
     return code if isinstance(code, int) else OK
@@ -86,12 +93,15 @@ def run(arguments: Sequence[str]) -> int:
 
 def main() -> None:
     """Entry point of the script ``etot``."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a symbol never breaks an ASCII terminal
-    # A shell starts background jobs with SIGINT ignored; who sends it to a planner means it.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    sys.exit(run(sys.argv[1:]))
+    output, _ = protect()
+    listen()
+    code = run(sys.argv[1:])
+    finish()
+    reason = lost(output)
+    if reason and code in (OK, NO):
+        _complain(f"standard output took only a part of the answer: {reason}; see the report file")
+        code = MISSING
+    sys.exit(code)
 
 
 def _complain(message: str) -> None:

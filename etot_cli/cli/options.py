@@ -16,6 +16,10 @@ Out = Annotated[
         help="Folder for the report and its files. [default: results/<command>/<name>-<time>]",
     ),
 ]
+Force = Annotated[
+    bool,
+    typer.Option("--force", help="Replace a report that is in the folder already."),
+]
 Seed = Annotated[
     int,
     typer.Option("--seed", min=0, max=2**32 - 1, help="Same inputs and seed, same result."),

@@ -12,6 +12,7 @@ import typer
 
 from etot_cli.cli.exits import MISSING, NO, OK
 from etot_cli.cli.options import (
+    Force,
     Html,
     Json,
     Out,
@@ -118,6 +119,7 @@ def plan(
     max_cost: VlmMaxCost = None,
     html: Html = True,
     out: Out = None,
+    force: Force = False,
     seed: Seed = 0,
     json: Json = False,
     quiet: Quiet = False,
@@ -128,7 +130,7 @@ def plan(
     Exit code 0: a feasible plan, after which the task's success conditions hold; 1: none found, or
     they do not hold; 2: unusable input; 3: the model's endpoint cannot be used; 130: interrupted.
     """
-    session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose)
+    session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
 
     options = PlanOptions(

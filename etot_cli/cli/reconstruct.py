@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from etot_cli.cli.exits import NO, OK
-from etot_cli.cli.options import Json, Out, Quiet, Seed, Verbose
+from etot_cli.cli.exits import INTERRUPTED, NO, OK
+from etot_cli.cli.options import Force, Json, Out, Quiet, Seed, Verbose
+from etot_cli.cli.session import Session
 
 
 def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
@@ -58,6 +60,7 @@ def reconstruct(
         typer.Option("--server-timeout", metavar="S", min=0.1, help="Longest wait for a server."),
     ] = 120.0,
     out: Out = None,
+    force: Force = False,
     seed: Seed = 0,
     json: Json = False,
     quiet: Quiet = False,
@@ -69,11 +72,13 @@ def reconstruct(
     unusable; 3: a server is not there.
     """
     from etot_cli.commands.reconstruct import Options, run_reconstruct
-    from etot_cli.reporting.files import REPORT_NAME, output_folder, write_atomically
+    from etot_cli.reporting.files import report_text
 
-    if quiet and verbose:
-        raise typer.BadParameter("-q and -v exclude each other")
-    folder = output_folder("reconstruct", capture.resolve().name, out)
+    session = Session(
+        "reconstruct", Path(os.path.abspath(capture)), out=out, json=json, quiet=quiet,  # noqa: PTH100
+        verbose=verbose, force=force,
+    )  # fmt: skip
+    folder = session.folder
     options = Options(
         capture=capture, instruction=instruction, auto=auto_masks, second=second,
         materials=_pairs(material, "--material"),
@@ -83,13 +88,15 @@ def reconstruct(
         seed=seed,
     )  # fmt: skip
     report = run_reconstruct(options, folder)
-    text = report.model_dump_json(indent=2) + "\n"
-    write_atomically(folder / REPORT_NAME, text)
+    session.save(report)
     if json:
-        sys.stdout.buffer.write(text.encode())
+        sys.stdout.flush()
+        sys.stdout.buffer.write(report_text(report).encode())
         sys.stdout.buffer.flush()
     else:
         _show(report, folder, quiet=quiet, verbose=verbose)
+    if report.interrupted:
+        return INTERRUPTED
     return OK if report.status == "success" else NO
 
 

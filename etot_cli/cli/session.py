@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import signal
 import sys
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 import typer
 
 from etot_cli.cli.exits import INTERRUPTED, NO, OK
+from etot_cli.cli.interrupts import uninterrupted
 
 if TYPE_CHECKING:
     from etot_cli.planning.result import SearchObserver
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
     from etot_cli.reporting.models import Report
+    from etot_cli.reporting.reconstruct_report import ReconstructReport
     from etot_cli.reporting.summary import Summary
 
 Progress = Callable[[int, int], None]
@@ -36,9 +38,10 @@ class Session:
         json: print the report alone on standard output.
         quiet: print the answer only.
         verbose: print more.
+        force: a report that is in the folder may be replaced.
 
     Raises:
-        EtotError: the output folder cannot be written.
+        EtotError: the output folder cannot be written, or is another run's.
     """
 
     def __init__(
@@ -50,13 +53,17 @@ class Session:
         json: bool,
         quiet: bool,
         verbose: bool,
+        force: bool = False,
     ) -> None:
         if quiet and verbose:
             raise typer.BadParameter("-q and -v exclude each other")
-        from etot_cli.reporting.files import output_folder
+        from etot_cli.reporting.files import claim_folder
         from etot_cli.reporting.style import Verbosity
 
-        self.folder = output_folder(command, subject.stem, out)
+        claim = claim_folder(command, subject.stem, out, force=force)
+        self.folder = claim.path
+        # The folder is this run's until the command is over, however it ends.
+        weakref.finalize(self, claim.release)
         self._subject = subject
         self._json = json
         self._verbosity = Verbosity(1 + verbose - quiet)
@@ -80,12 +87,23 @@ class Session:
             return None
         return PlainLog(sys.stderr, detailed=self._verbosity is Verbosity.VERBOSE)
 
-    def save(self, report: Report) -> Path:
-        """Writes the report; a second Ctrl-C does not tear it."""
-        from etot_cli.reporting.files import write_report
+    def save(self, report: Report | ReconstructReport) -> Path:
+        """Writes the report, to another place where its folder does not take it.
 
-        with _uninterrupted():
-            return write_report(report, self.folder)
+        Raises:
+            ServiceError: no place takes it, or only another one; the message names that.
+        """
+        from etot_cli.errors import EtotError, ServiceError
+        from etot_cli.reporting.files import rescue_report, write_report
+
+        with uninterrupted():
+            try:
+                return write_report(report, self.folder)
+            except EtotError as error:
+                place = rescue_report(report)
+                kept = "it is lost" if place is None else f"it is in {place}"
+                answer = f"{report.status}; the report: {kept}"
+                raise ServiceError(f"{error}; the answer was: {answer}") from None
 
     def add_page(self, report: Report, write: Callable[[Progress], Path]) -> None:
         """Writes the page beside a saved report, and the report once more with its address.
@@ -140,7 +158,7 @@ class Session:
         from etot_cli.reporting.style import make_console
         from etot_cli.reporting.summary import Summary
 
-        with _uninterrupted():
+        with uninterrupted():
             if self._json:
                 # Bytes, so that the output is the file's UTF-8 whatever the locale.
                 sys.stdout.flush()
@@ -166,17 +184,3 @@ class Session:
 
         detailed = self._verbosity is Verbosity.VERBOSE
         return LiveView(console, f"etot plan {self._subject}", detailed=detailed)
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Holds Ctrl-C off for the short time that results are written."""
-    try:
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    except ValueError:  # not the main thread, where signals do not arrive anyway
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import OK
-from etot_cli.cli.options import Html, Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
 from etot_cli.cli.session import Session
 
 
@@ -36,6 +36,7 @@ def simulate(
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
     html: Html = True,
     out: Out = None,
+    force: Force = False,
     seed: Seed = 0,
     json: Json = False,
     quiet: Quiet = False,
@@ -56,7 +57,9 @@ def simulate(
         return OK
     if plan is None:
         raise typer.BadParameter("missing --plan (or --capture to render the scene)")
-    session = Session("simulate", task, out=out, json=json, quiet=quiet, verbose=verbose)
+    session = Session(
+        "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
+    )
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
 
@@ -68,7 +71,11 @@ def simulate(
     # Saved before rendering: what happened is on record even where OpenGL is missing.
     path = session.save(report)
     if (video or frames) and not report.interrupted:
-        render_files(simulation, session.folder, video=video, frames=frames)
+        try:
+            render_files(simulation, session.folder, video=video, frames=frames)
+        except KeyboardInterrupt:
+            report.interrupted, report.status = True, "interrupted"
+            report.cause = report.cause or "stopped while the pictures were being rendered"
         session.save(report)
     if html and not report.interrupted:
         from etot_cli.commands.pages import write_simulate_page

@@ -33,6 +33,7 @@ from etot_cli.reporting.plan_report import (
     vlm_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.specs.reading import printable
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 
@@ -192,5 +193,5 @@ def _report(
 def task_model(file: Path, task: Task | None) -> TaskModel:
     """The task as it stands in reports; None when the command was stopped before it was read."""
     if task is None:
-        return TaskModel(name=file.stem, file=str(file), instruction="")
-    return TaskModel(name=task.name, file=str(file), instruction=task.instruction)
+        return TaskModel(name=file.stem, file=printable(file), instruction="")
+    return TaskModel(name=task.name, file=printable(file), instruction=task.instruction)

@@ -28,6 +28,7 @@ from etot_cli.reporting.reconstruct_report import (
     ReconstructReport,
 )
 from etot_cli.specs.load import load_scene
+from etot_cli.specs.reading import printable
 from etot_cli.world.build.meshes import convex_pieces
 
 __all__ = ["Options", "run_reconstruct"]
@@ -37,33 +38,54 @@ SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "
 def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
     """Reconstructs a capture and writes everything but the report into ``folder``.
 
+    Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
+
     Raises:
         EtotError: the capture is unusable, a server is missing, or the folder cannot be written.
     """
     watch = Stopwatch()
-    with watch.phase("reconstruct"):
-        twin = reconstruct(options)
-    with watch.phase("write"):
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            files, pieces = _write(twin, options, folder)
-        except OSError as error:
-            raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
+    twin: Twin | None = None
+    files: dict[str, str] = {}
+    pieces: list[PiecesModel] = []
+    interrupted = False
+    try:
+        with watch.phase("reconstruct"):
+            twin = reconstruct(options)
+        with watch.phase("write"):
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+                files, pieces = _write(twin, options, folder)
+            except OSError as error:
+                raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
+    except KeyboardInterrupt:
+        interrupted = True
+    return _report(options, twin, files, pieces, watch, interrupted=interrupted)
+
+
+def _report(
+    options: Options,
+    twin: Twin | None,
+    files: dict[str, str],
+    pieces: list[PiecesModel],
+    watch: Stopwatch,
+    *,
+    interrupted: bool,
+) -> ReconstructReport:
+    """The report of what there is; ``twin`` is None when that was interrupted."""
     usable = SCENE if "scene" in files else None
-    still = all(
-        rest.moved * 1000 <= assembly.SETTLE_MM and rest.turned <= assembly.SETTLE_DEG
-        for rest in twin.settled.values()
-    )
-    whole = usable is not None and bool(twin.settled) and still
-    return ReconstructReport.model_validate(
-        {
-            "status": "success" if whole else "partial",
-            "seed": options.seed,
-            "interrupted": False,
-            "versions": versions(),
-            "timing": watch.timing(),
-            "capture": str(options.capture),
-            "instruction": options.instruction,
+    status = "interrupted" if interrupted else "partial"
+    if twin is not None and not interrupted and usable and twin.settled:
+        still = all(
+            rest.moved * 1000 <= assembly.SETTLE_MM and rest.turned <= assembly.SETTLE_DEG
+            for rest in twin.settled.values()
+        )
+        status = "success" if still else "partial"
+    found: dict[str, Any] = {
+        "desk_top": None, "tilt_deg": 0.0, "depth_shift_px": (0, 0), "objects": [], "joints": [],
+        "warnings": [], "stages": {},
+    }  # fmt: skip
+    if twin is not None:
+        found = {
             "desk_top": twin.seen.desk_top,
             "tilt_deg": twin.seen.tilt_deg,
             "depth_shift_px": twin.seen.shift,
@@ -75,14 +97,25 @@ def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
                 )
                 for joint in twin.joints
             ],
+            "warnings": twin.warnings,
+            "stages": {name: round(max(value, 0.0), 4) for name, value in twin.timing.items()},
+        }  # fmt: skip
+    return ReconstructReport.model_validate(
+        {
+            "status": status,
+            "seed": options.seed,
+            "interrupted": interrupted,
+            "versions": versions(),
+            "timing": watch.timing(),
+            "capture": printable(options.capture),
+            "instruction": options.instruction,
             "pieces": pieces,
             "scene": usable,
             "task": files.get("task"),
-            "warnings": twin.warnings,
             "files": files,
-            "stages": {name: round(max(value, 0.0), 4) for name, value in twin.timing.items()},
+            **found,
         }
-    )  # fmt: skip
+    )
 
 
 def _three(values: Any) -> tuple[float, float, float]:

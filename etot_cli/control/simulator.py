@@ -17,13 +17,13 @@ from typing import Any
 
 from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.control.simulated_world import Performed, SimulatedWorld
-from etot_cli.control.workers import METHOD, WorkerLostError, WorkerPool
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import DESK, Cause, CauseKind, SceneState
+from etot_cli.world.workers import METHOD, WorkerLostError, WorkerPool
 
 WORLD_SEED_STRIDE = 7919
 """Seeds of the varied worlds are far apart from those a user counts through."""

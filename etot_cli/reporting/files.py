@@ -3,52 +3,148 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
+import tempfile
 from datetime import datetime
 from pathlib import Path
+from types import ModuleType
+
+from pydantic_core import PydanticSerializationError
 
 from etot_cli.errors import EtotError
-from etot_cli.reporting.models import Report
+from etot_cli.reporting.models import Model
+from etot_cli.specs.reading import printable
+from etot_cli.specs.writing import replacing
+
+fcntl: ModuleType | None
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
 
 REPORT_NAME = "report.json"
 RESULTS = Path("results")
 """Default parent of all output folders, below the current directory."""
+MAX_STEM = 60
+"""Of an input's name in a folder's name; file systems take 255 bytes [characters]."""
+MAX_SAME_SECOND = 1000
+"""Runs on one input that begin in the same second."""
+PROBE_BYTES = 256 * 1024
+"""About the size of a large report."""
 
 
-def report_text(report: Report) -> str:
+def report_text(report: Model) -> str:
     """The report as JSON, the same on standard output and in the file."""
-    return report.model_dump_json(indent=2) + "\n"
+    try:
+        return report.model_dump_json(indent=2) + "\n"
+    except PydanticSerializationError:
+        # Half a character, from an argument that is not UTF-8.
+        data = report.model_dump(by_alias=True)
+        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+        return text.encode("utf-8", "replace").decode() + "\n"
 
 
-def output_folder(command: str, name: str, out: Path | None) -> Path:
-    """The folder for a run's files; it is not created yet, but checked as far as that can be done.
+class Claim:
+    """A run's folder, held until :meth:`release`: no other run writes there meanwhile.
+
+    The lock is the system's own on the folder itself, so it ends with the process however that
+    ends, and leaves no file behind. Where there are no such locks, only reports are protected.
+    """
+
+    def __init__(self, path: Path, created: list[Path]) -> None:
+        self.path = path
+        self._created = created
+        self._handle: int | None = None
+        if fcntl is None:
+            return
+        try:
+            self._handle = os.open(path, os.O_RDONLY)
+            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            self.release()
+            raise EtotError(f"another run is writing to {path}; give each its own --out") from None
+        except OSError:
+            self.release()  # a file system without locks
+
+    def release(self) -> None:
+        """Lets the folder go, and removes what of it was made for nothing; idempotent."""
+        handle, self._handle = self._handle, None
+        for folder in self._created:
+            with contextlib.suppress(OSError):  # there is something in it
+                folder.rmdir()
+        self._created = []
+        if handle is not None:
+            os.close(handle)
+
+
+def claim_folder(command: str, name: str, out: Path | None, *, force: bool = False) -> Claim:
+    """Makes the folder for a run's files, for this run alone.
 
     Args:
         command: the subcommand, part of the default folder.
         name: what the run is about, usually the input file's stem.
         out: the folder that the user asked for; None for ``results/<command>/<name>-<time>``.
+        force: a report that is there already may be replaced.
 
     Raises:
-        EtotError: nothing can be written there.
+        EtotError: nothing can be written there, a report is there, or another run is.
     """
-    if out is None:
-        stem = f"{name}-{datetime.now():%Y%m%d-%H%M%S}"
-        out = RESULTS / command / stem
-        repeat = 2
-        while out.exists():
-            out = RESULTS / command / f"{stem}-{repeat}"
-            repeat += 1
-    present = out.absolute()
-    while not present.exists() and present != present.parent:
-        present = present.parent
-    if not present.is_dir():
-        raise EtotError(f"cannot write to {out}: {present} is not a folder")
-    if not os.access(present, os.W_OK | os.X_OK):
-        raise EtotError(f"cannot write to {out}: no permission for {present}")
-    return out
+    if out is not None:
+        claim = _make(out)
+        if not force and (out / REPORT_NAME).exists():
+            claim.release()
+            raise EtotError(
+                f"there is a report in {out} already; give another --out, or --force to replace it"
+            )
+        return claim
+    # A name that a file system does not take must not cost the result.
+    short = name.encode("utf-8", "replace").decode()[:MAX_STEM] or command
+    stem = f"{short}-{datetime.now():%Y%m%d-%H%M%S}"
+    for repeat in range(1, MAX_SAME_SECOND + 1):
+        path = RESULTS / command / (stem if repeat == 1 else f"{stem}-{repeat}")
+        try:
+            return _make(path, exclusive=True)
+        except FileExistsError:
+            continue
+    raise EtotError(f"{RESULTS / command} holds {MAX_SAME_SECOND} runs of this second already")
 
 
-def write_report(report: Report, folder: Path) -> Path:
+def _make(path: Path, *, exclusive: bool = False) -> Claim:
+    """The folder, made where it is missing, checked by writing to it."""
+    missing = []
+    try:
+        # Fails where the working directory has been removed. "a/.." of a missing a is nothing.
+        present = Path(os.path.abspath(path))  # noqa: PTH100
+        while not present.exists() and present != present.parent:
+            missing.append(present)
+            present = present.parent
+        if not present.is_dir():
+            raise EtotError(f"cannot write to {path}: {present} is not a folder")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.mkdir(exist_ok=not exclusive)
+        claim = Claim(path, missing)
+    except FileExistsError:
+        if exclusive:
+            raise
+        raise EtotError(f"cannot write to {path}: it is not a folder") from None
+    except (OSError, ValueError) as error:
+        raise EtotError(f"cannot write to {path}: {_reason(error)}") from None
+    try:
+        # A full disk is noticed before the work and not after it.
+        with tempfile.TemporaryFile(dir=path) as probe:
+            probe.write(bytes(PROBE_BYTES))
+    except OSError as error:
+        claim.release()
+        raise EtotError(f"cannot write to {path}: {_reason(error)}") from None
+    return claim
+
+
+def _reason(error: OSError | ValueError) -> str:
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)
+
+
+def write_report(report: Model, folder: Path) -> Path:
     """Writes ``report.json`` into a folder, creating it.
 
     Raises:
@@ -59,24 +155,27 @@ def write_report(report: Report, folder: Path) -> Path:
     return path
 
 
+def rescue_report(report: Model) -> Path | None:
+    """Writes a report that its folder did not take to the system's temporary folder.
+
+    Returns:
+        the file; None where that takes it neither.
+    """
+    try:
+        folder = Path(tempfile.mkdtemp(prefix="etot-"))
+        return write_report(report, folder)
+    except (OSError, EtotError):
+        return None
+
+
 def write_atomically(path: Path, text: str) -> None:
     """Replaces a file's content in one step: a reader sees the old or the new text, never a part.
 
     Raises:
         EtotError: the file system refuses.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            with open(temporary, "w", encoding="utf-8", newline="\n") as stream:
-                stream.write(text)
-                stream.flush()
-                os.fsync(stream.fileno())
-            os.replace(temporary, path)
-        except BaseException:
-            with contextlib.suppress(OSError):
-                temporary.unlink()
-            raise
+        with replacing(path) as stream:
+            stream.write(text.encode("utf-8", "replace"))
     except OSError as error:
-        raise EtotError(f"cannot write {path}: {error.strerror or error}") from error
+        raise EtotError(f"cannot write {printable(path)}: {_reason(error)}") from error

@@ -92,7 +92,8 @@ class ReconstructReport(Model):
     capture: str
     """The capture folder as named on the command line."""
     instruction: str | None
-    desk_top: Metres
+    desk_top: Metres | None
+    """Null where the work was interrupted before the desk was found."""
     tilt_deg: float = Field(ge=0)
     """By how much the camera's pose was levelled."""
     depth_shift_px: tuple[int, int]

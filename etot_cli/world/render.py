@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import ServiceError, WorldError
 from etot_cli.specs.scene import Scene
+from etot_cli.specs.writing import replacing
 from etot_cli.world.model import World, build_world
 from etot_cli.world.offscreen import Image, OffscreenRenderer
 from etot_cli.world.recorder import Trajectory
@@ -229,7 +230,7 @@ def write_video(scene: Scene, trajectories: Sequence[Any], path: Path, fps: int 
     try:
         with WorldRenderer(build_world(scene), first_camera(scene)) as renderer:
             _make_folder(path.parent)
-            with av.open(str(path), "w") as container:
+            with replacing(path) as file, av.open(file, "w", format="mp4") as container:
                 stream = container.add_stream("libx264", rate=fps)
                 stream.width, stream.height = renderer.width, renderer.height
                 stream.pix_fmt = "yuv420p"
@@ -239,7 +240,7 @@ def write_video(scene: Scene, trajectories: Sequence[Any], path: Path, fps: int 
                         image = renderer.frame(trajectory.qpos[row])
                         container.mux(stream.encode(av.VideoFrame.from_ndarray(image, "rgb24")))
                 container.mux(stream.encode())
-    except (FFmpegError, ValueError) as error:  # an unknown codec is a ValueError
+    except (FFmpegError, OSError, ValueError) as error:  # an unknown codec is a ValueError
         raise ServiceError(f"cannot write {path}: {error}") from error
 
 

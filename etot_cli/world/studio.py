@@ -7,12 +7,9 @@ world. They are spawned, not forked: an OpenGL driver does not survive a fork.
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +20,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import ServiceError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.engine import import_mujoco
+from etot_cli.world.workers import WorkerLostError, WorkerPool
 
 FEW = 6
 """So many pictures are drawn sooner here than processes and worlds come up."""
@@ -97,8 +95,8 @@ def take(
             for future in finished:
                 try:
                     results[waiting.pop(future)] = future.result()
-                except BrokenProcessPool as error:
-                    raise ServiceError(f"a rendering process ended unexpectedly: {error}") from None
+                except WorkerLostError as error:
+                    raise ServiceError(f"a picture cannot be rendered: {error}") from None
                 done += 1
                 if progress is not None:
                     progress(done, len(shots))
@@ -123,19 +121,11 @@ def _crew(studio: Studio, jobs: int, count: int) -> Iterator[Submit]:
         finally:
             worker.close()
         return
-    pool = ProcessPoolExecutor(
-        jobs,
-        mp_context=multiprocessing.get_context("spawn"),
-        initializer=_begin,
-        initargs=(studio,),
-    )
+    pool = WorkerPool(jobs, _begin, (studio,), method="spawn")
     try:
         yield lambda shot: pool.submit(_take, shot)
     finally:
-        processes = list((pool._processes or {}).values())
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
-            process.terminate()
+        pool.close()
 
 
 class _Worker:
@@ -174,8 +164,6 @@ _mine: list[_Worker | Exception] = []
 
 
 def _begin(studio: Studio) -> None:
-    # Ctrl-C reaches the whole process group; only the main process answers it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         _mine.append(_Worker(studio))
     except Exception as error:  # reported by the first picture, with its own message

@@ -1,10 +1,12 @@
 """The program ``etot`` with toy rooms: ``python toy_etot.py ARGUMENTS…``.
 
-The toy world needs a second for an action on ``slow``; actions on ``bad`` fail.
+The toy world takes its time for an action on ``slow``; actions on ``bad`` fail. ``TOY_BRANCHES``
+replaces the branches, one a comma.
 """
 
 from __future__ import annotations
 
+import os
 import time
 
 from etot_cli.cli.app import main
@@ -23,7 +25,8 @@ def rule(history: str, action: Action, world: int) -> Cause | None:
 
 
 def toy_rooms() -> rooms.Rooms:
-    reasoner = ToyReasoner(["bad", "good slow"], {"bad @ 0": "good bad"})
+    branches = os.environ.get("TOY_BRANCHES", "bad,good slow").split(",")
+    reasoner = ToyReasoner(branches, {"bad @ 0": "good bad"})
     return ToyRooms(ToySimulator(rule), reasoner).rooms()
 
 

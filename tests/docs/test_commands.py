@@ -103,7 +103,7 @@ def tape(tmp_path_factory: pytest.TempPathFactory) -> Path:
         patch.setenv("OPENAI_API_KEY", "sk-of-no-use")
         patch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
         words = ["plan", "tasks/task5.yaml", "--reasoner", "vlm", "--record", str(folder / "tape")]
-        done = etot([*words, "--out", str(folder / "out"), "-q"])
+        done = etot([*words, "--out", str(folder / "out"), "--force", "-q"])
     assert done.returncode == 0, done.stderr
     return folder / "tape"
 
@@ -149,19 +149,19 @@ def test_example_works(
             monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
             monkeypatch.setenv("ETOT_VLM_PRICE_IN", "1")
             monkeypatch.setenv("ETOT_VLM_PRICE_OUT", "1")
-            done = etot([*words, "--out", str(tmp_path / "out"), "-q"])
+            done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
         assert done.returncode == 0, f"{page}: {done.stdout}{done.stderr}"
         return
     words = [str(captured) if word in ("CAPTURE", "CAPTURE_DIR") else word for word in words]
     if SERVED & set(words):
-        done = etot([*words, "--out", str(tmp_path / "out"), "-q"])
+        done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
         assert done.returncode == 3, f"{page}: {done.stdout}{done.stderr}"
         assert "Traceback" not in done.stderr
         return
     words = [str(planned) if word == REPORT else word for word in words if word not in LEFT_OUT]
     if "--out" in words:
         del words[words.index("--out") : words.index("--out") + 2]
-    done = etot([*words, "--out", str(tmp_path / "out"), "-q"])
+    done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
     expected = next((code for plan, code in ANSWERS.items() if plan in words), 0)
     assert done.returncode == expected, f"{page}: {done.stdout}{done.stderr}"
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))

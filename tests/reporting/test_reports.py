@@ -13,7 +13,7 @@ from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.reporting.files import output_folder, report_text, write_atomically, write_report
+from etot_cli.reporting.files import claim_folder, report_text, write_atomically, write_report
 from etot_cli.reporting.models import Report
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.schemas import REPORTS, schema_text
@@ -175,11 +175,47 @@ def test_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_output_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert output_folder("plan", "toy", Path("x/y")) == Path("x/y")
-    first = output_folder("plan", "toy", None)
-    assert first.parts[:2] == ("results", "plan") and first.name.startswith("toy-")
-    first.mkdir(parents=True)
-    assert output_folder("plan", "toy", None) != first
+    asked = claim_folder("plan", "toy", Path("x/y"))
+    assert asked.path == Path("x/y") and asked.path.is_dir()
+    first, second = claim_folder("plan", "toy", None), claim_folder("plan", "toy", None)
+    assert first.path.parts[:2] == ("results", "plan") and first.path.name.startswith("toy-")
+    assert first.path != second.path
+    (first.path / "file").write_text("")
+    for claim in (asked, first, second):
+        claim.release()
+    # What was made for nothing is gone.
+    assert first.path.is_dir() and not second.path.exists() and not Path("x").exists()
     (tmp_path / "file").write_text("")
     with pytest.raises(EtotError, match="is not a folder"):
-        output_folder("plan", "toy", Path("file/below"))
+        claim_folder("plan", "toy", Path("file/below"))
+
+
+def test_a_folder_belongs_to_one_run(tmp_path: Path) -> None:
+    held = claim_folder("plan", "toy", tmp_path / "out")
+    for force in (False, True):
+        with pytest.raises(EtotError, match="another run is writing"):
+            claim_folder("plan", "toy", tmp_path / "out", force=force)
+    write_atomically(held.path / "report.json", "{}")
+    held.release()
+    with pytest.raises(EtotError, match="--force"):
+        claim_folder("plan", "toy", tmp_path / "out")
+    claim_folder("plan", "toy", tmp_path / "out", force=True).release()
+    assert (held.path / "report.json").read_text() == "{}"
+
+
+@pytest.mark.parametrize("name", ["a" * 300, "\udcff\udcfe", "é" * 200])
+def test_any_name_of_an_input_gives_a_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    claim_folder("plan", name, None).release()
+
+
+def test_a_planted_link_is_not_followed(tmp_path: Path) -> None:
+    (tmp_path / "precious").write_text("mine")
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "report.json").symlink_to(tmp_path / "precious")
+    write_atomically(folder / "report.json", "{}")
+    assert (tmp_path / "precious").read_text() == "mine"
+    assert not (folder / "report.json").is_symlink()

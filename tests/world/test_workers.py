@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from etot_cli.control.workers import WorkerLostError, WorkerPool
 from etot_cli.skills.action import parse_plan
 from etot_cli.world.state import CauseKind
+from etot_cli.world.workers import WorkerLostError, WorkerPool
 
 SOON_S = 15.0
 
@@ -115,8 +115,8 @@ def test_closing_ends_what_is_under_way() -> None:
 
 PARENT = """
 import time
-from etot_cli.control.workers import WorkerPool
-from tests.control.test_workers import nothing, who
+from etot_cli.world.workers import WorkerPool
+from tests.world.test_workers import nothing, who
 
 if __name__ == "__main__":
     pool = WorkerPool(2, nothing)
@@ -137,7 +137,7 @@ def test_no_worker_outlives_its_parent(tmp_path: Path, method: str, number: int)
     if method == "fork" and not sys.platform.startswith("linux"):
         pytest.skip("workers are forked on Linux alone")
     script = tmp_path / "parent.py"
-    head = f"import etot_cli.control.workers as workers\nworkers.METHOD = {method!r}\n"
+    head = f"import etot_cli.world.workers as workers\nworkers.METHOD = {method!r}\n"
     script.write_text(head + PARENT)
     root = Path(__file__).parents[2]
     parent = subprocess.Popen(

@@ -67,15 +67,23 @@ class WorkerPool:
         begin: called first in every worker. With ``fork`` its arguments are inherited, with
             ``spawn`` they are pickled.
         arguments: for ``begin``.
+        method: ``fork`` or ``spawn``; None for what suits the system. What does not survive a
+            fork, such as a graphics driver, needs ``spawn``.
 
     Raises:
         OSError, RuntimeError, MemoryError: the system has no room for a single worker.
     """
 
     def __init__(
-        self, jobs: int, begin: Callable[..., None], arguments: tuple[Any, ...] = ()
+        self,
+        jobs: int,
+        begin: Callable[..., None],
+        arguments: tuple[Any, ...] = (),
+        *,
+        method: str | None = None,
     ) -> None:
-        self._context: Any = multiprocessing.get_context(METHOD)
+        self._method = method or METHOD
+        self._context: Any = multiprocessing.get_context(self._method)
         self._begin = begin, arguments
         self._jobs = jobs
         self._waiting: deque[_Task] = deque()
@@ -161,12 +169,13 @@ class WorkerPool:
 
     def _start(self) -> _Worker:
         ours, theirs = self._context.Pipe()
-        inherited = [worker.pipe for worker in self._workers] if METHOD == "fork" else []
+        inherited = []
+        if self._method == "fork":
+            inherited = [ours, self._wake, self._bell, *(w.pipe for w in self._workers)]
         try:
             process = self._context.Process(
                 target=_work,
-                args=(theirs, [ours, self._wake, self._bell, *inherited]
-                      if METHOD == "fork" else [], os.getpid(), *self._begin),
+                args=(theirs, inherited, os.getpid(), *self._begin),
                 daemon=True,
             )  # fmt: skip
             process.start()
