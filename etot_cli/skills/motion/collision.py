@@ -54,7 +54,14 @@ class CollisionChecker:
                 self._model.geom_margin[world.geoms_of(name)] = _MARGIN
         # The broad phase looks at bodies' margins, which are fixed when a model is compiled.
         self._model.body_margin[:] = _MARGIN
+        self._solid = (world.model.geom_contype | world.model.geom_conaffinity) != 0
+        self._carried: int | None = None
+        self._select_pairs(None)
         self._tool = world.robot.tool_site
+        self._hand = np.nonzero(self._owner == -2)[0]
+        self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
+        fingers = np.isin(self._model.geom_bodyid, world.robot.finger_bodies)
+        self._finger = fingers & (self._owner == -2)
         self.checks = 0
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
@@ -64,6 +71,20 @@ class CollisionChecker:
         self._data.qpos[:] = data.qpos
         self._live = data
         self._riders.clear()
+
+    def _select_pairs(self, carried: int | None) -> None:
+        """Makes MuJoCo look only at pairs with the robot or the carried object (its number) in
+        them: how the other things touch each other is none of the robot's business.
+        """
+        model = self._model
+        active = self._owner < -1
+        if carried is not None:
+            active = active | (self._owner == carried)
+        model.geom_contype[:] = active & self._solid
+        model.geom_conaffinity[:] = self._solid
+        model.body_contype[:] = 0
+        np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)
+        self._carried = carried
 
     def set_joint(self, joint: str, value: float) -> None:
         """Moves a door or drawer of the frozen scene, with what rides in or on a drawer."""
@@ -89,6 +110,7 @@ class CollisionChecker:
         allow: Iterable[str] = (),
         allow_attached: Iterable[str] = (),
         hand_only: bool = False,
+        worked: tuple[str, float] | None = None,
     ) -> list[str]:
         """Addresses of what the robot or the attached object would come too close to.
 
@@ -99,6 +121,8 @@ class CollisionChecker:
             allow: objects that the gripper (not the arm) may touch.
             allow_attached: addresses that the attached object may touch.
             hand_only: look at gripper and attached object alone.
+            worked: an object that the robot works on, and the distance required of it [m]
+                (negative: it is pressed on).
 
         Returns:
             Addresses as in ``World.geom_address``; ``robot`` for a self-collision. Empty: free.
@@ -109,6 +133,9 @@ class CollisionChecker:
         self._deadline.check()
         self.checks += 1
         model, data, world = self._model, self._data, self.world
+        carried = None if attached is None else self._object_names.index(attached.name)
+        if carried != self._carried:
+            self._select_pairs(carried)
         data.qpos[world.robot.qpos] = joints
         if attached is not None:
             mujoco.mj_kinematics(model, data)
@@ -123,9 +150,9 @@ class CollisionChecker:
             return []
         geoms = data.contact.geom
         owners = self._owner[geoms]
-        held = self._object_names.index(attached.name) if attached else -9
+        held = -9 if carried is None else carried
         moving = (owners < -1) | (owners == held)
-        close = data.contact.dist < clearance
+        close = data.contact.dist < self._required(owners, clearance, worked)
         candidates = np.nonzero(close & moving.any(axis=1))[0]
         if len(candidates) == 0:
             return []
@@ -163,6 +190,62 @@ class CollisionChecker:
             found[world.geom_address[two]] = None
         return list(found)
 
+    def _required(
+        self, owners: Vector, clearance: float, worked: tuple[str, float] | None
+    ) -> Vector | float:
+        """The distance that each contact of owners (k, 2) has to keep (k,) [m]."""
+        if worked is None:
+            return clearance
+        touched = (owners == self._object_names.index(worked[0])).any(axis=1)
+        return np.where(touched, worked[1], clearance)
+
+    def hand_hits(
+        self,
+        tool: Pose,
+        *,
+        clearance: float,
+        fingers_only: bool = False,
+        allow: Iterable[str] = (),
+        worked: tuple[str, float] | None = None,
+    ) -> list[str]:
+        """Addresses of what the hand alone would come too close to, wherever the arm might be.
+
+        Needs no inverse kinematics, so it is the cheap first look at a tool pose.
+
+        Args:
+            tool: tool pose, base frame.
+            clearance: required distance [m].
+            fingers_only: look at the fingers alone, which are much the same from all sides.
+            allow: objects that may be touched.
+            worked: as in :meth:`hits`.
+        """
+        self.checks += 1
+        model, data = self._model, self._data
+        mujoco.mj_kinematics(model, data)
+        move = tool @ self.tool_pose().inverse()
+        bodies, geoms = self._hand_bodies, self._hand
+        data.xipos[bodies] = data.xipos[bodies] @ move.rotation.T + move.position
+        data.geom_xpos[geoms] = data.geom_xpos[geoms] @ move.rotation.T + move.position
+        for frames, rows in ((data.ximat, bodies), (data.geom_xmat, geoms)):
+            frames[rows] = (move.rotation @ frames[rows].reshape(-1, 3, 3)).reshape(-1, 9)
+        mujoco.mj_collision(model, data)
+        if data.ncon == 0:
+            return []
+        pairs = data.contact.geom
+        owners = self._owner[pairs]
+        near = data.contact.dist < self._required(owners, clearance, worked)
+        hand = owners == -2
+        if fingers_only:
+            hand &= self._finger[pairs]
+        near &= hand.any(axis=1) & (owners > -2).any(axis=1)
+        allowed = set(allow)
+        found: dict[str, None] = {}
+        for index in np.nonzero(near)[0]:
+            other = int(pairs[index][int(owners[index][0] == -2)])
+            if self.world.geom_object[other] not in allowed:
+                found[self.world.geom_address[other]] = None
+        return list(found)
+
     def extent(self, name: str, rotation: Vector) -> tuple[Vector, Vector]:
         """Bounds (3,), (3,) of an object turned to ``rotation`` (3, 3), relative to its origin."""
         address = self._data.joint(name).qpos
@@ -180,7 +263,7 @@ class CollisionChecker:
         return object_bounds(self.world, self._data, name)
 
     def tool_pose(self) -> Pose:
-        """Tool pose of the configuration checked last."""
+        """Tool pose of the configuration that was set last."""
         data = self._data
         return Pose(
             data.site_xpos[self._tool].copy(), data.site_xmat[self._tool].reshape(3, 3).copy()
