@@ -72,6 +72,8 @@ class Graspable:
     approaches: tuple[tuple[float, float, float], ...]
     behind: float = 1.0
     """Free space behind it for a finger when the part is closed [m]; opening adds to it."""
+    bar: bool = False
+    """A free bar, which the hand may come to from all round; else the edge of a panel."""
 
 
 @dataclass(frozen=True)

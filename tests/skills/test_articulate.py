@@ -112,10 +112,18 @@ def test_nothing_to_do_is_done(verb: str) -> None:
 
 
 def test_out_of_reach_is_said() -> None:
-    unit = UNIT | {"at": [0.62, 0.45], "yaw_deg": 40, "drawers": drawers()}
+    unit = UNIT | {"at": [0.62, 0.45], "yaw_deg": 40, "drawers": drawers(handle={})}
     record = episode(unit=unit).do("[OPEN, unit]").record
     assert not record.effect
     assert record.cause is not None and record.cause.kind is CauseKind.UNREACHABLE
+    assert record.cause.objects == ("unit",)
+
+
+def test_what_offers_no_hold_is_told_from_what_is_out_of_reach() -> None:
+    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers()}
+    record = episode(unit=unit).do("[OPEN, unit]").record
+    assert not record.effect
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_GRASP
     assert record.cause.objects == ("unit",)
 
 

@@ -77,7 +77,7 @@ def test_clearance_is_a_distance(checker: CollisionChecker, arm: Arm, stage: Sta
 def test_arm_that_folds_into_itself_is_found(checker: CollisionChecker, arm: Arm) -> None:
     assert checker.hits(arm.home, clearance=0.0) == []
     folded = np.array([-2.05, 0.38, 0.05, 1.36, 3.05, 0.47])
-    assert checker.hits(folded) == ["gripper"]
+    assert checker.hits(folded) == ["robot"]
 
 
 def test_drawer_is_where_it_was_moved_to(checker: CollisionChecker, arm: Arm) -> None:

@@ -8,34 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.part_path import (
     STANDOFF,
-    Effort,
     PreparedMove,
     fraction_open,
     way_back,
 )
-from etot_cli.skills.articulation.search import PartSearch
+from etot_cli.skills.articulation.search import PartSearch, belief_after
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
-from etot_cli.skills.outcome import DONE, Evidence, SkillOutcome, failed
+from etot_cli.skills.outcome import DONE, SkillOutcome, failed
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState
 
 Vector = NDArray[np.float64]
 
-EFFORTS = (
-    Effort(),
-    Effort(thorough=True),
-    Effort(lenient=True),
-    Effort(lenient=True, thorough=True),
-)
-"""Looked at in turn until one has a way."""
 ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
 """Shares of its travel from which on a part is left as it is."""
 TOOL_SPEED = 0.16
@@ -60,22 +51,16 @@ def articulation_motions(belief: Belief, action: Action) -> Iterator[Motion | Sk
         return
     search = PartSearch(belief, part, opening)
     found = False
-    for effort in EFFORTS:
-        for move in search.moves(range(search.count), effort):
-            phases = _phases(belief, move)
-            if phases is not None:
-                found = True
-                yield _motion(belief, action, part, move, phases)
-        if found:
-            return
-    for move in search.ajar_moves() if opening else []:
-        both = _open_in_two(belief, part, move)
-        if both is not None:
+    for move in search.moves():
+        phases = _phases(belief, move)
+        if phases is not None and move.then is not None:
+            second = _phases(belief_after(belief, part, move), move.then)
+            phases = None if second is None else (*phases, *second)
+        if phases is not None:
             found = True
-            yield _motion(belief, action, part, move, both)
+            yield _motion(belief, action, part, move, phases)
     if not found:
-        verb = "open" if opening else "close"
-        yield _no_hold(part.info.owner, part.info.address, verb, search.evidence())
+        yield _no_move(search)
 
 
 def _no_part(belief: Belief, action: Action) -> SkillOutcome:
@@ -89,16 +74,23 @@ def _no_part(belief: Belief, action: Action) -> SkillOutcome:
     return failed(CauseKind.PRECONDITION, [action.target], text)
 
 
-def _no_hold(owner: str, address: str, verb: str, evidence: Evidence) -> SkillOutcome:
-    blocking = evidence.most(excluding=[owner])
+def _no_move(search: PartSearch) -> SkillOutcome:
+    """Why a search that is exhausted found no move."""
+    info, verb = search.part.info, "open" if search.opening else "close"
+    blocking = search.hindrances.blamed()
     if blocking:
         return failed(
             CauseKind.BLOCKED,
-            [*blocking, owner],
-            f"the hand cannot get to {address} to {verb} it: {', '.join(blocking)} in the way",
+            [*blocking, info.owner],
+            f"the hand cannot get to {info.address} to {verb} it: {', '.join(blocking)} in the way",
         )
+    if not search.has_hold:
+        text = f"the hand finds nothing to hold or push to {verb} {info.address}"
+        return failed(CauseKind.NO_GRASP, [info.owner], text)
     return failed(
-        CauseKind.UNREACHABLE, [owner], f"the hand finds no hold within reach to {verb} {address}"
+        CauseKind.UNREACHABLE,
+        [info.owner],
+        f"the arm cannot move {info.address} far enough with any of its holds to {verb} it",
     )
 
 
@@ -145,27 +137,6 @@ def _exits(belief: Belief, move: PreparedMove) -> tuple[Vector, ...]:
             last = last if back is None else back
         exits.append(last)
     return tuple(exits)
-
-
-def _open_in_two(belief: Belief, part: Part, move: PreparedMove) -> tuple[Phase, ...] | None:
-    """One move that leaves the part ajar, and the best one from there."""
-    first = _phases(belief, move)
-    if first is None:
-        return None
-    data = mujoco.MjData(belief.world.model)
-    data.qpos[:] = belief.data.qpos
-    data.ctrl[:] = belief.data.ctrl
-    robot = belief.world.robot
-    data.qpos[robot.qpos] = data.ctrl[robot.ctrl] = move.retreat[-1]
-    data.joint(part.joint).qpos[0] = move.reached
-    mujoco.mj_forward(belief.world.model, data)
-    ajar = belief.in_state(data)
-    search = PartSearch(ajar, part, True)
-    for second in search.moves(range(search.count), Effort()):
-        phases = _phases(ajar, second)
-        if phases is not None:
-            return (*first, *phases)
-    return None
 
 
 def articulation_outcome(

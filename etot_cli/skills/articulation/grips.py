@@ -2,129 +2,106 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.articulation.part_path import (
-    BACK_OUT_STEPS,
-    STANDOFF,
-    Effort,
-    PartFrame,
-    PreparedMove,
-    approaches,
-    is_free,
-    joint_values,
-    travel_length,
-    way_back,
-)
-from etot_cli.skills.articulation.pushes import PENETRATION
-from etot_cli.skills.belief import Belief
+from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
 from etot_cli.skills.grasps.candidates import FINGER_ROOM
-from etot_cli.skills.motion.kinematics import JUMP, Pose, rotation_from_axes, turn_about
-from etot_cli.skills.outcome import Blockers
-from etot_cli.world.index import Graspable, Part
+from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
+from etot_cli.world.index import Graspable
 
 Vector = NDArray[np.float64]
 
-GRIP_TILTS = (0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0)
+PITCHES = (0.0, 0.35, -0.35, 0.7, -0.7, 1.05, -1.05, 1.4, -1.4)
+"""Turns of the hand about a bar that it grips [rad]: a hand that comes obliquely from above reaches
+handles beside which it has no room level."""
+TILTS = (0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0)
 """Leans of the hand about the closing direction when it grips [rad]."""
-AJAR = 0.05
-"""Way of a handle that leaves room for a finger behind the part [m] ..."""
+PLACES = (0.0, 0.7, -0.7)
+"""Where along a bar it is gripped, as shares of what there is."""
+NARROW_ROOM = 0.007
+"""Width for a finger beside what it closes on where there is little [m]."""
+BEHIND_SPARE = 0.002
+"""Distance that a finger keeps from what is behind the part [m]."""
+TILT_COST, PITCH_COST, PLACE_COST, AGAINST_COST = 0.35, 0.25, 0.08, 0.6
+"""What a hold costs per radian of tilt and pitch, off the middle, and where the hand would come
+from beyond the part: the arm hardly ever reaches round it."""
 
 
-def grip_move(
-    belief: Belief,
-    part: Part,
-    grasp: Graspable,
-    value: float,
-    target: float,
-    tilt: float,
-    blockers: Blockers,
-    effort: Effort,
-) -> PreparedMove | None:
-    """The fingers closed on a handle or edge, the hand leaning by ``tilt`` [rad]."""
-    frame = PartFrame(belief, part)
-    now = frame.at(value)
-    center = np.array(grasp.center)
-    radius = float(np.linalg.norm(center[:2]))
-    ajar = abs(value - part.lower)
-    gap = grasp.behind + (ajar * radius if part.info.joint_type == "hinge" else ajar)
-    if gap < FINGER_ROOM:
-        return None
-    largest = belief.world.robot.spec.gripper.opening
-    opening = min(largest, grasp.thickness + 2 * min(FINGER_ROOM, gap - 0.002))
-    closing = np.array(grasp.closing)
-    for approach in grasp.approaches:
-        local = turn_about(closing, tilt) @ np.array(approach) if tilt else np.array(approach)
-        base = rotation_from_axes(local, closing)
-        for spin in (1.0, -1.0):
-            in_part = Pose(center, base @ np.diag([spin, spin, 1.0]))
-            move = _follow_part(
-                belief, part, frame, now, in_part, value, target, opening, True, blockers, effort
-            )
-            if move is not None:
-                return move
-    return None
+@dataclass(frozen=True)
+class Grip:
+    """Fingers closed on a part: a tool pose fixed to it.
 
-
-def _follow_part(
-    belief: Belief,
-    part: Part,
-    frame: PartFrame,
-    now: Pose,
-    in_part: Pose,
-    value: float,
-    target: float,
-    opening: float,
-    grip: bool,
-    blockers: Blockers,
-    effort: Effort,
-) -> PreparedMove | None:
-    """A tool pose fixed to the part, followed along the part's path."""
-    arm = belief.arm
-    tool = now @ in_part
-    belief.checker.set_joint(part.joint, value)
-    belief.checker.set_fingers(opening)
-    start = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    reachable = approach_of(belief, start, tool, False, blockers, effort)
-    if reachable is None:
-        return None
-    before, approach = reachable
-    radius = float(np.linalg.norm(in_part.position[:2]))
-    values = joint_values(part, value, target, radius, effort)
-    along: list[Vector] = []
-    joints = approach[-1]
-    reached = value
-    for step in values[1:]:
-        pose = frame.at(float(step)) @ in_part
-        result = arm.solve(pose, joints)
-        if not result.reached or np.abs(result.joints - joints).max() > JUMP:
-            break
-        belief.checker.set_joint(part.joint, float(step))
-        if not is_free(belief, result.joints, blockers, effort, PENETRATION):
-            break
-        joints = result.joints
-        along.append(joints)
-    belief.checker.set_joint(part.joint, value)
-    retreat = None
-    while along and retreat is None:
-        reached = float(values[len(along)])
-        retreat = way_back(belief, along[-1])
-        if retreat is None:
-            # A folded arm cannot back out; a little earlier it can.
-            del along[-BACK_OUT_STEPS:]
-    if retreat is None:
-        return None
-    length = travel_length(part, value, reached, radius)
-    return PreparedMove(before, approach, np.array(along), length, grip, opening, reached, retreat)
-
-
-def approach_of(
-    belief: Belief, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
-) -> tuple[Vector, Vector] | None:
-    """Joint values at the standoff and along the straight approach, for the first arm branch
-    that is free.
+    ``narrow``: distance between the pads that just passes what they close on, for where the fingers
+    have little room [m]. ``cost``: lower is better.
     """
-    for before, approach in approaches(belief, start, tool, free_spin, blockers, effort):
-        return before, approach
-    return None
+
+    in_part: Pose
+    opening: float
+    narrow: float
+    cost: float
+    grip: bool = True
+    overlap: float = PENETRATION
+    lean: float = 0.0
+
+    @property
+    def point(self) -> Vector:
+        """Where on the part (3,), part frame [m]."""
+        return self.in_part.position
+
+    def touching(self, part: Pose) -> Pose:
+        """Tool pose, for the part's pose; base frame."""
+        return part @ self.in_part
+
+    def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
+        """The tool pose, which goes with the part."""
+        yield part @ self.in_part, lean
+
+
+def grips(travel: PartTravel, grasp: Graspable) -> list[Grip]:
+    """Holds of a handle or edge, the best first."""
+    center, closing = np.array(grasp.center), np.array(grasp.closing)
+    ajar = travel.length(center, travel.part.lower)
+    gap = grasp.behind + ajar
+    if gap < FINGER_ROOM:
+        return []
+    place = travel.at(travel.value)
+    outward = place.position + place.rotation @ center
+    outward = outward * np.array([1.0, 1.0, 0.0]) / max(float(np.hypot(*outward[:2])), 1e-9)
+    along = np.array(grasp.along)
+    largest = travel.belief.world.robot.spec.gripper.opening
+    found: list[Grip] = []
+    for approach in (np.array(item) for item in grasp.approaches):
+        for pitch in PITCHES if grasp.bar else (0.0,):
+            turned = turn_about(along, pitch)
+            for tilt in TILTS:
+                across = turned @ closing
+                axis = turn_about(across, tilt) @ turned @ approach
+                against = 1.0 - float(place.rotation @ axis @ outward)
+                level = float(np.hypot(*(place.rotation @ axis)[:2]))
+                base = (
+                    TILT_COST * abs(tilt)
+                    + PITCH_COST * abs(pitch)
+                    + AGAINST_COST * (against * level)
+                )
+                rotation = rotation_from_axes(axis, across)
+                # A square bar is broader obliquely; the fingers need room beside that.
+                width = grasp.thickness * (abs(np.cos(pitch)) + abs(np.sin(pitch)))
+                for share in PLACES if grasp.bar else (0.0,):
+                    point = center + along * share * grasp.half_along
+                    wide, narrow = (
+                        min(largest, width + 2 * min(room, gap - BEHIND_SPARE))
+                        for room in (FINGER_ROOM, NARROW_ROOM)
+                    )
+                    cost = base + PLACE_COST * abs(share)
+                    found.append(Grip(Pose(point, rotation), wide, narrow, cost))
+    return sorted(found, key=lambda grip: grip.cost)
+
+
+def spun(grip: Grip) -> Grip:
+    """The same hold with the fingers exchanged, which turns the wrist by half a turn."""
+    rotation = grip.in_part.rotation @ np.diag([-1.0, -1.0, 1.0])
+    return replace(grip, in_part=Pose(grip.in_part.position, rotation))

@@ -4,34 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import Pose, straight
-from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.hindrance import Passage
+from etot_cli.skills.motion.kinematics import JUMP, Pose, straight
 from etot_cli.world.index import Part
 
 Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
-PATH_STEP, FINE_STEP = 0.03, 0.012
-"""Spacing of tool poses along the part's path [m]."""
+PATH_STEP, FINE_STEP = 0.03, 0.007
+"""Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 BACK_OUT_STEPS = 2
-
-
-@dataclass(frozen=True)
-class Effort:
-    """How hard a way is looked for.
-
-    ``lenient``: movable objects in the way do not count, physics will show; ``thorough``: finer
-    steps along the path, and all branches of the arm even where the hand seems to have no room.
-    """
-
-    lenient: bool = False
-    thorough: bool = False
+"""Where a folded arm cannot back out, it lets go so many steps earlier."""
+SHORT_RETREAT = 2
+"""Poses of the straight way back that have to be possible at least."""
+CONTACT_CLEARANCE = 0.0005
+"""Distance that the robot keeps from what it has no business with, close to the part [m]."""
+OVERTRAVEL = 0.004
+"""How far beyond the closed position the target of a push lies [m]."""
+PENETRATION = -0.004
+"""Planned overlap of fingers and furniture that is contact, not a collision [m]."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,8 @@ class PreparedMove:
     """Joint values before the contact, up to it, along the part's path, and away from it.
 
     ``grip``: the gripper closes on the part (and opens again after); ``opening`` [m] before.
-    ``reached``: joint value of the part at the path's end.
+    ``reached``: joint value of the part at the path's end. ``then``: the move that goes on from
+    there, worked out for the part as this one leaves it.
     """
 
     before: Vector
@@ -50,22 +49,88 @@ class PreparedMove:
     opening: float
     reached: float
     retreat: Vector
+    then: PreparedMove | None = None
 
 
-class PartFrame:
-    """Poses of a part's frame at joint values, from the present pose of its parent."""
+class Contact(Protocol):
+    """How the hand works on a part: gripping or pushing it at one place."""
 
-    def __init__(self, belief: Belief, part: Part) -> None:
-        self._world, self._part = belief.world, part
-        self._data = belief.scratch
-        self._data.qpos[:] = belief.data.qpos
+    @property
+    def grip(self) -> bool:
+        """The fingers close on the part; else they are closed and press against it."""
+        ...
+
+    @property
+    def opening(self) -> float:
+        """Distance between the pads on the way there [m]."""
+        ...
+
+    @property
+    def point(self) -> Vector:
+        """Where on the part (3,), part frame [m]."""
+        ...
+
+    @property
+    def overlap(self) -> float:
+        """Planned overlap of robot and furniture along the path (negative) [m]."""
+        ...
+
+    def touching(self, part: Pose) -> Pose:
+        """Tool pose where the contact begins, for the part's pose; base frame."""
+        ...
+
+    def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
+        """Tool poses while the part moves and their leans [rad], the preferred one first."""
+        ...
+
+    @property
+    def lean(self) -> float:
+        """Lean of the hand at the beginning [rad]."""
+        ...
+
+
+class PartTravel:
+    """A part, and the joint values that it is taken from and to.
+
+    Args:
+        belief: the part stands in it where it begins.
+        part: door or drawer.
+        target: joint value to reach [m or rad].
+    """
+
+    def __init__(self, belief: Belief, part: Part, target: float) -> None:
+        self.belief, self.part, self.target = belief, part, target
+        self.value = float(belief.data.joint(part.joint).qpos[0])
+        self.owner = part.info.owner
+        self._poses: dict[float, Pose] = {}
 
     def at(self, value: float) -> Pose:
-        """Pose of the part at a joint value [m or rad]."""
-        self._data.joint(self._part.joint).qpos[0] = value
-        mujoco.mj_kinematics(self._world.model, self._data)
-        body = self._data.body(self._part.body)
-        return Pose(body.xpos.copy(), body.xmat.reshape(3, 3).copy())
+        """Pose of the part's frame at a joint value [m or rad]."""
+        if value not in self._poses:
+            world, data = self.belief.world, self.belief.scratch
+            data.qpos[:] = self.belief.data.qpos
+            data.joint(self.part.joint).qpos[0] = value
+            mujoco.mj_kinematics(world.model, data)
+            body = data.body(self.part.body)
+            self._poses[value] = Pose(body.xpos.copy(), body.xmat.reshape(3, 3).copy())
+        return self._poses[value]
+
+    def length(self, point: Vector, reached: float) -> float:
+        """Way of a point of the part (3,) until a joint value is reached [m]."""
+        turned = self.part.info.joint_type == "hinge"
+        count = 8 if turned else 1
+        poses = [self.at(float(v)) for v in np.linspace(self.value, reached, count + 1)]
+        points = np.array([pose.position + pose.rotation @ point for pose in poses])
+        return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+
+    def place(self, value: float) -> None:
+        """Moves the part in the checker's frozen scene."""
+        low, high = sorted((self.part.lower, self.part.upper))
+        self.belief.checker.set_joint(self.part.joint, min(max(value, low), high))
+
+    def passage(self) -> Passage:
+        """A passage in which only the part's own furniture cannot be thought away."""
+        return Passage(self.belief.world.entries, {self.owner})
 
 
 def fraction_open(part: Part, value: float) -> float:
@@ -73,64 +138,152 @@ def fraction_open(part: Part, value: float) -> float:
     return (value - part.lower) / (part.upper - part.lower)
 
 
-def joint_values(part: Part, value: float, target: float, radius: float, effort: Effort) -> Vector:
-    """Joint values from ``value`` to ``target``, spaced along the contact's path."""
-    travel = abs(target - value) * (radius if part.info.joint_type == "hinge" else 1.0)
-    step = FINE_STEP if effort.thorough else PATH_STEP
-    count = max(int(np.ceil(travel / step)), 2)
-    return np.linspace(value, target, count + 1)
-
-
-def travel_length(part: Part, value: float, reached: float, radius: float) -> float:
-    """Length of the contact's way between two joint values [m]."""
-    return abs(reached - value) * (radius if part.info.joint_type == "hinge" else 1.0)
-
-
 def approaches(
-    belief: Belief, start: Pose, tool: Pose, free_spin: bool, blockers: Blockers, effort: Effort
-) -> Iterator[tuple[Vector, Vector]]:
-    """Joint values at the standoff and along the straight approach, for every free arm branch."""
-    arm = belief.arm
-    for before in arm.solutions(start, belief.commanded, free_spin=free_spin):
-        # With a free spin the first solution fixes it for the rest of the way.
-        rotation = arm.forward(before).rotation if free_spin else tool.rotation
-        goal = Pose(tool.position, rotation)
-        path = straight(Pose(start.position, rotation), goal)
-        approach, count = arm.line(path, before, free_spin=free_spin)
-        if count < len(path):
+    travel: PartTravel, contact: Contact, met: Passage
+) -> Iterator[tuple[Vector, Passage]]:
+    """Joint values from the standoff straight to the contact, for every branch of the arm that
+    gets there, and what they come too close to, beginning with what is ``met`` already.
+    """
+    belief, arm = travel.belief, travel.belief.arm
+    travel.place(travel.value)
+    belief.checker.set_fingers(contact.opening)
+    tool = contact.touching(travel.at(travel.value))
+    free_spin = not contact.grip
+    for joints in arm.solutions(tool, belief.commanded, free_spin=free_spin):
+        reached = arm.forward(joints)
+        way = straight(reached, away_from(reached))
+        back, count = arm.line(way, joints, free_spin=free_spin)
+        if count < len(way):
             continue
-        rows = (approach[-1], before, approach[count // 2])
-        hit = next(
-            (row for row in rows if not is_free(belief, row, blockers, effort, 0.0005)), None
-        )
-        if hit is None:
-            yield before, approach
-        elif not effort.thorough and belief.checker.hits(hit, clearance=0.0005, hand_only=True):
-            # The hand itself has no room there, so another branch of the arm has none either.
-            return
+        passage = met.copy()
+        rows = (joints, back[-1], back[count // 2])
+        if all(_admitted(belief, row, passage) for row in rows):
+            yield np.vstack([back[::-1], joints]), passage
+
+
+def _admitted(belief: Belief, joints: Vector, passage: Passage) -> bool:
+    return passage.admits(belief.checker.hits(joints, clearance=CONTACT_CLEARANCE))
+
+
+def away_from(tool: Pose) -> Pose:
+    """The tool drawn back along its approach by the standoff."""
+    return tool.moved(-STANDOFF * tool.rotation[:, 2])
 
 
 def way_back(belief: Belief, joints: Vector) -> Vector | None:
     """Joint values straight back from the part; None where the arm cannot."""
     tool = belief.arm.forward(joints)
-    away = tool.moved(-STANDOFF * tool.rotation[:, 2])
-    path, count = belief.arm.line(straight(tool, away), joints)
-    return path if count >= 2 else None
+    path, count = belief.arm.line(straight(tool, away_from(tool)), joints)
+    return path if count >= SHORT_RETREAT else None
 
 
-def is_free(
-    belief: Belief, joints: Vector, blockers: Blockers, effort: Effort, clearance: float
-) -> bool:
-    """Whether the arm is free; with lenient effort movable objects do not count."""
-    hits = belief.checker.hits(joints, clearance=clearance)
-    if not hits:
-        return True
-    blockers.add(hits)
-    if not effort.lenient:
-        return False
-    return all(_is_movable(belief, hit) for hit in hits)
+@dataclass
+class Followed:
+    """A part's path as far as the arm can follow: joint values of arm and part, step by step."""
+
+    rows: list[Vector]
+    values: list[float]
+    clear: int = 0
+    """So many steps are free; those after them come too close to ``met``."""
 
 
-def _is_movable(belief: Belief, address: str) -> bool:
-    entry = belief.world.entries.get(address.split(".")[0])
-    return entry is not None and entry.info.movable
+def follow(travel: PartTravel, contact: Contact, start: Vector, passage: Passage) -> Followed:
+    """Follows the part with the hand as far as the arm goes, whatever else is on the way.
+
+    Args:
+        travel: the part's way.
+        contact: how the hand works on it.
+        start: joint values (n,) at the contact.
+        passage: takes note of what is on the way.
+    """
+    end = travel.target
+    whole = max(travel.length(contact.point, end), 1e-6)
+    if not contact.grip and end == travel.part.lower:
+        # A part that is pushed shut is pressed a little beyond its end, so that it really closes.
+        end += (end - travel.value) * min(OVERTRAVEL / whole, 1.0)
+    step = (end - travel.value) * min(PATH_STEP / whole, 0.5)
+    finest = (end - travel.value) * FINE_STEP / whole
+    found = Followed([], [])
+    joints, lean, value = start, contact.lean, travel.value
+    while abs(end - value) > 1e-9:
+        ahead = end if abs(end - value) <= abs(step) * 1.001 else value + step
+        reached = _next(travel, contact, ahead, lean, joints, passage)
+        if reached is None:
+            step /= 2
+            if abs(step) < abs(finest):
+                break
+            continue
+        joints, lean = reached
+        value = ahead
+        found.rows.append(joints)
+        found.values.append(value)
+        if passage.free:
+            found.clear = len(found.rows)
+    travel.place(travel.value)
+    return found
+
+
+def _next(
+    travel: PartTravel,
+    contact: Contact,
+    value: float,
+    lean: float,
+    joints: Vector,
+    passage: Passage,
+) -> tuple[Vector, float] | None:
+    """Joint values with the part at ``value``, and the hand's lean; free ones are preferred."""
+    belief = travel.belief
+    pose = travel.at(value)
+    travel.place(value)
+    second: tuple[Vector, float, Passage] | None = None
+    for tool, leaning in contact.moving(pose, lean):
+        result = belief.arm.solve(tool, joints, free_spin=not contact.grip)
+        if not result.reached or np.abs(result.joints - joints).max() > JUMP:
+            continue
+        tried = passage.copy()
+        hits = belief.checker.hits(
+            result.joints, clearance=CONTACT_CLEARANCE, worked=(travel.owner, contact.overlap)
+        )
+        if not tried.admits(hits):
+            continue
+        if tried.others == passage.others:
+            return result.joints, leaning
+        if second is None:
+            second = (result.joints, leaning, tried)
+    if second is None:
+        return None
+    passage.others = second[2].others
+    return second[:2]
+
+
+def backed_out(
+    travel: PartTravel, contact: Contact, approach: Vector, found: Followed, steps: int
+) -> PreparedMove | None:
+    """The move along the first ``steps`` steps, or a few fewer where the arm cannot back out."""
+    belief = travel.belief
+    belief.checker.set_fingers(contact.opening)
+    try:
+        while steps > 0:
+            travel.place(found.values[steps - 1])
+            retreat = way_back(belief, found.rows[steps - 1])
+            if retreat is not None and not belief.checker.hits(
+                retreat[SHORT_RETREAT - 1], clearance=CONTACT_CLEARANCE, hand_only=True
+            ):
+                break
+            steps -= BACK_OUT_STEPS
+        else:
+            return None
+    finally:
+        travel.place(travel.value)
+    reached = found.values[steps - 1]
+    length = travel.length(contact.point, reached)
+    return PreparedMove(
+        before=approach[0],
+        approach=approach[1:],
+        along=np.array(found.rows[:steps]),
+        length=length,
+        grip=contact.grip,
+        opening=contact.opening,
+        reached=reached,
+        retreat=retreat,
+    )

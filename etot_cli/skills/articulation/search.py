@@ -2,120 +2,215 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
 
-import numpy as np
+import mujoco
 
-from etot_cli.skills.articulation.grips import AJAR, GRIP_TILTS, grip_move
-from etot_cli.skills.articulation.part_path import Effort, PreparedMove, fraction_open
-from etot_cli.skills.articulation.pushes import Push, contact_points, push_move
+from etot_cli.skills.articulation.grips import Grip, grips, spun
+from etot_cli.skills.articulation.part_path import (
+    CONTACT_CLEARANCE,
+    Contact,
+    PartTravel,
+    PreparedMove,
+    approaches,
+    away_from,
+    backed_out,
+    follow,
+    fraction_open,
+)
+from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.outcome import Blockers, Evidence
+from etot_cli.skills.hindrance import Hindrances, Passage
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT
 
-PUSH_TILTS = tuple(np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
-"""Leans of the hand along a push [rad], looked at in turn until one goes."""
-CLOSED_ENOUGH, OPEN_ENOUGH = 0.03, 0.12
+NEARLY_CLOSED, NEARLY_OPEN = 0.03, 0.12
 """Moves that get the part this close to its end (share of its travel) come first."""
+OPEN_SPARE = 0.04
+"""Share of the travel by which an opening move goes beyond what counts as open."""
+AJAR = 0.05
+"""Way of a handle that leaves room for a finger behind the part [m]."""
+MAX_FOLLOWED = 60
+"""Grips, and pushes, whose kinematics are looked at; where the hand has no room costs little."""
+MAX_BETTER = 16
+"""Holds that are looked at for a better one once one gets the part far enough."""
+MAX_HINDERED = 24
+"""... and of those that something is in the way of, once nothing else is left."""
+MAX_FIRST_STEPS = 3
+"""Moves that leave a part ajar which a second move is looked for from."""
 
-Candidate = Callable[[Blockers, Effort], PreparedMove | None]
+
+@dataclass(frozen=True)
+class _Hold:
+    contact: Contact
+    met: Passage
+
+
+@dataclass(frozen=True)
+class _Partial:
+    """A move that does not go all the way, and how much is missing (share of the travel)."""
+
+    missing: float
+    move: PreparedMove
 
 
 class PartSearch:
-    """Moves of one part from where it stands, worked out once each, when they are asked for.
+    """Moves of one part from where it stands, worked out one at a time, when they are asked for.
 
     Whenever moves are asked for, the belief's world must stand as it did at first.
+
+    Args:
+        belief: state that the moves begin in.
+        part: door or drawer.
+        opening: whether it is to be opened, else closed.
     """
 
     def __init__(self, belief: Belief, part: Part, opening: bool) -> None:
         self.part, self.opening = part, opening
+        self.hindrances = Hindrances(belief.world)
+        self.has_hold = False
+        """Something to hold or to push was found that the hand has room at."""
         self._belief = belief
-        self._value = float(belief.data.joint(part.joint).qpos[0])
-        self._target = part.upper if opening else part.lower
-        self._grips = self._grip_candidates()
-        pushes = self._push_candidates()
-        self._candidates = [*self._grips, *pushes] if opening else [*pushes, *self._grips]
-        self._known: dict[tuple[int, Effort], tuple[PreparedMove | None, Evidence]] = {}
+        self._travel = PartTravel(belief, part, part.upper if opening else part.lower)
 
-    @property
-    def count(self) -> int:
-        """Number of candidates."""
-        return len(self._candidates)
-
-    def moves(self, candidates: Iterable[int], effort: Effort) -> Iterator[PreparedMove]:
+    def moves(self, *, in_two: bool = True) -> Iterator[PreparedMove]:
         """Moves that follow the part to its end at once; then those that at least get far enough,
-        the farthest first.
+        the farthest first; then those in two steps. Once there is none, ``hindrances`` knows why.
 
         Args:
-            candidates: which ones to look at, by number, in this order.
-            effort: how hard a way is looked for.
+            in_two: whether moves in two steps are looked for.
         """
-        part, target = self.part, self._target
-        wanted = OPEN_AT + 0.04 if self.opening else CLOSED_AT
-        partway: list[tuple[float, int, PreparedMove]] = []
         self._belief.checker.freeze(self._belief.data)
-        for index in candidates:
-            move = self._move(index, effort)
-            if move is None:
+        left = {True: MAX_FOLLOWED, False: MAX_FOLLOWED}
+        hindered: list[_Hold] = []
+        partial: list[_Partial] = []
+        found = False
+        for hold in self._holds():
+            self.has_hold = True
+            if not hold.met.free:
+                hindered.append(hold)
                 continue
-            missing = abs(move.reached - target) / abs(part.upper - part.lower)
-            fraction = fraction_open(part, move.reached)
-            if missing < (OPEN_ENOUGH if self.opening else CLOSED_ENOUGH):
+            if not left[hold.contact.grip]:
+                continue
+            left[hold.contact.grip] -= 1
+            for item in self._followed(hold):
+                if item.missing < (NEARLY_OPEN if self.opening else NEARLY_CLOSED):
+                    found = True
+                    yield item.move
+                    self._belief.checker.freeze(self._belief.data)
+                else:
+                    partial.append(item)
+                    if self._suffices(item.move.reached):
+                        left = {kind: min(count, MAX_BETTER) for kind, count in left.items()}
+        partial.sort(key=lambda item: round(item.missing, 2))
+        for item in partial:
+            if self._suffices(item.move.reached):
+                found = True
+                yield item.move
+        if in_two and self.opening:
+            for move in self._in_two(partial):
+                found = True
                 yield move
-                self._belief.checker.freeze(self._belief.data)
-            elif fraction >= wanted if self.opening else fraction <= wanted:
-                partway.append((round(missing, 2), index, move))
-        for *_, move in sorted(partway, key=lambda item: item[:2]):
-            yield move
+        if not found:
+            self._belief.checker.freeze(self._belief.data)
+            for hold in hindered[:MAX_HINDERED]:
+                for _ in self._followed(hold):
+                    pass
 
-    def ajar_moves(self) -> list[PreparedMove]:
-        """Grips that only bring the part far enough for a finger to get behind it, the farthest
-        first. The hand often cannot stay on a handle all the way, but can push on from inside.
+    def _suffices(self, value: float) -> bool:
+        fraction = fraction_open(self.part, value)
+        return fraction >= OPEN_AT + OPEN_SPARE if self.opening else fraction <= CLOSED_AT
+
+    def _holds(self) -> Iterator[_Hold]:
+        """Contacts that the hand has room at, whatever the arm; what it would meet there is noted.
+
+        An opening hand grips rather than pushes, a closing one pushes rather than grips.
         """
-        self._belief.checker.freeze(self._belief.data)
-        first = 0 if self.opening else self.count - len(self._grips)
-        found = (self._move(first + i, Effort()) for i in range(len(self._grips)))
-        moves = [move for move in found if move is not None and move.length >= AJAR]
-        return sorted(moves, key=lambda move: -round(move.length, 2))
-
-    def evidence(self) -> Evidence:
-        """What stood in the way of everything looked at so far."""
-        return sum((evidence for _, evidence in self._known.values()), Evidence())
-
-    def _move(self, index: int, effort: Effort) -> PreparedMove | None:
-        key = (index, effort)
-        if key not in self._known:
-            blockers = Blockers(self._belief.world)
-            move = self._candidates[index](blockers, effort)
-            self._known[key] = move, blockers.evidence()
-        return self._known[key][0]
-
-    def _grip_candidates(self) -> list[Candidate]:
-        """Fingers closed on the part, upright hands first."""
-        return [
-            partial(grip_move, self._belief, self.part, grasp, self._value, self._target, tilt)
-            for grasp in self.part.grasps
-            for tilt in GRIP_TILTS
-        ]
-
-    def _push_candidates(self) -> list[Candidate]:
-        """Closed fingers against a face; hands that lean outwards reach farther, but seldom."""
         face = self.part.inner if self.opening else self.part.outer
-        if face is None:
-            return []
-        return [
-            partial(self._push, Push(face, contact, outward))
-            for outward in (False, True)
-            for contact in contact_points(self.part, face)
-        ]
+        pushed = () if face is None else pushes(self._travel, face)
+        gripped = sorted(
+            (grip for grasp in self.part.grasps for grip in grips(self._travel, grasp)),
+            key=lambda grip: grip.cost,
+        )
+        kinds: list[Iterable[Contact]] = [gripped, pushed]
+        for kind in kinds if self.opening else reversed(kinds):
+            for contact in kind:
+                met = self._room(contact)
+                if isinstance(contact, Grip) and (met is None or not met.free):
+                    narrow = replace(contact, opening=contact.narrow)
+                    squeezed = self._room(narrow)
+                    if squeezed is not None and (met is None or squeezed.free):
+                        contact, met = narrow, squeezed
+                if met is not None:
+                    yield _Hold(contact, met)
 
-    def _push(self, push: Push, blockers: Blockers, effort: Effort) -> PreparedMove | None:
-        for tilt in PUSH_TILTS[1:] if push.outward else PUSH_TILTS:
-            move = push_move(
-                self._belief, self.part, push, self._value, self._target, tilt, blockers, effort
+    def _room(self, contact: Contact) -> Passage | None:
+        """What the hand meets at a contact and before it; None where it has no room."""
+        travel, checker = self._travel, self._belief.checker
+        tool = contact.touching(travel.at(travel.value))
+        checker.set_fingers(contact.opening)
+        met = travel.passage()
+        before = away_from(tool)
+        middle = tool.moved((before.position - tool.position) / 2)
+        for pose in (tool, middle, before):
+            # Closed fingers may come at a face with the hand turned any way about them.
+            hits = checker.hand_hits(
+                pose, clearance=CONTACT_CLEARANCE, fingers_only=not contact.grip
             )
-            if move is not None:
-                return move
-        return None
+            if not met.admits(hits):
+                return None
+        return met
+
+    def _followed(self, hold: _Hold) -> Iterator[_Partial]:
+        """How far a hold goes, at most one move; notes what keeps it from going far enough."""
+        travel = self._travel
+        contacts: list[Contact] = [hold.contact]
+        if isinstance(hold.contact, Grip):
+            contacts.append(spun(hold.contact))
+        best: _Partial | None = None
+        for contact in contacts:
+            for approach, passage in islice(approaches(travel, contact, hold.met), 2):
+                clear = passage.free
+                way = follow(travel, contact, approach[-1], passage)
+                if not way.rows:
+                    continue
+                steps = way.clear if clear else 0
+                if steps < len(way.rows) and self._suffices(way.values[-1]):
+                    self.hindrances.note(passage.others)
+                move = backed_out(travel, contact, approach, way, steps)
+                if move is None:
+                    continue
+                missing = abs(move.reached - travel.target) / abs(self.part.upper - self.part.lower)
+                if best is None or missing < best.missing:
+                    best = _Partial(missing if missing > 1e-9 else 0.0, move)
+                if best.missing < (NEARLY_OPEN if self.opening else NEARLY_CLOSED):
+                    yield best
+                    return
+        if best is not None:
+            yield best
+
+    def _in_two(self, partial: list[_Partial]) -> Iterator[PreparedMove]:
+        """Grips that bring the part far enough for a finger to get behind it, each with the move
+        that goes on from there. The hand often cannot stay on a handle all the way.
+        """
+        ajar = [item.move for item in partial if item.move.grip and item.move.length >= AJAR]
+        for move in ajar[:MAX_FIRST_STEPS]:
+            after = PartSearch(belief_after(self._belief, self.part, move), self.part, True)
+            second = next(after.moves(in_two=False), None)
+            if second is not None:
+                yield replace(move, then=second)
+
+
+def belief_after(belief: Belief, part: Part, move: PreparedMove) -> Belief:
+    """The belief once a move has been carried out: the part where it leaves it, the arm back."""
+    model, checker = belief.world.model, belief.checker
+    data = mujoco.MjData(model)
+    checker.freeze(belief.data)
+    checker.set_joint(part.joint, move.reached)
+    data.qpos[:], data.ctrl[:] = checker.configuration, belief.data.ctrl
+    data.qpos[belief.world.robot.qpos] = move.retreat[-1]
+    data.ctrl[belief.world.robot.ctrl] = move.retreat[-1]
+    mujoco.mj_forward(model, data)
+    return belief.in_state(data)

@@ -19,6 +19,9 @@ Vector = NDArray[np.float64]
 
 CLEARANCE = 0.008
 """Distance that transits keep from everything [m]."""
+SELF_CLEARANCE = 0.004
+"""Distance that links of the robot keep from each other [m]: an arm that follows its targets some
+milliradians late must not get stuck on itself."""
 _MARGIN = 0.02
 """Distances are known up to this [m]."""
 
@@ -97,6 +100,11 @@ class CollisionChecker:
             shift = live.joint(joint).xaxis * moved
             self._data.joint(name).qpos[:3] = live.joint(name).qpos[:3] + shift
 
+    @property
+    def configuration(self) -> Vector:
+        """All joint values (nq,) of the frozen scene, with what was moved in it."""
+        return np.asarray(self._data.qpos.copy())
+
     def set_fingers(self, opening: float) -> None:
         """Sets the distance between the pads [m] of the frozen scene's hand."""
         self._data.qpos[self.world.robot.finger_qpos] = opening / 2
@@ -163,7 +171,10 @@ class CollisionChecker:
         for index in candidates:
             first, second = (int(value) for value in owners[index])
             one, two = (int(value) for value in geoms[index])
-            if first == second and first < -1:
+            if first < -1 and second < -1:
+                # MuJoCo leaves out pairs of neighbouring links, which the model excludes.
+                if data.contact.dist[index] < SELF_CLEARANCE and not hand_only:
+                    found["robot"] = None
                 continue
             if not (first < -1 or first == held):
                 first, second, one, two = second, first, two, one
@@ -185,8 +196,6 @@ class CollisionChecker:
                     continue
             elif hand_only:
                 continue
-            if second < -1 and first < -1 and data.contact.dist[index] > -0.002:
-                continue  # arm links near each other are no obstacle to themselves
             found[world.geom_address[two]] = None
         return list(found)
 

@@ -186,6 +186,7 @@ def _add_handle(
         max(handle.width / 2 - 2 * handle.thickness - 0.01, 0.002),
         handle.thickness,
         ((-1, 0, 0),),
+        bar=True,
     )
 
 

@@ -85,6 +85,11 @@ def _region(model: mujoco.MjModel, site_name: str, address: str) -> Region:
     return Region(address, body, tuple(site.pos), half, is_round)
 
 
+BAR_FLATNESS = 2.0
+"""What is broader than so many times its thickness is a panel, not a bar that the hand may come to
+from all round."""
+
+
 def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspable, ...]:
     """Ways to close the gripper on a part's ``front_site``, the thinnest side first.
 
@@ -94,6 +99,7 @@ def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspab
     site = model.site(site_name)
     center, half = np.array(site.pos), np.array(site.size)
     normal = np.array(outer.normal)
+    slim, broad, _ = np.sort(half)
     grasps = []
     for index in np.argsort(half, kind="stable"):
         closing = np.eye(3)[index]
@@ -108,6 +114,7 @@ def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspab
                 _triple(center), _triple(closing), _triple(along),
                 float(np.abs(along) @ half), float(2 * half[index]),
                 tuple(_triple(item) for item in approaches),
+                bar=bool(broad < BAR_FLATNESS * slim),
             )
         )  # fmt: skip
     return tuple(grasps)
