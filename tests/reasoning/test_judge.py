@@ -241,3 +241,94 @@ def test_a_put_with_an_empty_hand_makes_no_sense() -> None:
     verdict = judge("[OPEN, pen]", record(scenes.pens()))
     assert verdict.cause is not None
     assert verdict.cause.kind is CauseKind.PRECONDITION
+
+
+# -- true causes -----------------------------------------------------------------------------------
+
+
+def test_what_stands_on_the_picked_object_must_not_come_along() -> None:
+    start = scenes.scene(
+        scenes.item("crate", at=(0.4, 0.0)), scenes.item("vase", at=(0.4, 0.0), on="crate", z=0.22)
+    )
+    lifted = changed(
+        start,
+        crate={"in_hand": True, "on": (), "position": (0.4, 0.0, 0.3)},
+        vase={"position": (0.4, 0.0, 0.36)},
+    )
+    verdict = judge("[PICK UP, crate]", record(start, lifted))
+    assert verdict.outcome is Outcome.FAILURE and verdict.cause is not None
+    assert verdict.cause.objects == ("vase",)
+    assert "vase, which stood on it, was carried along" in verdict.cause.text
+    alone = scenes.scene(scenes.item("crate", at=(0.4, 0.0)), scenes.item("vase", at=(0.6, 0.0)))
+    lifted = changed(alone, crate={"in_hand": True, "on": (), "position": (0.4, 0.0, 0.3)})
+    assert judge("[PICK UP, crate]", record(alone, lifted)).outcome is Outcome.SUCCESS
+
+
+def test_what_lies_in_the_picked_vessel_may_come_along() -> None:
+    start = scenes.scene(
+        scenes.cup("mug", (0.4, 0.0)), scenes.ball("pea", (0.4, 0.0), on="mug", inside="mug")
+    )
+    lifted = changed(
+        start,
+        mug={"in_hand": True, "on": (), "position": (0.4, 0.0, 0.3)},
+        pea={"position": (0.4, 0.0, 0.3)},
+    )
+    assert judge("[PICK UP, mug]", record(start, lifted)).outcome is Outcome.SUCCESS
+
+
+def test_a_part_that_moved_unasked_is_not_said_to_be_pushed() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}), scenes.item("vase", at=(0.3, 0.0))
+    )
+    after = changed(
+        start,
+        chest={"openness": {"top": 0.6}},
+        vase={"in_hand": True, "on": (), "position": (0.3, 0.0, 0.3)},
+    )
+    verdict = judge("[PICK UP, vase]", record(start, after))
+    assert verdict.cause is not None and verdict.cause.objects == ("chest",)
+    assert "chest was opened or closed unasked" in verdict.cause.text
+    assert "0 cm" not in verdict.cause.text
+
+
+def test_what_came_out_of_a_vessel_is_said_to() -> None:
+    start = scenes.scene(
+        scenes.cup("mug", (0.4, 0.0)), scenes.ball("pea", (0.4, 0.0), on="mug", inside="mug"),
+        scenes.item("vase", at=(0.3, 0.0)),
+    )  # fmt: skip
+    after = changed(
+        start, pea={"inside": None, "on": ("desk",)},
+        vase={"in_hand": True, "on": (), "position": (0.3, 0.0, 0.3)},
+    )  # fmt: skip
+    verdict = judge("[PICK UP, vase]", record(start, after))
+    assert verdict.cause is not None and "pea came out of mug" in verdict.cause.text
+
+
+def test_what_comes_to_rest_on_what_was_there_has_no_room_and_did_not_rebound() -> None:
+    start = held(
+        scenes.scene(
+            scenes.cup("mug", (0.4, 0.0)),
+            scenes.ball("pea", (0.4, 0.0), on="mug", inside="mug"),
+            scenes.ball("nut", (0.2, 0.0)),
+        ),
+        "nut",
+    )
+    touch = (contact("nut", "pea"),)
+    lying = released(start, nut={"on": ("pea",)})
+    verdict = judge("[PUT INTO, mug]", record(start, lying, contacts=touch))
+    assert verdict.cause is not None and verdict.cause.kind is CauseKind.NO_ROOM
+    assert verdict.cause.objects[0] == "pea"
+    gone = released(start, nut={"position": (0.2, 0.3, 0.165)})
+    verdict = judge("[PUT INTO, mug]", record(start, gone, contacts=touch))
+    assert verdict.cause is not None and verdict.cause.kind is CauseKind.REBOUND
+
+
+def test_what_never_touched_its_target_did_not_rebound() -> None:
+    start = held(scenes.scene(scenes.cup("mug", (0.4, 0.0)), scenes.ball("nut", (0.2, 0.0))), "nut")
+    beside = released(start)
+    verdict = judge("[PUT INTO, mug]", record(start, beside))
+    assert verdict.cause is not None and verdict.cause.kind is CauseKind.NO_EFFECT
+    assert "without touching it" in verdict.cause.text
+    off = record(start, beside, contacts=(contact("nut", "mug"),))
+    verdict = judge("[PUT INTO, mug]", off)
+    assert verdict.cause is not None and verdict.cause.kind is CauseKind.REBOUND

@@ -11,7 +11,16 @@ from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
 from etot_cli.world.state import CauseKind, Swept
 from tests.reasoning import scenes
-from tests.reasoning.records import cause, changed, failed, first_revision, held, record, revision
+from tests.reasoning.records import (
+    cause,
+    changed,
+    failed,
+    first_revision,
+    held,
+    record,
+    revision,
+    revisions,
+)
 
 RELOCATE = "[PICK UP, {0}] [PUT ON, desk]"
 
@@ -285,3 +294,106 @@ def test_without_a_cause_nothing_is_revised() -> None:
         verdict=replace(step.verdict, cause=None),
     )
     assert revision(bare) is None
+
+
+# -- relocation in depth ---------------------------------------------------------------------------
+
+
+def test_all_that_is_in_the_way_is_a_correction_of_its_own() -> None:
+    """An immovable first one does not hide the second, whatever their order on record."""
+    start = scenes.kitchen()
+    for order in (("chest", "box", "plate"), ("plate", "box", "chest")):
+        step = failed(start, "[PICK UP, bottle]", 0, cause(CauseKind.NO_GRASP, *order, "bottle"))
+        found = set(revisions(step))
+        assert {f"{RELOCATE.format(name)} [PICK UP, bottle]" for name in ("box", "plate")} <= found
+
+
+def test_a_blocker_in_a_closed_drawer_is_fetched_from_there() -> None:
+    """... and the drawer is closed again, so that the purpose stays."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}),
+        scenes.item("toy", at=(0.5, 0.0), on="chest", inside="chest"),
+        scenes.cabinet("cupboard", (0.4, 0.4), 0.0),
+    )
+    step = failed(start, "[OPEN, cupboard]", 0, cause(CauseKind.BLOCKED, "toy", "cupboard"))
+    assert revision(step) == (
+        f"[OPEN, chest] {RELOCATE.format('toy')} [CLOSE, chest] [OPEN, cupboard]"
+    )
+
+
+def test_a_blocker_in_a_vessel_may_go_with_it() -> None:
+    start = scenes.scene(
+        scenes.cup("mug", (0.4, 0.3)),
+        scenes.ball("pea", (0.4, 0.3), on="mug", inside="mug"),
+        scenes.cabinet("cupboard", (0.4, 0.4), 0.0),
+    )
+    step = failed(start, "[OPEN, cupboard]", 0, cause(CauseKind.BLOCKED, "pea", "cupboard"))
+    assert revisions(step) == [
+        f"{RELOCATE.format(name)} [OPEN, cupboard]" for name in ("pea", "mug")
+    ]
+
+
+def test_what_touches_furniture_from_below_is_moved_all_the_same() -> None:
+    """A contact under a handle makes nobody carry a chest."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}, on="ball"),
+        scenes.ball("ball", (0.35, 0.0)),
+    )
+    step = failed(start, "[OPEN, chest]", 0, cause(CauseKind.BLOCKED, "ball", "chest"))
+    assert revision(step) == f"{RELOCATE.format('ball')} [OPEN, chest]"
+
+
+def test_an_occupied_top_is_cleared_though_nobody_is_named() -> None:
+    start = scenes.scene(
+        scenes.item("shelf", "shelf", (0.5, 0.3), boards=("low",)),
+        scenes.item("vase", at=(0.5, 0.3), on="shelf"),
+        scenes.item("book", at=(0.3, 0.0)),
+    )
+    plan = "[PICK UP, book] [PUT ON, shelf]"
+    step = failed(start, plan, 1, cause(CauseKind.NO_ROOM, "book"), held(start, "book"))
+    assert revision(step) == f"{RELOCATE.format('vase')} {plan}"
+
+
+def test_a_full_desk_leaves_tops_boards_and_open_vessels() -> None:
+    start = scenes.scene(
+        scenes.item("shelf", "shelf", (0.5, 0.3), boards=("low",)),
+        scenes.item("bowl", "bowl", (0.3, 0.3)),
+        scenes.item("tray", "box", (0.3, -0.3)),
+        scenes.item("vase", at=(0.3, 0.0)),
+        scenes.cup("cup", (0.5, -0.2)),
+    )
+    actions = parse_plan("[PICK UP, vase] [PUT ON, desk] (safe place) [PICK UP, cup]")
+    rollout = record(held(start, "vase"), effect=False, cause=cause(CauseKind.NO_ROOM, "tray"))
+    verdict = BuiltinReasoner().judge(actions[1], rollout)
+    found = BuiltinReasoner().reflect(FailedStep(Branch(actions), 1, rollout, verdict, start))
+    places = [str(branch.actions[1]) for branch in found]
+    # The cup is used later in the branch, so nothing is put into it.
+    wanted = ["[PUT ON, shelf]", "[PUT ON, shelf.low]", "[PUT INTO, bowl]", "[PUT ON, tray]"]
+    assert places[:4] == wanted
+
+
+def test_what_is_in_the_way_again_goes_further_off() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}), scenes.ball("ball", (0.35, 0.0))
+    )
+    actions = parse_plan("[PICK UP, ball] [PUT ON, desk] (safe place) [OPEN, chest]")
+    before = changed(start, ball={"position": (0.3, 0.2, 0.165)})
+    rollout = record(before, effect=False, cause=cause(CauseKind.BLOCKED, "ball", "chest"))
+    verdict = BuiltinReasoner().judge(actions[2], rollout)
+    first, *others = BuiltinReasoner().reflect(
+        FailedStep(Branch(actions), 2, rollout, verdict, start)
+    )
+    assert format_plan(first.actions) == format_plan(actions)
+    assert any((disc.x, disc.y) == (0.3, 0.2) for disc in first.actions[1].keepout)
+    assert [str(branch.actions[1]) for branch in others] == ["[PUT ON, chest]"]
+
+
+def test_what_has_its_own_place_goes_there_first() -> None:
+    start = scenes.scene(
+        scenes.item("block", at=(0.3, 0.0), on="brick"),
+        scenes.item("brick", at=(0.3, 0.0)),
+        scenes.item("bowl", "bowl", (0.4, 0.3)),
+    )
+    plan = "[PICK UP, brick] [PUT ON, desk] [PICK UP, block] [PUT INTO, bowl]"
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "block", "brick"))
+    assert revision(step) == "[PICK UP, block] [PUT INTO, bowl] [PICK UP, brick] [PUT ON, desk]"

@@ -13,7 +13,7 @@ from etot_cli.reasoning.builtin.relations import (
     owner_of,
 )
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
+from etot_cli.world.state import DESK, Cause, CauseKind, ContactEvent, RolloutRecord
 
 ROBOT = frozenset({"robot", "gripper"})
 GROUND = frozenset({"desk", "floor"})
@@ -84,6 +84,10 @@ def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> C
     joint = "in" if action.verb is Verb.PUT_INTO else "on"
     struck = _struck_by({held}, record, excluding={owner, *ROBOT})
     resident = [name for name in struck if _is_at(name, action, record)]
+    beneath = [name for name in resident if is_on(record.after, held, name)]
+    if beneath:
+        text = f"{held} came to rest on {_listed(beneath)}, not {joint} {target}"
+        return Cause(CauseKind.NO_ROOM, (*beneath, held), text)
     if resident:
         text = f"{held} rebounded off {_listed(resident)} {joint} {target}"
         return Cause(CauseKind.REBOUND, (*resident, held), text, _first_touch(record, resident[0]))
@@ -97,6 +101,9 @@ def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> C
     if record.after.states[held].lost:
         return Cause(CauseKind.LOST, (held,), f"{held} fell off the desk")
     blamed = (owner, held) if owner in record.before.infos else (held,)
+    if target != DESK and owner not in _struck_by({held}, record, excluding=set()):
+        text = f"{held} came down beside {target} without touching it"
+        return Cause(CauseKind.NO_EFFECT, blamed, text)
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
 
 

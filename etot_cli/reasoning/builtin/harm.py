@@ -13,6 +13,7 @@ from enum import IntEnum
 from etot_cli.reasoning.builtin.effects import acted_object, carried_along
 from etot_cli.reasoning.builtin.relations import (
     can_topple,
+    carried_by,
     contents,
     enclosing,
     owner_of,
@@ -38,7 +39,11 @@ class HarmKind(IntEnum):
     TOPPLED = 2
     DISLODGED = 3
     """It left the container or the support that it was in or on."""
-    SHOVED = 4
+    CARRIED = 4
+    """It stood on what was picked up, and nobody asked for it to come along."""
+    SHOVED = 5
+    PART_MOVED = 6
+    """One of its parts was opened or closed unasked."""
 
     @property
     def unsafe(self) -> bool:
@@ -58,21 +63,29 @@ class HarmKind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Harm:
-    """What happened to an object. ``distance``: how far it was moved [m]."""
+    """What happened to an object. ``distance``: how far it was moved [m]; ``left``: the container
+    that it is no longer in.
+    """
 
     name: str
     kind: HarmKind
     distance: float
+    left: str | None = None
 
     def words(self) -> str:
         """What happened, as a clause with the object as its subject."""
         far = f"{self.distance * 100:.0f} cm"
+        dislodged = (
+            f"came out of {self.left}" if self.left else f"was knocked from its place ({far})"
+        )
         return {
             HarmKind.LOST: f"{self.name} fell off the desk",
             HarmKind.STRANDED: f"{self.name} ended up out of the arm's reach",
             HarmKind.TOPPLED: f"{self.name} toppled",
-            HarmKind.DISLODGED: f"{self.name} was knocked from its place ({far})",
+            HarmKind.DISLODGED: f"{self.name} {dislodged}",
+            HarmKind.CARRIED: f"{self.name}, which stood on it, was carried along",
             HarmKind.SHOVED: f"{self.name} was pushed {far}",
+            HarmKind.PART_MOVED: f"{self.name} was opened or closed unasked",
         }[self.kind]
 
 
@@ -82,7 +95,8 @@ def harms(action: Action, record: RolloutRecord) -> tuple[Harm, ...]:
     for name in record.before.states:
         kind = _harm(name, action, record)
         if kind is not None:
-            found.append(Harm(name, kind, displacement(name, record)))
+            left = record.before.states[name].inside if _has_come_out(name, record) else None
+            found.append(Harm(name, kind, displacement(name, record), left))
     return tuple(sorted(found, key=lambda harm: (harm.kind, -harm.distance)))
 
 
@@ -113,14 +127,35 @@ def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
         return None
     if _is_dislodged(name, record):
         return HarmKind.DISLODGED
+    if action.verb is Verb.PICK_UP and name in _riders(action, record):
+        return HarmKind.CARRIED
     if _is_shoved(name, action, record):
         return HarmKind.SHOVED
-    return None
+    return HarmKind.PART_MOVED if _is_part_moved(name, action, record) else None
+
+
+def _riders(action: Action, record: RolloutRecord) -> frozenset[str]:
+    """What stood on the acted-on object, not in it, and was moved with it."""
+    acted = acted_object(action, record)
+    if acted is None:
+        return frozenset()
+    inside = {
+        name
+        for name in record.before.states
+        if acted in map(owner_of, enclosing(record.before, name))
+    }
+    moved = (name for name in carried_by(record.before, acted) if displacement(name, record) > FELL)
+    return frozenset(moved) - inside
+
+
+def _has_come_out(name: str, record: RolloutRecord) -> bool:
+    around = record.before.states[name].inside
+    return around is not None and around not in enclosing(record.after, name)
 
 
 def _is_dislodged(name: str, record: RolloutRecord) -> bool:
     before, after = record.before.states[name], record.after.states[name]
-    if before.inside is not None and before.inside not in enclosing(record.after, name):
+    if _has_come_out(name, record):
         return True
     supports, now = _owners(before), _owners(after)
     elsewhere = bool(supports) and bool(now) and not supports & now
@@ -137,8 +172,13 @@ def _is_shoved(name: str, action: Action, record: RolloutRecord) -> bool:
     before, after = record.before.states[name], record.after.states[name]
     # What came along for a moment and is back where it was (a cup that a wedged ball lifts) is
     # none the worse; what fell over or off on the way shows in its relations.
-    if not inserted and math.dist(before.position, after.position) > SHOVED:
-        return True
+    return not inserted and math.dist(before.position, after.position) > SHOVED
+
+
+def _is_part_moved(name: str, action: Action, record: RolloutRecord) -> bool:
+    if name in carried_along(action, record):
+        return False
+    before, after = record.before.states[name], record.after.states[name]
     return any(
         abs(after.openness.get(part, value) - value) > PART_MOVED
         for part, value in before.openness.items()

@@ -14,12 +14,13 @@ CLEARANCE = 0.05
 """Room for the hand around what the failed action is about [m]."""
 
 
-def keepouts_of(failed: FailedStep, name: str) -> tuple[Keepout, ...]:
+def keepouts_of(failed: FailedStep, name: str, room: float = 0.0) -> tuple[Keepout, ...]:
     """Discs that a safe place for an object avoids, from the failed rollout; base frame.
 
     Args:
         failed: the failed step.
         name: the object to be taken away; it must not stay where it is.
+        room: to be kept free around where it is [m].
     """
     record = failed.record
     before, after = record.before, record.after
@@ -27,7 +28,7 @@ def keepouts_of(failed: FailedStep, name: str) -> tuple[Keepout, ...]:
     for other in before.states:
         if before.infos[other].movable and displacement(other, record) > MOVED:
             discs += [_around(before, other), _around(after, other)]
-    discs.append(_around(before, name))
+    discs.append(_around(before, name, room))
     action = failed.branch.actions[failed.index]
     about = owner_of(action.target)
     articulated = action.verb in (Verb.OPEN, Verb.CLOSE)

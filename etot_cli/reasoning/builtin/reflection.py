@@ -10,30 +10,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     OPEN_ENOUGH,
-    bearers,
+    contents,
     distance,
     has_front,
     is_inside,
+    is_on,
     owner_of,
     radius,
 )
+from etot_cli.reasoning.builtin.relocation import Correction, other_places, relocated
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     cycle_of,
-    hand_free_at,
     inserted,
     moved_before,
     opened_before,
     placed_by,
     purpose,
     reachable_throughout,
-    relocation,
     relocations,
 )
 from etot_cli.reasoning.builtin.rules import check_plan
@@ -49,13 +48,6 @@ _COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCK
 
 _NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
 """Causes that a roof above the place may be behind."""
-
-
-class Correction(NamedTuple):
-    """A revised branch and what was changed, in words."""
-
-    actions: Actions
-    change: str
 
 
 def reflect_on(failed: FailedStep) -> Iterator[Branch]:
@@ -116,9 +108,10 @@ class _Case:
     # -- who is in the way -------------------------------------------------------------------------
 
     def _culprits(self) -> list[str]:
-        """Objects to blame, those that the branch itself has moved or opened first.
+        """Objects to blame, those that the branch itself has put to use or opened first.
 
-        What this branch has changed did not stand in the way at the start.
+        What this branch has changed did not stand in the way at the start. What has been taken out
+        of the way already comes last.
         """
         index, scene = self.failed.index, self.failed.record.before
         named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
@@ -128,35 +121,36 @@ class _Case:
             if name in scene.infos and name not in NOT_OBJECTS and name != self.acted
         ]
         opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, index)}
+        if not others and self.cause.kind is CauseKind.NO_ROOM:
+            others = self._occupants()
         return sorted(
             others,
             key=lambda name: (
-                not (name in opened or placed_by(self.actions, name, index) is not None)
+                not (name in opened or placed_by(self.actions, name, index) is not None),
+                relocations(self.actions, name) > 0,
             ),
         )
 
-    def _relocated(self, name: str, index: int) -> Iterator[Correction]:
-        """The branch with an object taken to a safe place before ``index``."""
-        scene = self.failed.record.before
-        info = scene.infos[name]
-        if not info.movable or scene.states[name].lost or relocations(self.actions, name):
+    def _out_of_the_way(self, name: str, index: int) -> Iterator[Correction]:
+        """The branch with an object brought to its own place, or else to a safe one, first."""
+        for pick in range(self.failed.index + 1, len(self.actions)):
+            action = self.actions[pick]
+            if action.verb is Verb.PICK_UP and action.target == name:
+                yield from self._its_own_place_first(pick, name)
+                break
+        yield from relocated(self.failed, name, self.acted, index)
+
+    def _its_own_place_first(self, pick: int, name: str) -> Iterator[Correction]:
+        """The branch with a cycle brought forward that takes an object away for good."""
+        own, failing = cycle_of(self.actions, pick), cycle_of(self.actions, self.failed.index)
+        put = self.actions[pick + 1] if pick + 1 < len(self.actions) else None
+        if put is None or put.safe or pick not in own or self.failed.index in own:
             return
-        if name in bearers(scene, self.acted or ""):
-            return  # what bears the object would take it along
-        place = hand_free_at(self.actions, index, self.failed.start)
-        extra = relocation(name, keepouts_of(self.failed, name))
-        change = f"{name} goes to a safe place first"
-        if place is not None:
-            yield Correction(inserted(self.actions, place, extra), change)
-            return
-        if self.actions[0].safe:
-            return  # emptying the hand is what failed
-        # The hand was full from the start: it is emptied and filled again.
-        held = self.failed.start.holding
-        assert held is not None  # otherwise the hand would have been empty at the root
-        down = Action(Verb.PUT_ON, DESK, safe=True)
-        again = Action(Verb.PICK_UP, held)
-        yield Correction((down, *extra, again, *self.actions), change)
+        actions = moved_before(self.actions, own, failing.start)
+        yield Correction(
+            reachable_throughout(actions, self.failed.start),
+            f"{name} is put where it belongs before it is in the way",
+        )
 
     def _earlier(self, before: int, name: str) -> Iterator[Correction]:
         """The branch with the failed cycle brought before the one that is at ``before``."""
@@ -168,6 +162,15 @@ class _Case:
                 f"{self.action} comes before {name} is in the way",
             )
 
+    def _occupants(self) -> list[str]:
+        """What stands or lies where the action puts something, when nobody else is to blame."""
+        scene, target = self.failed.record.before, self.action.target
+        if self.action.verb is Verb.PUT_INTO:
+            return list(contents(scene, target))
+        if self.action.verb is Verb.PUT_ON and target != DESK:
+            return [name for name in scene.states if is_on(scene, name, target)]
+        return []
+
     # -- by verb -----------------------------------------------------------------------------------
 
     def _of_pick(self) -> Iterator[Correction]:
@@ -177,7 +180,7 @@ class _Case:
             if placed is not None:
                 yield from self._earlier(placed, name)
             elif self.failed.record.before.infos[name].movable:
-                yield from self._relocated(name, index)
+                yield from self._out_of_the_way(name, index)
             else:
                 yield from self._taken_before_opening(name)
         if self.cause.kind in _COVERED:
@@ -202,7 +205,8 @@ class _Case:
                 rest = (*self.actions[:index], *self.actions[index + own.end :])
                 yield Correction(inserted(rest, opening, moved), change)
             elif not relocations(self.actions, name):
-                extra = relocation(name, keepouts_of(self.failed, name))
+                put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
+                extra = (Action(Verb.PICK_UP, name), put)
                 yield Correction(inserted(self.actions, opening, extra), change)
 
     def _is_near(self, part: PartInfo) -> bool:
@@ -251,6 +255,10 @@ class _Case:
             and (self.cause.kind is CauseKind.TOPPLED)
         ):
             return  # the container does not stand what is put into it
+        if self.action.safe and self._is_full:
+            yield from other_places(self.failed, index)
+            if self.action.target == DESK:
+                return  # what stands on a full desk has nowhere to go but where this could go
         for name in self._culprits():
             if name == owner:
                 continue
@@ -259,27 +267,20 @@ class _Case:
                 if self.actions[placed + 1].target != self.action.target:
                     yield from self._earlier(placed, name)
             elif self.failed.record.before.infos[name].movable:
-                yield from self._relocated(name, index)
+                yield from self._out_of_the_way(name, index)
             else:
                 for opening in opened_before(self.actions, index):
                     if owner_of(self.actions[opening].target) == name:
                         yield from self._earlier(opening, name)
-        if self.action.safe:
-            yield from self._other_safe_place()
+        if self.action.safe and not self._is_full:
+            yield from other_places(self.failed, index)
         if pick is not None:
             yield from self._other_pose(pick)
 
-    def _other_safe_place(self) -> Iterator[Correction]:
-        """The next surface for something that only has to be out of the way."""
-        infos = self.failed.start.infos
-        tops = [name for name, info in infos.items() if info.surface and not info.movable]
-        surfaces = [DESK, *tops]
-        index, target = self.failed.index, self.action.target
-        if target in surfaces:
-            for surface in surfaces[surfaces.index(target) + 1 :]:
-                other = replace(self.action, target=surface)
-                actions = (*self.actions[:index], other, *self.actions[index + 1 :])
-                yield Correction(actions, f"{surface} serves as the safe place")
+    @property
+    def _is_full(self) -> bool:
+        """Whether the action's target has no room, so that another place is the first thought."""
+        return self.cause.kind is CauseKind.NO_ROOM
 
     def _of_articulation(self) -> Iterator[Correction]:
         index, before = self.failed.index, self.failed.record.before
@@ -294,4 +295,4 @@ class _Case:
                 if not (within or put_there):
                     yield from self._earlier(placed, name)
             elif not within or before.openness(part) >= OPEN_ENOUGH:
-                yield from self._relocated(name, index)
+                yield from self._out_of_the_way(name, index)

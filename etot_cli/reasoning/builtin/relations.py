@@ -92,7 +92,7 @@ def carried_by(scene: SceneState, name: str) -> frozenset[str]:
     while grew:
         grew = False
         for other, state in scene.states.items():
-            if other in moving:
+            if other in moving or not scene.infos[other].movable:
                 continue
             supports = {owner_of(support) for support in state.on}
             inside = owner_of(state.inside) if state.inside is not None else None
@@ -115,7 +115,7 @@ def rides_on_part(scene: SceneState, part: PartInfo) -> frozenset[str]:
 
 
 def bearers(scene: SceneState, name: str) -> frozenset[str]:
-    """Objects that hold an object up or around it: moving them would move it as well."""
+    """Objects that hold an object up or around it, at any depth."""
     found: set[str] = set()
     queue = [name]
     while queue:
@@ -127,6 +127,19 @@ def bearers(scene: SceneState, name: str) -> frozenset[str]:
                 found.add(owner)
                 queue.append(owner)
     return frozenset(found)
+
+
+def carriers(scene: SceneState, name: str) -> frozenset[str]:
+    """Movable objects that take an object along when they are moved.
+
+    What is fixed is carried by nothing, whatever touches it from below; what also rests on
+    something fixed, or on the desk, stays there.
+    """
+    return frozenset(
+        other
+        for other in bearers(scene, name)
+        if scene.infos[other].movable and name in carried_by(scene, other)
+    )
 
 
 def can_topple(info: ObjectInfo) -> bool:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Relation
+from etot_cli.reasoning.builtin.relations import is_closed, is_open
 from etot_cli.reasoning.builtin.sketch import Sketch
-from etot_cli.skills.action import Action, Keepout, Verb
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import SceneState
 
 Actions = tuple[Action, ...]
 
@@ -35,7 +36,7 @@ class Purpose:
 
     Args:
         places: final put of each object, safe places left out.
-        parts: last verb of each opened or closed part.
+        parts: last verb of each part that is not left as it stood at the start.
         held: what is in the hand at the end.
     """
 
@@ -61,9 +62,17 @@ def purpose(actions: Sequence[Action], scene: SceneState) -> Purpose:
                 parts[action.target] = action.verb
     return Purpose(
         frozenset((name, *place) for name, place in places.items()),
-        frozenset(parts.items()),
+        frozenset(item for item in parts.items() if not _as_at_first(*item, scene)),
         held,
     )
+
+
+def _as_at_first(address: str, last: Verb, scene: SceneState) -> bool:
+    """Whether a part is left as it stood at the start; opening it was a means then."""
+    part = scene.part(address)
+    if part is None:
+        return False
+    return is_open(scene, part) if last is Verb.OPEN else is_closed(scene, part)
 
 
 def cycles(actions: Sequence[Action]) -> list[Cycle]:
@@ -123,14 +132,6 @@ def relocations(actions: Sequence[Action], name: str) -> int:
         1
         for pick, put in pairwise(actions)
         if pick.verb is Verb.PICK_UP and pick.target == name and put.safe
-    )
-
-
-def relocation(name: str, keepout: tuple[Keepout, ...], surface: str = DESK) -> Actions:
-    """Taking an object to a safe place."""
-    return (
-        Action(Verb.PICK_UP, name),
-        Action(Verb.PUT_ON, surface, safe=True, keepout=keepout),
     )
 
 

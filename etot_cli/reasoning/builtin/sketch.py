@@ -75,6 +75,10 @@ class Sketch:
         self.do(Action(Verb.PUT_INTO, part.address))
         self.do(Action(Verb.CLOSE, part.address))
 
+    def closed_around(self, name: str) -> list[PartInfo]:
+        """Parts that an object lies in and that are closed, the outermost first."""
+        return [part for part in self._parts_around(name) if self._closed[part.address]]
+
     def take_away(self, name: str, put: Action, pose: GraspPose | None = None) -> None:
         """Takes an object to a safe place."""
         self.pick_up(name, pose)

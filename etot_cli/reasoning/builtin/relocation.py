@@ -1,0 +1,147 @@
+"""Taking what is in the way to a safe place: out of what encloses it, to where there is room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.relations import carriers, container_address, owner_of
+from etot_cli.reasoning.builtin.revision import Actions, hand_free_at, inserted, relocations
+from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.reasoning.protocol import FailedStep
+from etot_cli.skills.action import Action, Keepout, Verb
+from etot_cli.world.state import DESK, SceneState
+
+HAND_ROOM = 0.10
+"""Where a relocated thing is in the way again, it goes further off by this: a hand's width [m]."""
+
+
+class Correction(NamedTuple):
+    """A revised branch and what was changed, in words."""
+
+    actions: Actions
+    change: str
+
+
+def relocated(failed: FailedStep, name: str, acted: str | None, index: int) -> Iterator[Correction]:
+    """The branch with an object taken to a safe place before ``index``.
+
+    What had been relocated before and is in the way again goes further off. Where the object lies
+    in or on something movable, that may be taken away with it instead.
+
+    Args:
+        failed: the failed step.
+        name: the object in the way.
+        acted: the object that the failed action moves.
+        index: place of the action that it is in the way of.
+    """
+    scene, actions = failed.record.before, failed.branch.actions
+    if not scene.infos[name].movable or scene.states[name].lost:
+        return
+    settled = _safe_put(actions, name, index)
+    if settled is not None:
+        yield from _further_off(failed, name, settled)
+        return
+    borne = frozenset() if acted is None else carriers(scene, acted)
+    bearing = sorted(carriers(scene, name) - borne - {acted})
+    for moved in (name, *bearing):
+        # What bears the acted-on object would take it along.
+        if moved not in borne and scene.infos[moved].movable and not relocations(actions, moved):
+            yield from _taken_away(failed, moved, index)
+
+
+def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correction]:
+    actions, start = failed.branch.actions, failed.start
+    change = f"{name} goes to a safe place first"
+    place = hand_free_at(actions, index, start)
+    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(failed, name))
+    if place is not None:
+        yield Correction(
+            inserted(actions, place, _fetched(name, put, actions[:place], start)), change
+        )
+        return
+    if actions[0].safe:
+        return  # emptying the hand is what failed
+    # The hand was full from the start: it is emptied and filled again.
+    held = start.holding
+    assert held is not None  # otherwise the hand would have been empty at the root
+    down = Action(Verb.PUT_ON, DESK, safe=True)
+    again = Action(Verb.PICK_UP, held)
+    yield Correction((down, *_fetched(name, put, (down,), start), again, *actions), change)
+
+
+def _fetched(name: str, put: Action, before: Actions, start: SceneState) -> Actions:
+    """Actions that take an object away; a closed drawer that it lies in is opened and closed."""
+    sketch = Sketch(start, before)
+    opened = sketch.closed_around(name)
+    sketch.take_away(name, put)
+    for part in reversed(opened):
+        sketch.close(part)
+    return tuple(sketch.actions[len(before) :])
+
+
+def _safe_put(actions: Actions, name: str, before: int) -> int | None:
+    """Index of the last put of an object to a safe place before a place in the branch."""
+    found = None
+    for index, (pick, put) in enumerate(pairwise(actions[:before])):
+        if pick.verb is Verb.PICK_UP and pick.target == name:
+            found = index + 1 if put.safe else None
+    return found
+
+
+def _further_off(failed: FailedStep, name: str, put: int) -> Iterator[Correction]:
+    """The relocation with a place that also keeps clear of where the object is in the way."""
+    actions = failed.branch.actions
+    discs = {*actions[put].keepout, *keepouts_of(failed, name, HAND_ROOM)}
+    keepout: tuple[Keepout, ...] = tuple(sorted(discs))
+    if keepout != actions[put].keepout:
+        further = replace(actions[put], keepout=keepout)
+        yield Correction(_replaced(actions, put, further), f"{name} goes further off")
+    yield from other_places(failed, put)
+
+
+def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
+    """The branch with the next places for something that only has to be out of the way.
+
+    Args:
+        failed: the failed step.
+        put: index of the put to a safe place.
+    """
+    actions = failed.branch.actions
+    action = actions[put]
+    held = actions[put - 1].target if put else failed.start.holding
+    places = safe_places(actions, failed.start, held)
+    tried = next((i for i, place in enumerate(places) if place[1] == action.target), -1)
+    for verb, target in places[tried + 1 :]:
+        other = replace(action, verb=verb, target=target)
+        yield Correction(_replaced(actions, put, other), f"{target} serves as the safe place")
+
+
+def safe_places(actions: Actions, scene: SceneState, held: str | None) -> list[tuple[Verb, str]]:
+    """Where something can be put out of the way: the desk, fixed tops and boards, open vessels.
+
+    Vessels and surfaces that the branch itself moves or fills come last, or not at all.
+    """
+    infos = scene.infos
+    fixed = [info for info in infos.values() if not info.movable]
+    places = [(Verb.PUT_ON, DESK)]
+    places += [(Verb.PUT_ON, info.name) for info in fixed if info.surface]
+    places += [(Verb.PUT_ON, f"{info.name}.{board}") for info in fixed for board in info.boards]
+    loose = [info for info in infos.values() if info.movable and not scene.states[info.name].lost]
+    used = {owner_of(action.target) for action in actions}
+    own = {held, *used}
+    for info in loose:
+        if info.name in own or scene.states[info.name].inside is not None:
+            continue
+        if container_address(scene, info.name) is not None:
+            places.append((Verb.PUT_INTO, info.name))
+        elif info.surface:
+            places.append((Verb.PUT_ON, info.name))
+    return places
+
+
+def _replaced(actions: Actions, index: int, action: Action) -> Actions:
+    return (*actions[:index], action, *actions[index + 1 :])
