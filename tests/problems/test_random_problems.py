@@ -7,7 +7,8 @@ import pytest
 from tests.measure.check_random import try_problem
 
 SOLVABLE = (
-    ("into", 0), ("into", 3), ("stack", 1), ("stack", 4), ("drawer", 5), ("drawer", 8), ("handles", 2),
+    ("into", 0), ("into", 3), ("stack", 1), ("stack", 4), ("drawer", 5), ("drawer", 8),
+    ("handles", 2),
 )  # fmt: skip
 """Cheap ones of several families."""
 LIMIT_S = 60.0

@@ -6,7 +6,7 @@ import math
 
 from etot_cli.benchmark.problems.desk import Desk
 from etot_cli.benchmark.problems.furniture import chest, cupboard
-from etot_cli.benchmark.problems.margins import TOO_WIDE
+from etot_cli.benchmark.problems.margins import DESK_TOP, TOO_WIDE
 from etot_cli.benchmark.problems.problem import Document, Problem, Reason, sentence, the
 from etot_cli.benchmark.problems.things import (
     ball,
@@ -152,8 +152,17 @@ def _filled_by_fixed(desk: Desk, seed: int) -> Problem:
     """A fastened cylinder fills a bowl, and rises above its rim."""
     vessel = bowl(0.12, 0.05) | {"fixed": True}
     target = desk.stand("bowl", vessel)
-    filler = {"kind": "cylinder", "diameter": 0.075, "height": 0.07, "mass": 0.5, "fixed": True}
-    blocker = desk.put("can", filler, inside=target)
+    filler: Document = {
+        "kind": "cylinder",
+        "diameter": 0.075,
+        "height": 0.07,
+        "mass": 0.5,
+        "fixed": True,
+    }
+    # What is fastened gets its height, too.
+    x, y = desk.objects[target]["at"]
+    height = mm(DESK_TOP + vessel["floor"] + filler["height"] / 2)
+    blocker = desk.put("can", filler, inside=target, at=[x, y, height])
     thing = desk.stand("ball", ball(desk.rng, 0.050, 0.060))
     goal = [{"inside": [thing, target]}]
     text = f"put {the(thing)} into {the(target)}"
