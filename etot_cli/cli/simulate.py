@@ -60,6 +60,7 @@ def simulate(
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
+    from etot_cli.commands.pages import cores, write_simulate_page
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
 
@@ -72,13 +73,19 @@ def simulate(
     path = session.save(report)
     if (video or frames) and not report.interrupted:
         try:
-            render_files(simulation, session.folder, video=video, frames=frames)
+            with session.progress("rendering film") as told:
+                render_files(
+                    simulation,
+                    session.folder,
+                    video=video,
+                    frames=frames,
+                    jobs=cores(),
+                    progress=told,
+                )
         except KeyboardInterrupt:
             report.interrupted, report.status = True, "interrupted"
             report.cause = report.cause or "stopped while the pictures were being rendered"
         session.save(report)
     if html and not report.interrupted:
-        from etot_cli.commands.pages import write_simulate_page
-
         session.add_page(report, lambda told: write_simulate_page(simulation, session.folder, told))
     return session.conclude(report, path, lambda summary: summary.simulate(report, path))

@@ -12,8 +12,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.commands.plan import Planning
 from etot_cli.commands.simulate import Simulation
@@ -39,6 +41,8 @@ BYTES_PER_PIXEL = 0.06
 """Of a rendered desk as WebP of this quality, measured; a little above the mean."""
 QUALITY = 72
 RATIO = 16 / 10
+SAMPLES = ((40, 8), (120, 4), (10**9, 2))
+"""Renders per picture for so many pictures: fewer pictures may each take longer."""
 RENDER_SECONDS = 120.0
 """Longest time for a page's pictures; what is left over is drawn from above."""
 REPLAY_RATE = 5.0
@@ -212,7 +216,8 @@ def _take(
     notice = ""
     shots = [plan for plan in wanted if plan.shot is not None]
     if scene is not None and shots:
-        studio = page_studio(scene, len(shots))
+        framed = next(plan.shot.qpos for plan in wanted if plan.shot is not None)
+        studio = page_studio(scene, framed, len(shots))
         try:
             taken = take(
                 studio, [plan.shot for plan in shots if plan.shot is not None],
@@ -237,11 +242,14 @@ def _take(
     return pictures, notice
 
 
-def page_studio(scene: Scene, count: int) -> Studio:
+def page_studio(scene: Scene, framed: NDArray[Any], count: int) -> Studio:
     """Picture size and quality at which ``count`` pictures stay within a page."""
     pixels = PAGE_PICTURES_BYTES / max(count, 1) / BYTES_PER_PIXEL
     width = int(min(WIDEST_PX, max(NARROWEST_PX, sqrt(pixels * RATIO)))) // 16 * 16
-    return Studio(scene, width, int(width / RATIO) // 2 * 2, quality=QUALITY)
+    samples = next(samples for most, samples in SAMPLES if count <= most)
+    return Studio(
+        scene, framed, width, int(width / RATIO) // 2 * 2, samples, encoding="webp", quality=QUALITY
+    )
 
 
 def cores() -> int:

@@ -5,18 +5,32 @@ Apart from the simulation itself, because it needs OpenGL, which planning and si
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from etot_cli.commands.simulate import Simulation
 from etot_cli.errors import ServiceError
+from etot_cli.reporting.provenance import add_phase
+
+if TYPE_CHECKING:
+    from etot_cli.world.film import Take
+    from etot_cli.world.studio import Progress
 
 VIDEO_NAME = "video.mp4"
 FRAMES_FOLDER = "frames"
-FRAMES_PER_SECOND = 25
 
 
-def render_files(simulation: Simulation, folder: Path, *, video: bool, frames: bool) -> None:
-    """Renders what was asked for into ``folder`` and enters it into the report's ``files``.
+def render_files(
+    simulation: Simulation,
+    folder: Path,
+    *,
+    video: bool,
+    frames: bool,
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> None:
+    """Renders what was asked for into ``folder``; files and time go into the report.
 
     Raises:
         ServiceError: OpenGL, or a library that rendering needs, is not there.
@@ -24,18 +38,49 @@ def render_files(simulation: Simulation, folder: Path, *, video: bool, frames: b
     if simulation.scene is None or not simulation.trajectories or not (video or frames):
         return
     try:
-        from etot_cli.world.render import write_frames, write_video
+        from etot_cli.world.film import write_frames, write_video
     except ImportError as error:
         raise ServiceError(
             f"rendering is not available here ({error}); it needs OpenGL, e.g. the packages "
             "libegl1 and libgl1-mesa-dri"
         ) from error
-    files = simulation.report.files
+    report = simulation.report
+    begun = time.monotonic()
+    film = takes(simulation)
     if frames:
-        write_frames(simulation.scene, simulation.trajectories, folder / FRAMES_FOLDER)
-        files["frames"] = FRAMES_FOLDER
+        write_frames(simulation.scene, film, folder / FRAMES_FOLDER, jobs=jobs, progress=progress)
+        report.files["frames"] = FRAMES_FOLDER
     if video:
-        write_video(
-            simulation.scene, simulation.trajectories, folder / VIDEO_NAME, FRAMES_PER_SECOND
+        write_video(simulation.scene, film, folder / VIDEO_NAME, jobs=jobs, progress=progress)
+        report.files["video"] = VIDEO_NAME
+    add_phase(report.timing, "render", time.monotonic() - begun)
+
+
+def takes(simulation: Simulation) -> list[Take]:
+    """The actions of a simulation as a film: named, judged, the culprit outlined."""
+    from etot_cli.world.film import Take
+    from etot_cli.world.recorder import Trajectory
+
+    report = simulation.report
+    found = []
+    for number, (step, trajectory) in enumerate(
+        zip(report.steps, simulation.trajectories, strict=False), 1
+    ):
+        if not isinstance(trajectory, Trajectory) or not len(trajectory.times):
+            continue
+        caption = f"{number} of {len(report.plan)}   {step.action}"
+        cause = step.cause
+        ending = float(trajectory.times[-1] - trajectory.times[0])
+        if step.status != "success":
+            words = cause.text if cause is not None else ""
+            caption += f"   {step.status}" + (f": {words}" if words else "")
+        found.append(
+            Take(
+                trajectory,
+                caption,
+                "good" if step.status == "success" else "bad",
+                tuple(cause.objects) if cause is not None else (),
+                ending if cause is None or cause.time_s is None else cause.time_s,
+            )
         )
-        files["video"] = VIDEO_NAME
+    return found

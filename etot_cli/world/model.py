@@ -69,8 +69,12 @@ class World:
         return np.array(ids, dtype=np.int64)
 
 
-def build_world(scene: specs.Scene) -> World:
+def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
     """Compiles a scene.
+
+    Args:
+        scene: what is built.
+        dressed: for pictures; the same bodies and joints, with materials, floor and wall.
 
     Raises:
         WorldError: a file or the combination of objects cannot be compiled.
@@ -82,6 +86,10 @@ def build_world(scene: specs.Scene) -> World:
     add_surroundings(mj, scene)
     add_robot(mj, robot)
     drafts = {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
+    if dressed:
+        from etot_cli.world.build.dressing import dress
+
+        dress(mj, scene)
     try:
         model = mj.compile()
     except ValueError as error:

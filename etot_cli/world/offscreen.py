@@ -19,6 +19,14 @@ MAX_GEOMS = 10_000
 """Things drawn at once; MuJoCo's own renderer has room for as many."""
 
 
+PLASTIC_X, PLASTIC_Y = 0.7548776662466927, 0.5698402909980532
+"""Steps of the sequence that fills a square most evenly, whatever number of points is taken."""
+GOLDEN_ANGLE = 2.399963229728653
+"""Turn between points that fills a disc evenly [rad]."""
+LAMP_RADIUS = 0.06
+"""Tangent of half the angle under which a lamp is seen; a lampshade at two metres."""
+
+
 class OffscreenRenderer:
     """Draws configurations of one model as colours, depths and geom ids. A context manager.
 
@@ -79,6 +87,32 @@ class OffscreenRenderer:
         """The picture (height, width, 3)."""
         return self._draw()[0]
 
+    def soft_color(self, samples: int) -> Image:
+        """The picture (height, width, 3) as the mean of several, each from a slightly other eye.
+
+        The eye moves within a pixel, which smooths edges, and the lamps that cast shadows within
+        a disc, which gives shadows a soft rim. The same positions every time.
+        """
+        eyes = [(eye, eye.frustum_center, eye.frustum_bottom, eye.frustum_top)
+                for eye in self._scene.camera]  # fmt: skip
+        lamps = [(lamp, np.array(lamp.dir)) for lamp in self._scene.lights[: self._scene.nlight]
+                 if lamp.castshadow]  # fmt: skip
+        total = np.zeros((self.height, self.width, 3), dtype=np.uint32)
+        for number in range(samples):
+            across, along = (number * PLASTIC_X) % 1 - 0.5, (number * PLASTIC_Y) % 1 - 0.5
+            for eye, center, bottom, top in eyes:
+                pixel = (top - bottom) / self.height
+                eye.frustum_center = center + across * pixel
+                eye.frustum_bottom, eye.frustum_top = bottom + along * pixel, top + along * pixel
+            for lamp, direction in lamps:
+                lamp.dir[:] = _within_disc(direction, number, samples)
+            total += self._draw()[0]
+        for eye, center, bottom, top in eyes:
+            eye.frustum_center, eye.frustum_bottom, eye.frustum_top = center, bottom, top
+        for lamp, direction in lamps:
+            lamp.dir[:] = direction
+        return np.asarray((total + samples // 2) // samples, dtype=np.uint8)
+
     def depth_and_geoms(self) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Depth along the view axis [m] and id of the geom seen, both (height, width).
 
@@ -116,3 +150,16 @@ class OffscreenRenderer:
         mujoco.mjr_render(self._rectangle, self._scene, self._buffers)
         mujoco.mjr_readPixels(image, depth, self._rectangle, self._buffers)
         return np.ascontiguousarray(image[::-1]), depth[::-1]  # OpenGL counts from the bottom
+
+
+def _within_disc(direction: NDArray[np.float64], number: int, samples: int) -> NDArray[np.float64]:
+    """A lamp's direction (3,) turned to one of ``samples`` points of its disc."""
+    ahead = direction / np.linalg.norm(direction)
+    aside = np.cross(ahead, [0.0, 0.0, 1.0] if abs(ahead[2]) < 0.99 else [1.0, 0.0, 0.0])
+    aside /= np.linalg.norm(aside)
+    radius = LAMP_RADIUS * np.sqrt((number + 0.5) / samples) if samples > 1 else 0.0
+    turned = ahead + radius * (
+        np.cos(GOLDEN_ANGLE * number) * aside
+        + np.sin(GOLDEN_ANGLE * number) * np.cross(ahead, aside)
+    )
+    return np.asarray(turned / np.linalg.norm(turned), dtype=np.float64)

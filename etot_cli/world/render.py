@@ -1,4 +1,4 @@
-"""Pictures of a world: single frames, key moments of a run as PNG files, videos.
+"""Plain pictures of a world: what its cameras see, as a model or a reconstruction gets them.
 
 Needs OpenGL, which nothing else in this package does; import it only where pictures are wanted.
 Pictures are made afterwards, from stored configurations; nothing here steps physics.
@@ -7,8 +7,7 @@ Pictures are made afterwards, from stored configurations; nothing here steps phy
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Iterable
 from types import TracebackType
 from typing import Any
 
@@ -16,12 +15,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.errors import ServiceError, WorldError
+from etot_cli.errors import WorldError
 from etot_cli.specs.scene import Scene
-from etot_cli.specs.writing import replacing
 from etot_cli.world.model import World, build_world
 from etot_cli.world.offscreen import Image, OffscreenRenderer
-from etot_cli.world.recorder import Trajectory
 
 DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
 DEFAULT_FOV_DEG = 45.0
@@ -92,10 +89,6 @@ class WorldRenderer:
         """A picture (height, width, 3) of the configuration ``qpos`` (nq,)."""
         self._place(qpos)
         return self._renderer.color()
-
-    def picture(self, qpos: NDArray[Any], outlined: Sequence[str] = ()) -> Image:
-        """As :meth:`frame`, with an outline and the name of some objects."""
-        return self.frame(qpos)
 
     def geoms(self, qpos: NDArray[Any]) -> NDArray[np.int32]:
         """For every pixel (height, width) the id of the geom seen there; -1 where there is none."""
@@ -168,92 +161,3 @@ def render_frames(
     camera = camera or first_camera(world.scene)
     with WorldRenderer(world, camera, width, height) as renderer:
         return [renderer.frame(row) for row in qpos]
-
-
-def key_moments(trajectory: Trajectory) -> list[tuple[str, float, int]]:
-    """The moments worth a picture: (word, time since the action's start [s], row in ``qpos``)."""
-    times = trajectory.times - trajectory.times[0]
-    moments = [("start", 0.0, 0)]
-    for time in trajectory.key_times:
-        row = int(np.argmin(np.abs(times - time)))
-        if moments[-1][2] < row < len(times) - 1:
-            moments.append(("key", float(times[row]), row))
-    if len(times) > 1:
-        moments.append(("end", float(times[-1]), len(times) - 1))
-    return moments
-
-
-def write_frames(scene: Scene, trajectories: Sequence[Any], folder: Path) -> list[Path]:
-    """Writes the key moments of every action as ``<step>-<n>-<moment>-<time>s.png``.
-
-    Args:
-        scene: the scene in which the trajectories were recorded.
-        trajectories: one :class:`~etot_cli.world.recorder.Trajectory` per action, in order.
-        folder: is created when missing.
-
-    Returns:
-        the files, in order.
-
-    Raises:
-        ServiceError: there is no OpenGL, or the file system refuses.
-    """
-    import cv2
-
-    files = []
-    with WorldRenderer(build_world(scene), first_camera(scene)) as renderer:
-        _make_folder(folder)
-        for step, trajectory in enumerate(trajectories, 1):
-            for number, (word, time, row) in enumerate(key_moments(trajectory)):
-                path = folder / f"{step:02d}-{number}-{word}-{time:05.2f}s.png"
-                image = renderer.frame(trajectory.qpos[row])
-                if not cv2.imwrite(str(path), cv2.cvtColor(image, cv2.COLOR_RGB2BGR)):
-                    raise ServiceError(f"cannot write {path}")
-                files.append(path)
-    return files
-
-
-def write_video(scene: Scene, trajectories: Sequence[Any], path: Path, fps: int = 25) -> None:
-    """Writes all actions, one after the other, as an H.264 video (yuv420p, which every player has).
-
-    Args:
-        scene: the scene in which the trajectories were recorded.
-        trajectories: one :class:`~etot_cli.world.recorder.Trajectory` per action, in order.
-        path: the mp4 file.
-        fps: frames per second; the video runs in real time.
-
-    Raises:
-        ServiceError: there is no OpenGL or no encoder, or the file system refuses.
-    """
-    import av
-    from av.error import FFmpegError
-
-    try:
-        with WorldRenderer(build_world(scene), first_camera(scene)) as renderer:
-            _make_folder(path.parent)
-            with replacing(path) as file, av.open(file, "w", format="mp4") as container:
-                stream = container.add_stream("libx264", rate=fps)
-                stream.width, stream.height = renderer.width, renderer.height
-                stream.pix_fmt = "yuv420p"
-                stream.options = {"crf": "20", "preset": "veryfast"}
-                for trajectory in trajectories:
-                    for row in _even_rows(trajectory, fps):
-                        image = renderer.frame(trajectory.qpos[row])
-                        container.mux(stream.encode(av.VideoFrame.from_ndarray(image, "rgb24")))
-                container.mux(stream.encode())
-    except (FFmpegError, OSError, ValueError) as error:  # an unknown codec is a ValueError
-        raise ServiceError(f"cannot write {path}: {error}") from error
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ServiceError(f"cannot write to {folder}: {error.strerror or error}") from error
-
-
-def _even_rows(trajectory: Trajectory, fps: int) -> NDArray[np.int64]:
-    """Rows of a trajectory at even distances in time, the last one included."""
-    times = trajectory.times - trajectory.times[0]
-    wanted = np.arange(0.0, float(times[-1]) + 1e-6, 1.0 / fps)
-    rows = np.searchsorted(times, wanted + 1e-4, side="right") - 1
-    return np.append(np.clip(rows, 0, len(times) - 1), len(times) - 1)

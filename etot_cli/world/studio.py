@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from etot_cli.errors import ServiceError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.engine import import_mujoco
 from etot_cli.world.workers import WorkerLostError, WorkerPool
+
+if TYPE_CHECKING:
+    from etot_cli.world.pictures import Tone
 
 FEW = 6
 """So many pictures are drawn sooner here than processes and worlds come up."""
@@ -34,22 +37,29 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Shot:
-    """A picture to take: the configuration (nq,), and the objects to outline in it."""
+    """A picture to take: the configuration (nq,), objects to outline, and a caption."""
 
     qpos: NDArray[Any]
     outlined: tuple[str, ...] = ()
+    caption: str = ""
+    tone: Tone = "plain"
 
 
 @dataclass(frozen=True, slots=True)
 class Studio:
-    """How pictures are made. ``camera``: of the scene; None for the view of the workspace."""
+    """How pictures are made, all from one place."""
 
     scene: Scene
+    framed: NDArray[Any]
+    """The configuration (nq,) that the camera is framed on."""
     width: int
     height: int
-    camera: str | None = None
-    quality: int | None = None
-    """WebP quality of encoded pictures; None keeps the pixels."""
+    samples: int = 8
+    """Renders per picture; more make edges and shadows softer."""
+    encoding: Literal["webp", "jpg"] | None = None
+    """None keeps the pixels."""
+    quality: int = 75
+    """Of the encoding, 0 to 100."""
 
 
 def take(
@@ -133,26 +143,28 @@ class _Worker:
 
     def __init__(self, studio: Studio) -> None:
         import_mujoco()
-        from etot_cli.world.model import build_world
-        from etot_cli.world.render import WorldRenderer
+        from etot_cli.world.pictures import PictureRenderer
 
         self._studio = studio
-        self._renderer = WorldRenderer(
-            build_world(studio.scene), studio.camera, studio.width, studio.height
+        self._renderer = PictureRenderer(
+            studio.scene, studio.framed, studio.width, studio.height, studio.samples
         )
 
     def take(self, shot: Shot) -> Image | bytes:
-        image = self._renderer.picture(shot.qpos, shot.outlined)
-        if self._studio.quality is None:
+        image = self._renderer.take(shot.qpos, shot.outlined, shot.caption, shot.tone)
+        if self._studio.encoding is None:
             return image
         import cv2
 
+        webp = self._studio.encoding == "webp"
+        key = cv2.IMWRITE_WEBP_QUALITY if webp else cv2.IMWRITE_JPEG_QUALITY
         kept, encoded = cv2.imencode(
-            ".webp", cv2.cvtColor(image, cv2.COLOR_RGB2BGR),
-            [cv2.IMWRITE_WEBP_QUALITY, self._studio.quality],
-        )  # fmt: skip
+            f".{self._studio.encoding}",
+            cv2.cvtColor(image, cv2.COLOR_RGB2BGR),
+            [key, self._studio.quality],
+        )
         if not kept:
-            raise ServiceError("OpenCV cannot encode WebP pictures here")
+            raise ServiceError(f"OpenCV cannot encode {self._studio.encoding} pictures here")
         return encoded.tobytes()
 
     def close(self) -> None:

@@ -197,7 +197,7 @@ def test_defects_are_confessed_in_a_sentence(etot: Etot) -> None:
 def test_missing_opengl_is_told_after_the_report_is_saved(
     etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "etot_cli.world.render", None)
+    monkeypatch.setitem(__import__("sys").modules, "etot_cli.world.film", None)
     answer = etot(*SIMULATE, "--video", "--out", "x")
     assert answer.code == 3 and "OpenGL" in answer.err
     assert json.loads((tmp_path / "x" / "report.json").read_text())["status"] == "success"

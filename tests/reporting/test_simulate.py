@@ -87,10 +87,11 @@ def test_rendering_enters_its_files_into_the_report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made: list[tuple[object, ...]] = []
-    module = ModuleType("etot_cli.world.render")
-    module.write_video = lambda *given: made.append(given)  # type: ignore[attr-defined]
-    module.write_frames = lambda *given: made.append(given)  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "etot_cli.world.render", module)
+    module = ModuleType("etot_cli.world.film")
+    module.write_video = lambda *given, **_: made.append(given)  # type: ignore[attr-defined]
+    module.write_frames = lambda *given, **_: made.append(given)  # type: ignore[attr-defined]
+    module.Take = object  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "etot_cli.world.film", module)
     simulation = run(fails(), record=True)
     render_files(simulation, tmp_path, video=True, frames=True)
     assert simulation.report.files == {"frames": "frames", "video": "video.mp4"}
@@ -99,7 +100,7 @@ def test_rendering_enters_its_files_into_the_report(
 
 
 def test_rendering_without_opengl(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "etot_cli.world.render", None)
+    monkeypatch.setitem(sys.modules, "etot_cli.world.film", None)
     with pytest.raises(ServiceError, match="OpenGL") as error:
         render_files(run(fails()), tmp_path, video=True, frames=False)
     assert error.value.exit_code == 3

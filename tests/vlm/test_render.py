@@ -13,15 +13,9 @@ from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.errors import ServiceError, WorldError
 from etot_cli.reasoning.vlm.frames import draw_marks, moments
 from etot_cli.specs.scene import Scene
+from etot_cli.world.film import Take, key_moments, write_frames, write_video
 from etot_cli.world.recorder import Trajectory
-from etot_cli.world.render import (
-    WorldRenderer,
-    fit_size,
-    key_moments,
-    render_frames,
-    write_frames,
-    write_video,
-)
+from etot_cli.world.render import WorldRenderer, fit_size, render_frames
 from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
 from tests.vlm.scenes import kitchen
 
@@ -52,7 +46,7 @@ def trajectory() -> Trajectory:
 
 @pytest.mark.render
 def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> None:
-    files = write_frames(SCENE, [trajectory, trajectory], tmp_path / "frames")
+    files = write_frames(SCENE, [Take(trajectory)] * 2, tmp_path / "frames")
     assert [path.name for path in files[:3]] == [
         "01-0-start-00.00s.png", "01-1-key-00.80s.png", "01-2-end-02.00s.png",
     ]  # fmt: skip
@@ -67,7 +61,9 @@ def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> N
 
 @pytest.mark.render
 def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
-    write_video(SCENE, [trajectory, trajectory], tmp_path / "deep" / "run.mp4", 10)
+    write_video(
+        SCENE, [Take(trajectory)] * 2, tmp_path / "deep" / "run.mp4", size=(320, 180), rate=10
+    )
     with av.open(str(tmp_path / "deep" / "run.mp4")) as container:
         stream = container.streams.video[0]
         assert stream.codec_context.name == "h264" and stream.codec_context.pix_fmt == "yuv420p"
@@ -76,7 +72,7 @@ def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
     assert 40 <= frames <= 46
     (tmp_path / "file").write_text("")
     with pytest.raises(ServiceError, match="cannot write"):
-        write_video(SCENE, [trajectory], tmp_path / "file" / "run.mp4")
+        write_video(SCENE, [Take(trajectory)], tmp_path / "file" / "run.mp4")
 
 
 @pytest.mark.render

@@ -1,0 +1,158 @@
+"""Pictures for people: the dressed world, framed on the work, with outlines and captions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any, Literal
+
+import cv2
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.specs.scene import Scene
+from etot_cli.world.framing import workspace_camera
+from etot_cli.world.model import build_world
+from etot_cli.world.offscreen import Image, OffscreenRenderer
+
+Tone = Literal["plain", "good", "bad"]
+TONES: dict[Tone, tuple[int, int, int]] = {
+    "plain": (90, 96, 108), "good": (28, 124, 60), "bad": (190, 38, 30),
+}  # fmt: skip
+"""Colours of a caption's edge, RGB."""
+CULPRIT = (235, 40, 25)
+INK, PAPER = (34, 36, 42), (250, 250, 248)
+SMALLEST_SEEN = 12
+"""Objects of which fewer pixels are seen get no outline."""
+FACE = "sans"
+"""One of the fonts inside OpenCV; every installation has the same."""
+
+
+class PictureRenderer:
+    """Takes pictures of one scene, all from the same place. A context manager.
+
+    Args:
+        scene: what is seen.
+        qpos: (nq,) the configuration that the camera is framed on.
+        width: of the pictures [px].
+        height: of the pictures [px].
+        samples: renders per picture; more make edges and shadows softer.
+
+    Raises:
+        ServiceError: there is no OpenGL.
+        WorldError: the scene cannot be built.
+    """
+
+    def __init__(
+        self, scene: Scene, qpos: NDArray[Any], width: int, height: int, samples: int
+    ) -> None:
+        self._world = build_world(scene, dressed=True)
+        self._data = mujoco.MjData(self._world.model)
+        self._samples = samples
+        self._camera = workspace_camera(self._world, qpos, width, height)
+        self._renderer = OffscreenRenderer(self._world.model, width, height)
+
+    def __enter__(self) -> PictureRenderer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Frees what the graphics driver holds; idempotent."""
+        self._renderer.close()
+
+    def take(
+        self,
+        qpos: NDArray[Any],
+        outlined: Sequence[str] = (),
+        caption: str = "",
+        tone: Tone = "plain",
+    ) -> Image:
+        """A picture (height, width, 3) of a configuration (nq,).
+
+        Args:
+            qpos: the configuration.
+            outlined: objects to outline and name.
+            caption: written below the scene; none when empty.
+            tone: colour of the caption's edge.
+        """
+        model, data = self._world.model, self._data
+        data.qpos[:] = qpos
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_camlight(model, data)
+        self._renderer.look(data, self._camera)
+        image = self._renderer.soft_color(self._samples)
+        if outlined:
+            _, geoms = self._renderer.depth_and_geoms()
+            owners = np.array([*self._world.geom_object, ""])
+            seen = owners[geoms]
+            for name in outlined:
+                image = outline(image, seen == name, name)
+        return write_caption(image, caption, tone) if caption else image
+
+
+def outline(image: Image, mask: NDArray[np.bool_], name: str) -> Image:
+    """A picture (height, width, 3) with a red line around a mask (height, width) and its name."""
+    if int(mask.sum()) < SMALLEST_SEEN:
+        return image
+    drawn = np.ascontiguousarray(image)
+    scale = max(1.0, image.shape[1] / 480)
+    lines, _ = cv2.findContours(
+        cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8)),
+        cv2.RETR_EXTERNAL,
+        cv2.CHAIN_APPROX_NONE,
+    )
+    for color, thickness in ((PAPER, round(2.6 * scale)), (CULPRIT, round(1.3 * scale))):
+        cv2.drawContours(drawn, lines, -1, color, max(1, thickness), cv2.LINE_AA)
+    rows, columns = np.nonzero(mask)
+    return _tag(drawn, name, int(columns.mean()), int(rows.min()), scale)
+
+
+def _tag(image: Image, text: str, x: int, y: int, scale: float) -> Image:
+    """A name on a red tag above a point."""
+    face, size = cv2.FontFace(FACE), round(8 * scale)
+    width, height = _text_size(image, text, face, size)
+    pad = round(4 * scale)
+    left = int(np.clip(x - width // 2 - pad, 2, max(2, image.shape[1] - width - 2 * pad - 2)))
+    top = max(2, y - height - 2 * pad - round(5 * scale))
+    cv2.rectangle(
+        image, (left, top), (left + width + 2 * pad, top + height + 2 * pad), CULPRIT, -1,
+        cv2.LINE_AA,
+    )  # fmt: skip
+    cv2.putText(
+        image, text, (left + pad, top + pad + height - round(1 * scale)), PAPER, face, size, 600
+    )
+    return image
+
+
+def write_caption(image: Image, caption: str, tone: Tone) -> Image:
+    """A picture with a line of text over its lower edge; text that is too long is cut."""
+    drawn = np.ascontiguousarray(image)
+    rows, columns = drawn.shape[:2]
+    scale = max(1.0, columns / 640)
+    face, size = cv2.FontFace(FACE), round(13 * scale)
+    bar, edge = round(28 * scale), round(6 * scale)
+    room = columns - edge - round(20 * scale)
+    text = caption
+    while len(text) > 4 and _text_size(drawn, text, face, size)[0] > room:
+        text = text.rstrip("…")[:-1].rstrip() + "…"
+    strip = drawn[rows - bar :]
+    strip[:] = (0.12 * strip + 0.88 * np.array(PAPER)).astype(np.uint8)
+    strip[:, :edge] = TONES[tone]
+    cv2.putText(
+        drawn, text, (edge + round(10 * scale), rows - round(9 * scale)), INK, face, size, 500
+    )  # fmt: skip
+    return drawn
+
+
+def _text_size(image: Image, text: str, face: Any, size: int) -> tuple[int, int]:
+    box = cv2.getTextSize((image.shape[1], image.shape[0]), text, (0, 0), face, size, 500)
+    return int(box[2]), max(int(box[3]), size * 2 // 3)
