@@ -19,7 +19,7 @@ from etot_cli.skills.motion.motion import (
     Trace,
     Wait,
 )
-from etot_cli.skills.motion.timing import time_line, time_path
+from etot_cli.skills.motion.timing import JointLimits, time_line, time_path
 
 Vector = NDArray[np.float64]
 
@@ -28,17 +28,17 @@ SETTLE_AFTER_FAILURE = 1.6
 
 
 def run_motion(
-    motion: Motion, robot: Robot, *, joint_speed: float, keep_targets: bool = False
+    motion: Motion, robot: Robot, limits: JointLimits, *, keep_targets: bool = False
 ) -> Trace:
     """Carries a motion out to its end or to the first phase that fails.
 
     Args:
         motion: what to do.
         robot: who does it.
-        joint_speed: of free paths [rad/s].
+        limits: of the joint targets that it is sent.
         keep_targets: put the joint targets that were sent into the trace.
     """
-    run = _Run(robot, joint_speed, keep_targets)
+    run = _Run(robot, limits, keep_targets)
     for phase in motion.phases:
         if not run.carry_out(phase):
             robot.wait(SETTLE_AFTER_FAILURE, Guards(), until_rest=True)
@@ -49,8 +49,8 @@ def run_motion(
 class _Run:
     """One motion on its way."""
 
-    def __init__(self, robot: Robot, joint_speed: float, keep_targets: bool) -> None:
-        self._robot, self._speed, self._keep = robot, joint_speed, keep_targets
+    def __init__(self, robot: Robot, limits: JointLimits, keep_targets: bool) -> None:
+        self._robot, self._limits, self._keep = robot, limits, keep_targets
         self._way_out: Vector | None = None
         self.phases: list[PhaseTrace] = []
 
@@ -92,9 +92,9 @@ class _Run:
         start = self._robot.state().targets
         whole = np.vstack([start[None], path])
         if move.length is None or move.tool_speed is None:
-            targets = time_path(whole, self._speed)
+            targets = time_path(whole, self._limits)
         else:
-            targets = time_line(whole, move.length, move.tool_speed, self._speed)
+            targets = time_line(whole, move.length, move.tool_speed, self._limits)
         guards = Guards(move.holding)
         end = self._robot.follow(targets, guards)
         if end is PhaseEnd.DONE or (end is PhaseEnd.BLOCKED and move.may_block):

@@ -16,6 +16,7 @@ from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief, build_twin
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.motion import Motion, Trace
+from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.skills.motions import outcome_of, plan_motions
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.specs.scene import Scene
@@ -62,6 +63,8 @@ class SimulatedWorld:
         self.data = mujoco.MjData(self.world.model)
         self.deadline = Deadline()
         self.twin = build_twin(self.world, self.deadline)
+        robot = self.world.robot.spec
+        self.limits = JointLimits(robot.speed, robot.limits.acceleration, robot.limits.jerk)
         self.seed = seed
         self.keep_frames = keep_frames
         self.total_steps = 0
@@ -127,9 +130,7 @@ class SimulatedWorld:
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
         robot = SimulatedRobot(world, data, recorder, self.deadline)
-        trace = run_motion(
-            motion, robot, joint_speed=world.robot.spec.speed, keep_targets=self.keep_frames
-        )
+        trace = run_motion(motion, robot, self.limits, keep_targets=self.keep_frames)
         self.total_steps += robot.steps
         mujoco.mj_forward(world.model, data)
         after, memory = read_scene(world, data, start.memory)

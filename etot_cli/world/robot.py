@@ -34,6 +34,16 @@ class GripperSpec(Spec):
     force: Annotated[float, Field(gt=0.1, le=1000.0)] = 30.0
 
 
+class JointLimitsSpec(Spec):
+    """What the joints' drives accept: the largest acceleration [rad/s²] and jerk [rad/s³].
+
+    The defaults are half of what small industrial arms allow.
+    """
+
+    acceleration: Annotated[float, Field(gt=0.1, le=1000.0)] = 10.0
+    jerk: Annotated[float, Field(gt=1.0, le=100_000.0)] = 250.0
+
+
 class RobotSpec(Spec):
     """Which joints, actuators and sites of an MJCF model make up the arm.
 
@@ -50,6 +60,7 @@ class RobotSpec(Spec):
     home: tuple[Finite, ...]
     speed: Annotated[float, Field(gt=0.05, le=10.0)] = 1.2
     reach: Annotated[float, Field(gt=0.1, le=5.0)] = 0.7
+    limits: JointLimitsSpec = JointLimitsSpec()
     gripper: GripperSpec
     directory: str = ""
     """Folder of the YAML; set by the loader."""

@@ -14,14 +14,14 @@ from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import parse_plan
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
-from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits
 from etot_cli.skills.motions import plan_motions
 from etot_cli.world.relations import held_object
 from etot_cli.world.snapshot import Snapshot, restore
 from tests.skills.helpers import BALL, UNIT, drawers
 from tests.world.helpers import make_scene
 
-SPEED = 1.0
+LIMITS = JointLimits(1.0, 20.0, 500.0)
 
 
 @dataclass
@@ -107,7 +107,7 @@ def test_the_simulated_robot_lifts_the_ball(
     world: SimulatedWorld, start: Snapshot, grasp: Motion
 ) -> None:
     restore(world.world, world.data, start)
-    trace = run_motion(grasp, SimulatedRobot(world.world, world.data), joint_speed=SPEED)
+    trace = run_motion(grasp, SimulatedRobot(world.world, world.data), LIMITS)
     assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
     assert trace.stopped is None
     assert held_object(world.world, world.data) == "ball"
@@ -116,7 +116,7 @@ def test_the_simulated_robot_lifts_the_ball(
 
 def test_a_logging_robot_is_told_the_same(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=BALL["diameter"])
-    trace = run_motion(grasp, robot, joint_speed=SPEED, keep_targets=True)
+    trace = run_motion(grasp, robot, LIMITS, keep_targets=True)
     assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
     assert trace.stopped is None
     assert [line.split(" to ")[0] for line in robot.log] == [
@@ -129,14 +129,14 @@ def test_a_logging_robot_is_told_the_same(grasp: Motion) -> None:
 
 def test_fingers_that_meet_nothing_end_the_motion(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=0.0)
-    trace = run_motion(grasp, robot, joint_speed=SPEED)
+    trace = run_motion(grasp, robot, LIMITS)
     assert names(trace) == ["transit", "approach", "grip"]
     assert ended(trace, "grip") is PhaseEnd.MISSED
 
 
 def test_a_slip_ends_the_motion(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=BALL["diameter"], script={2: PhaseEnd.SLIPPED})
-    trace = run_motion(grasp, robot, joint_speed=SPEED)
+    trace = run_motion(grasp, robot, LIMITS)
     assert names(trace) == ["transit", "approach", "grip", "lift"]
     assert trace.stopped is not None and trace.stopped.end is PhaseEnd.SLIPPED
 
@@ -149,7 +149,7 @@ def test_a_drawer_that_stops_is_let_go_and_left_the_way_out_from_there(
     assert len(along.exits) == len(along.path)
     index = [p for p in motion.phases if isinstance(p, Move)].index(along)
     robot = scripted(motion, script={index: PhaseEnd.BLOCKED})
-    trace = run_motion(motion, robot, joint_speed=SPEED, keep_targets=True)
+    trace = run_motion(motion, robot, LIMITS, keep_targets=True)
     assert ended(trace, "along") is PhaseEnd.BLOCKED
     assert ended(trace, "retreat") is PhaseEnd.DONE
     halted = np.array(next(p for p in trace.phases if p.name == "along").joints)
