@@ -14,10 +14,10 @@ demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
 
 test: $(VENV)/.dev  ## all tests
-	$(BIN)/python -m pytest -n $(WORKERS)
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
 
 test-fast: $(VENV)/.dev  ## a cross-section of the tests, in a minute
-	$(BIN)/python -m pytest -n $(WORKERS) -m "not slow"
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m "not slow"
 
 lint: $(VENV)/.dev  ## style and types
 	$(BIN)/ruff check .

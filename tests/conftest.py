@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 
 import pytest
 
@@ -11,6 +12,10 @@ from tests.opengl import need_opengl
 
 # Pages have tests of their own; the hundreds of other runs need not render pictures.
 os.environ.setdefault("ETOT_HTML", "0")
+
+# Hundreds of processes would otherwise compile the whole package, each for itself.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # Before any test module does it: a MUJOCO_GL that cannot be used would make that fail.
 import_mujoco()

@@ -8,6 +8,8 @@ import re
 import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,7 @@ import pytest
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.player import Player
 from tests.opengl import missing_opengl
+from tests.shared import once, planned
 from tests.vlm.scripts import TASKS, with_common
 
 ROOT = Path(__file__).parents[2]
@@ -39,6 +42,10 @@ ANSWERS = {"[PICK UP, pen] [PUT INTO, black_holder]": 1}
 """Plans shown because they fail: exit code by plan; all other commands end with 0."""
 LEFT_OUT = ("--video", "--frames")
 """Options that need OpenGL, which planning must do without; rendering has tests of its own."""
+FIRST = "etot plan tasks/task5.yaml"
+"""Is run once for all tests that look at its report."""
+FRAME_WIDTH = 160
+"""Of what a scripted model is shown, which does not look at it [px]; drawing costs time."""
 REPORT = "results/plan/…/report.json"
 """Stands for the report of the plan command shown before it."""
 
@@ -77,35 +84,46 @@ def etot(arguments: list[str]) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.fixture(scope="session")
-def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of the plan that the README makes first."""
-    folder = tmp_path_factory.mktemp("planned")
-    done = etot(["plan", "tasks/task5.yaml", "--out", str(folder), "-q"])
-    assert done.returncode == 0, done.stderr
-    return folder / "report.json"
+    return planned(tmp_path_factory, ROOT / "tasks" / "task5.yaml") / "report.json"
 
 
 @pytest.fixture(scope="session")
 def captured(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A rendered capture; an empty folder where there is no OpenGL."""
-    folder = tmp_path_factory.mktemp("capture")
-    done = etot(["simulate", "tasks/task2.yaml", "--capture", str(folder)])
-    assert done.returncode == (3 if missing_opengl() else 0), done.stderr
-    return folder
+
+    def make(folder: Path) -> None:
+        done = etot(["simulate", "tasks/task2.yaml", "--capture", str(folder)])
+        assert done.returncode == (3 if missing_opengl() else 0), done.stderr
+
+    return once(tmp_path_factory, "capture", make)
 
 
 @pytest.fixture(scope="session")
 def tape(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cassette of a run against a scripted model."""
-    folder = tmp_path_factory.mktemp("recorded")
-    with FakeServer(Player(with_common(TASKS[5]))) as server, pytest.MonkeyPatch.context() as patch:
+
+    def make(folder: Path) -> None:
+        words = ["plan", "tasks/task5.yaml", "--reasoner", "vlm", "--record", str(folder / "tape")]
+        with pytest.MonkeyPatch.context() as patch, scripted_model(patch, folder):
+            done = etot([*words, "--out", str(folder / "out"), "--force", "-q"])
+        assert done.returncode == 0, done.stderr
+
+    return once(tmp_path_factory, "tape", make) / "tape"
+
+
+@contextmanager
+def scripted_model(patch: pytest.MonkeyPatch, folder: Path) -> Iterator[None]:
+    """A model that answers in place of the one that the pages talk about, and sees small frames."""
+    with FakeServer(Player(with_common(TASKS[5]))) as server:
         patch.setenv("OPENAI_BASE_URL", server.url)
         patch.setenv("OPENAI_API_KEY", "sk-of-no-use")
         patch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
-        words = ["plan", "tasks/task5.yaml", "--reasoner", "vlm", "--record", str(folder / "tape")]
-        done = etot([*words, "--out", str(folder / "out"), "--force", "-q"])
-    assert done.returncode == 0, done.stderr
-    return folder / "tape"
+        patch.setenv("ETOT_VLM_IMAGE_WIDTH", str(FRAME_WIDTH))
+        patch.setenv("ETOT_VLM_PRICE_IN", "1")
+        patch.setenv("ETOT_VLM_PRICE_OUT", "1")
+        yield
 
 
 def test_documentation_shows_commands() -> None:
@@ -131,24 +149,18 @@ def test_example_works(
     page: str,
     command: str,
     tmp_path: Path,
-    planned: Path,
+    report: Path,
     tape: Path,
     captured: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     words = shlex.split(command, comments=True)[1:]
     if "vlm" in words:
-        # A scripted model answers in place of the one that the page talks about.
         if "--vlm-url" in words:
             del words[words.index("--vlm-url") : words.index("--vlm-url") + 2]
         words = [str(tape) if word == "tape" and "--replay" in words else word for word in words]
         words = [str(tmp_path / "tape") if word == "tape" else word for word in words]
-        with FakeServer(Player(with_common(TASKS[5]))) as server:
-            monkeypatch.setenv("OPENAI_BASE_URL", server.url)
-            monkeypatch.setenv("OPENAI_API_KEY", "sk-of-no-use")
-            monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-            monkeypatch.setenv("ETOT_VLM_PRICE_IN", "1")
-            monkeypatch.setenv("ETOT_VLM_PRICE_OUT", "1")
+        with scripted_model(monkeypatch, tmp_path):
             done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
         assert done.returncode == 0, f"{page}: {done.stdout}{done.stderr}"
         return
@@ -158,14 +170,18 @@ def test_example_works(
         assert done.returncode == 3, f"{page}: {done.stdout}{done.stderr}"
         assert "Traceback" not in done.stderr
         return
-    words = [str(planned) if word == REPORT else word for word in words if word not in LEFT_OUT]
+    if command == FIRST:
+        assert json.loads(report.read_text(encoding="utf-8"))["status"] == "feasible"
+        assert (report.parent / "code").read_text() == "0"
+        return
+    words = [str(report) if word == REPORT else word for word in words if word not in LEFT_OUT]
     if "--out" in words:
         del words[words.index("--out") : words.index("--out") + 2]
     done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
     expected = next((code for plan, code in ANSWERS.items() if plan in words), 0)
     assert done.returncode == expected, f"{page}: {done.stdout}{done.stderr}"
-    report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
-    assert report["status"] in (("feasible", "success") if expected == 0 else ("failure", "unsafe"))
+    found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert found["status"] in (("feasible", "success") if expected == 0 else ("failure", "unsafe"))
 
 
 @pytest.mark.parametrize(("page", "command"), MAKE, ids=[c for _, c in MAKE])

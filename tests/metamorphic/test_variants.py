@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from contextlib import closing
 from functools import cache
 from pathlib import Path
@@ -16,6 +18,7 @@ from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.specs.load import load_task
 from etot_cli.world.state import SceneState
 from tests.metamorphic.variants import document, mirrored, new_words, renamed, reworded, write
+from tests.shared import planned
 
 FOLDER = Path(__file__).parents[2] / "tasks"
 OTHERS = Path(__file__).parents[1] / "tasks"
@@ -68,10 +71,18 @@ REWORDINGS = {
 """Other ways to say what the shipped tasks say."""
 
 
-@cache
-def outcome(name: str) -> tuple[str, tuple[str, ...]]:
-    """Status and plan of a task as it is; planned once a process."""
-    return _outcome(run_plan(PlanOptions(task=file_of(name), jobs=1)))
+Outcome = Callable[[str], tuple[str, tuple[str, ...]]]
+
+
+@pytest.fixture(scope="session")
+def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+    """Status and plan of a task as it is."""
+
+    def read(name: str) -> tuple[str, tuple[str, ...]]:
+        report = json.loads((planned(tmp_path_factory, file_of(name)) / "report.json").read_text())
+        return report["status"], tuple(report["plan"])
+
+    return read
 
 
 def _outcome(report: PlanReport) -> tuple[str, tuple[str, ...]]:
@@ -84,7 +95,7 @@ def file_of(name: str) -> Path:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", (*TASKS, *MORE))
-def test_renamed(name: str, tmp_path: Path) -> None:
+def test_renamed(name: str, outcome: Outcome, tmp_path: Path) -> None:
     task = document(file_of(name))
     words = new_words(task, seed=sum(name.encode()))
     changed = renamed(task, words)
@@ -96,7 +107,7 @@ def test_renamed(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", (*TASKS, *MORE))
-def test_mirrored(name: str, tmp_path: Path) -> None:
+def test_mirrored(name: str, outcome: Outcome, tmp_path: Path) -> None:
     file = write(mirrored(document(file_of(name))), tmp_path)
     assert _outcome(run_plan(PlanOptions(task=file, jobs=1))) == outcome(name)
 
@@ -131,7 +142,9 @@ def test_reworded_instruction_branches(name: str, instruction: str) -> None:
         ("task6", "Put the holder and the apple on the drawer, with the apple in the holder."),
     ],
 )
-def test_reworded_instruction_plan(name: str, instruction: str, tmp_path: Path) -> None:
+def test_reworded_instruction_plan(
+    name: str, instruction: str, outcome: Outcome, tmp_path: Path
+) -> None:
     task = document(FOLDER / f"{name}.yaml")
     file = write({**task, "instruction": instruction}, tmp_path)
     assert _outcome(run_plan(PlanOptions(task=file, jobs=1))) == outcome(name)

@@ -24,6 +24,9 @@ from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import angle_block, prism, roof, toy
 from tests.reconstruction.scenes import free_forms, scene
 
+pytestmark = pytest.mark.slow
+
+
 SIZE = 0.04
 """Largest error of a side, relative …"""
 PLACE = 0.003

@@ -18,6 +18,9 @@ from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import scene
 
+pytestmark = pytest.mark.slow
+
+
 TASKS = Path(__file__).parents[2] / "tasks"
 
 

@@ -18,6 +18,8 @@ from etot_cli.world.capture import CLEAN_SCALE, KINECT, Picture, add_noise, writ
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import CUP, others, scene, unit
 
+pytestmark = pytest.mark.slow
+
 
 def overlaps(picture: Picture, folder: Path, seed: int | None) -> tuple[dict[str, float], int]:
     """Best IoU by true name, and how many segments were found; a seed adds a sensor's noise."""

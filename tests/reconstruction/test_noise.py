@@ -18,6 +18,8 @@ from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import CUP, PEN, scene, unit
 
+pytestmark = pytest.mark.slow
+
 
 def noisy(what: Scene, folder: Path, seed: int) -> Path:
     """A capture of a scene as a sensor delivers it, without masks."""

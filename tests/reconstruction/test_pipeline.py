@@ -17,6 +17,9 @@ from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import articulated
 
+pytestmark = pytest.mark.slow
+
+
 KINDS = {"mug": "cup", "crate": "box", "marker": "pen", "ball": "sphere"}
 
 

@@ -12,6 +12,8 @@ from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.random_scenes import SHOWN, random_scene
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     ("seed", "noisy"), [(0, False), (3, False), (5, False), (1, True), (6, True)]

@@ -24,6 +24,9 @@ from etot_cli.reconstruction import services
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
 from etot_cli.world.capture import Picture, camera_to_base
 
+pytestmark = pytest.mark.slow
+
+
 SERVERS = Path(__file__).parents[2] / "docs" / "servers"
 NAMES = ("masks_server", "mesh_server", "pose_server", "articulation_server")
 

@@ -20,6 +20,9 @@ from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import ALL, angle_block, mug, toy
 from tests.reconstruction.scenes import scene
 
+pytestmark = pytest.mark.slow
+
+
 PLACES = {
     "angle_block": ([0.40, -0.22], 20),
     "mug": ([0.42, 0.02], 135),

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import shutil
-import time
 from pathlib import Path
 
 import pytest
 
-from etot_cli.cli.app import run
-from etot_cli.cli.exits import NO
 from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.planning.result import SearchStatus
 from etot_cli.reporting.plan_report import PlanReport
 from tests.metamorphic.variants import document, write
+from tests.shared import planned
 
 FOLDER = Path(__file__).parent
 LIMIT_S = 60.0
@@ -46,10 +43,11 @@ INFEASIBLE = {"too_big": {"globe"}, "no_grasp": {"wide_crate", "far_crate"}}
 """Tasks without a plan, and what the causes of failure must name between them."""
 
 
-def planned(name: str) -> PlanReport:
-    started = time.monotonic()
-    report = run_plan(PlanOptions(task=FOLDER / f"{name}.yaml", jobs=1))
-    assert time.monotonic() - started < LIMIT_S
+def report_of(name: str, temporary: pytest.TempPathFactory) -> PlanReport:
+    folder = planned(temporary, FOLDER / f"{name}.yaml")
+    report = PlanReport.model_validate_json((folder / "report.json").read_text(encoding="utf-8"))
+    assert report.statistics.wall_s < LIMIT_S
+    assert (folder / "code").read_text() == ("0" if report.status == "feasible" else "1")
     return report
 
 
@@ -68,8 +66,8 @@ def matches(plan: list[str], wanted: list[str]) -> bool:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(PLANS))
-def test_feasible_task(name: str) -> None:
-    report = planned(name)
+def test_feasible_task(name: str, tmp_path_factory: pytest.TempPathFactory) -> None:
+    report = report_of(name, tmp_path_factory)
     assert report.status == SearchStatus.FEASIBLE.value, causes(report)
     assert matches(report.plan, PLANS[name]), report.plan
     options = SimulateOptions(task=FOLDER / f"{name}.yaml", plan=" ".join(report.plan))
@@ -79,16 +77,11 @@ def test_feasible_task(name: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(INFEASIBLE))
-def test_infeasible_task(name: str, tmp_path: Path) -> None:
-    started = time.monotonic()
-    task = str(FOLDER / f"{name}.yaml")
-    code = run(["plan", task, "--jobs", "1", "--quiet", "--out", str(tmp_path)])
-    assert time.monotonic() - started < LIMIT_S
-    report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
-    assert (code, report["status"]) == (NO, "infeasible"), report["plan"]
-    failed = [node for node in report["tree"]["nodes"] if node["cause"]]
-    blamed = {name for node in failed for name in node["cause"]["objects"]}
-    assert blamed >= INFEASIBLE[name]
+def test_infeasible_task(name: str, tmp_path_factory: pytest.TempPathFactory) -> None:
+    report = report_of(name, tmp_path_factory)
+    assert report.status == SearchStatus.INFEASIBLE.value, report.plan
+    causes = [node.cause for node in report.tree.nodes if node.cause is not None]
+    assert {name for cause in causes for name in cause.objects} >= INFEASIBLE[name]
 
 
 @pytest.mark.slow

@@ -24,7 +24,7 @@ TASK_FILES = {number: ROOT / "tasks" / f"task{number}.yaml" for number in TASKS}
 SIDE = 768
 
 
-pytestmark = pytest.mark.render
+pytestmark = [pytest.mark.render, pytest.mark.slow]
 
 PLANS = {
     1: "[PICK UP, tennis_ball] [PUT ON, desk] [OPEN, microwave]",
