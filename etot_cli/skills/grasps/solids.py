@@ -46,6 +46,11 @@ class Solids:
             self._planes[geom] = _planes(self._world.model, geom)
         return self._planes[geom]
 
+    def box(self, geom: int) -> tuple[Vector, Vector]:
+        """Centre and half extents (3,), (3,) of a geom in its own frame [m]."""
+        bounds = self._world.model.geom_aabb[geom]
+        return bounds[:3], bounds[3:]
+
     def intervals(
         self, data: mujoco.MjData, name: str, origins: Vector, directions: Vector
     ) -> list[list[Interval]]:
@@ -81,20 +86,44 @@ class Solids:
     def _span(
         self, data: mujoco.MjData, geom: int, origins: Vector, directions: Vector
     ) -> tuple[Vector, Vector]:
-        model = self._world.model
         rotation = data.geom_xmat[geom].reshape(3, 3)
-        local = (origins - data.geom_xpos[geom]) @ rotation
+        return self.span(geom, data.geom_xpos[geom], rotation, origins, directions)
+
+    def span(
+        self,
+        geom: int,
+        position: Vector,
+        rotation: Vector,
+        origins: Vector,
+        directions: Vector,
+        margin: float = 0.0,
+    ) -> tuple[Vector, Vector]:
+        """Where lines enter and leave one geom.
+
+        Args:
+            geom: its id.
+            position: (3,) where it is [m].
+            rotation: (3, 3) how it is turned.
+            origins: (m, 3) points of the lines.
+            directions: (m, 3) unit vectors, or one (1, 3) for all.
+            margin: how much larger than it is the geom is taken to be on all sides [m].
+
+        Returns:
+            Distances (m,), (m,) along the lines [m]; a line misses where the second is smaller.
+        """
+        model = self._world.model
+        local = (origins - position) @ rotation
         along = directions @ rotation
         if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
-            middle = -np.einsum("ij,ij->i", local, along)
-            squared = model.geom_size[geom, 0] ** 2 - (
+            middle = -(local * along).sum(axis=1)
+            squared = (model.geom_size[geom, 0] + margin) ** 2 - (
                 np.einsum("ij,ij->i", local, local) - middle**2
             )
             half = np.sqrt(np.maximum(squared, 0.0))
             return middle - half, middle + half
         normals, offsets = self.planes(geom)
         rate = along @ normals.T
-        slack = offsets - local @ normals.T
+        slack = offsets + margin - local @ normals.T
         with np.errstate(divide="ignore", invalid="ignore"):
             crossing = slack / rate
         low = np.where(rate < -1e-9, crossing, -np.inf).max(axis=1)

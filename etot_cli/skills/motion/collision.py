@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import mujoco
@@ -66,6 +67,7 @@ class CollisionChecker:
         fingers = np.isin(self._model.geom_bodyid, world.robot.finger_bodies)
         self._finger = fingers & (self._owner == -2)
         self.checks = 0
+        self._ignored: frozenset[int] = frozenset()
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
 
@@ -88,6 +90,22 @@ class CollisionChecker:
         model.body_contype[:] = 0
         np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)
         self._carried = carried
+
+    @contextmanager
+    def without(self, names: Iterable[str]) -> Iterator[None]:
+        """Answers as if these objects were not there."""
+        before = self._ignored
+        self._ignored = before | {self._object_names.index(name) for name in names}
+        try:
+            yield
+        finally:
+            self._ignored = before
+
+    def place(self, name: str, pose: Pose) -> None:
+        """Puts a free object of the frozen scene at a pose of its body, base frame."""
+        address = self._data.joint(name).qpos
+        address[:3] = pose.position
+        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(pose.rotation).ravel())
 
     def set_joint(self, joint: str, value: float) -> None:
         """Moves a door or drawer of the frozen scene, with what rides in or on a drawer."""
@@ -175,6 +193,8 @@ class CollisionChecker:
                 # MuJoCo leaves out pairs of neighbouring links, which the model excludes.
                 if data.contact.dist[index] < SELF_CLEARANCE and not hand_only:
                     found["robot"] = None
+                continue
+            if first in self._ignored or second in self._ignored:
                 continue
             if not (first < -1 or first == held):
                 first, second, one, two = second, first, two, one

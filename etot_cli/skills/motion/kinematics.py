@@ -33,6 +33,8 @@ the arm's branch in the middle of a path."""
 LINE_STEP = 0.035
 """Spacing of poses on a straight line [m]; between them joints are interpolated, which at this
 spacing strays from the line by less than 0.5 mm."""
+RADIUS_STEP = 0.05
+"""Spacing at which the range of the arm is looked at [m]."""
 DISTINCT = 0.3
 """Joint difference from which two solutions count as different [rad]."""
 _LIMIT_MARGIN = 0.01
@@ -80,6 +82,7 @@ class Arm:
         self._dof = np.array([int(joint.dofadr[0]) for joint in joints])
         self.lower, self.upper = np.array([joint.range for joint in joints], dtype=np.float64).T
         self.home = np.array(spec.home, dtype=np.float64)
+        self._comfortable: dict[float, float] = {}
         self._diagonal = np.diag_indices(len(joints))
         self._configuration = mink.Configuration(model)
         self._tasks: dict[bool, mink.FrameTask] = {
@@ -92,6 +95,26 @@ class Arm:
             )
             for free in (False, True)
         }
+
+    def comfortable_radius(self, height: float) -> float:
+        """Distance from the base axis at which the arm works best [m]: the middle of where it
+        reaches with its hand pointing down.
+
+        Args:
+            height: of the tool point, base frame [m].
+        """
+        key = round(height, 2)
+        if key not in self._comfortable:
+            down = np.diag([1.0, -1.0, -1.0])
+            radii = np.arange(RADIUS_STEP, self.spec.reach, RADIUS_STEP)
+            reached = [
+                radius
+                for radius in radii
+                if self.reach(Pose(np.array([radius, 0.0, key]), down), self.home, tries=2).reached
+            ]
+            middle = (reached[0] + reached[-1]) / 2 if reached else self.spec.reach / 2
+            self._comfortable[key] = float(middle)
+        return self._comfortable[key]
 
     def forward(self, joints: Vector) -> Pose:
         """Tool pose at joint values (n,) [rad]."""

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import turn_about
+from etot_cli.skills.placements.support import Support
 
 Vector = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
+HIGHEST_APPROACH = 0.1
+"""A hand that puts something down points no higher than level, give or take 6° (sine)."""
+TURNS_AT_ONCE = 4
+"""The most comfortable turns mostly do, so the others are looked at only where they do not."""
+MAX_LAID = 2
+"""Ways to lie that are tried."""
 INWARD_TURNS = tuple(np.radians((0, 20, -20, 40, -40)))
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
 
@@ -43,32 +52,102 @@ def standing_rotation(belief: Belief, attached: Attached) -> Vector:
     return _align(axis, -UP) @ pose.rotation
 
 
-def turned_rotations(
-    belief: Belief, attached: Attached, base: Vector, spot: Vector
-) -> list[Vector]:
-    """Turns of the object about the vertical, the ones comfortable for the arm first.
+@dataclass(frozen=True)
+class Orientations:
+    """Some of the ways to put an object down: one base, turned about the vertical.
 
-    A hand that points down may turn either way; a level hand should point away from the base.
+    ``rotations``: (3, 3) each, the most comfortable first; ``laid``: it is laid down.
     """
-    outward = np.array([spot[0], spot[1], 0.0]) / max(float(np.hypot(*spot[:2])), 1e-6)
-    to_tool = attached.in_tool.rotation.T
-    ranked = []
-    closing_now = belief.tool().rotation[:, 1]
-    for turn in TURNS:
-        rotation = turn_about(UP, turn) @ base
-        tool = rotation @ to_tool
-        level = tool[:, 2] * np.array([1.0, 1.0, 0.0])
-        if np.linalg.norm(level) > 0.3:
-            cost = 1.0 - float(level @ outward) / float(np.linalg.norm(level))
-        else:
-            radial = np.arctan2(spot[1], spot[0])
-            now = np.arctan2(belief.object_pose(attached.name).position[1],
-                             belief.object_pose(attached.name).position[0])  # fmt: skip
-            natural = turn_about(UP, float(radial - now)) @ closing_now
-            cost = 1.0 - float(tool[:, 1] @ natural)
-        ranked.append((round(cost, 6), abs(turn), turn, rotation))
-    ranked.sort(key=lambda item: item[:3])
-    return [rotation for *_, rotation in ranked]
+
+    rotations: list[Vector]
+    laid: bool
+
+
+def orientations(belief: Belief, attached: Attached, support: Support) -> list[Orientations]:
+    """Orientations to put an object down with, a few turns at a time, the best first: as it is
+    held, then laid down where falling over does it no harm.
+
+    A rod that is too long for a vessel stands in it.
+    """
+    entry = belief.world.entries[attached.name]
+    if (
+        entry.axis is not None
+        and support.is_container
+        and entry.info.size[0] > 2 * float(support.half.max())
+    ):
+        return _turned(belief, attached, support, standing_rotation(belief, attached), laid=False)
+    base = resting_rotation(belief, attached)
+    found = _turned(belief, attached, support, base, laid=False)
+    if entry.upright_matters and not entry.info.container:
+        for rotation in laid_rotations(belief, attached, base)[:MAX_LAID]:
+            found += _turned(belief, attached, support, rotation, laid=True)
+    return found
+
+
+def _turned(
+    belief: Belief, attached: Attached, support: Support, base: Vector, *, laid: bool
+) -> list[Orientations]:
+    if support.from_front:
+        inward = np.array([*-support.axes[0], 0.0])
+        return [Orientations(inward_rotations(belief, attached, base, inward), laid)]
+    rotations = [turn_about(UP, turn) @ base for turn in TURNS]
+    # The desk is everywhere; what matters is how the arm stands now.
+    near = belief.object_pose(attached.name).position if support.owner is None else support.center
+    costs = [float(discomfort(belief, attached, item, near[None, :2])[0]) for item in rotations]
+    ranked = [rotations[i] for i in np.argsort(np.round(costs, 6), kind="stable")]
+    batches = range(0, len(ranked), TURNS_AT_ONCE)
+    return [Orientations(ranked[i : i + TURNS_AT_ONCE], laid) for i in batches]
+
+
+def laid_rotations(belief: Belief, attached: Attached, base: Vector) -> list[Vector]:
+    """Ways to lie for something that stands, the hand that points down furthest first.
+
+    The object is tipped over about the line between the fingers or across it; a hand that would
+    have to point up is left out.
+    """
+    closing, across = (belief.tool().rotation[:, axis] for axis in (1, 0))
+    found: list[tuple[float, int, Vector]] = []
+    for axis in (closing, across):
+        level = axis * np.array([1.0, 1.0, 0.0])
+        length = float(np.linalg.norm(level))
+        if length < 0.5:
+            continue
+        for turn in (np.pi / 2, -np.pi / 2):
+            rotation = _flat(turn_about(level / length, turn) @ base)
+            approach = (rotation @ attached.in_tool.rotation.T)[:, 2]
+            if approach[2] <= HIGHEST_APPROACH:
+                found.append((round(float(approach[2]), 3), len(found), rotation))
+    return [rotation for *_, rotation in sorted(found, key=lambda item: item[:2])]
+
+
+def _flat(rotation: Vector) -> Vector:
+    """An orientation (3, 3) with the body axis that is nearest to the vertical made vertical."""
+    nearest = int(np.argmax(np.abs(rotation[2])))
+    up = rotation[:, nearest] * np.sign(rotation[2, nearest])
+    return _align(up, UP) @ rotation
+
+
+def discomfort(belief: Belief, attached: Attached, rotation: Vector, places: Vector) -> Vector:
+    """How awkward it is for the arm to put an object down with this orientation, 0…2 (m,).
+
+    A hand that points down may turn either way, and does so least when it turns with the arm; a
+    level hand should point away from the base.
+
+    Args:
+        belief: holds the object.
+        attached: the object.
+        rotation: its orientation (3, 3) there.
+        places: (m, 2), base frame [m].
+    """
+    azimuth = np.arctan2(places[:, 1], places[:, 0])
+    tool = rotation @ attached.in_tool.rotation.T
+    if np.hypot(*tool[:2, 2]) > 0.3:
+        heading = np.arctan2(tool[1, 2], tool[0, 2])
+        return np.asarray(1.0 - np.cos(heading - azimuth))
+    now = belief.object_pose(attached.name).position
+    closing = belief.tool().rotation[:, 1]
+    natural = azimuth - np.arctan2(now[1], now[0]) + np.arctan2(closing[1], closing[0])
+    return np.asarray(1.0 - np.cos(np.arctan2(tool[1, 1], tool[0, 1]) - natural))
 
 
 def inward_rotations(

@@ -2,29 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
+from etot_cli.skills.placements.places import Place, PlaceFinder, Quality, Request
+from etot_cli.world.model import World
 
 Vector = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
-HOVER = 0.10
-"""Height above the release pose from which it is lowered straight [m]."""
+HOVER = 0.06
+"""Height above a surface from which an object is lowered straight [m]."""
+MOUTH_CLEARANCE = 0.02
+"""How far above a container's rim the lowest part starts going in [m]."""
+OUTSIDE = 0.03
+"""Distance of the object from a front before it goes in [m]."""
+SURFACE_GAP, FLOOR_GAP = 0.002, 0.006
+"""The object is let go this far above a surface [m]; and above a container's floor or a board,
+which may be dragged along by what is pressed on it, and over which it goes in."""
 RETREAT = 0.09
 """Distance of the straight retreat [m]."""
 LOWER_STEP = 0.016
-"""Spacing of poses on the way down into a container [m]."""
-RELEASES = (0.024, 0.016, 0.010, 0.006)
-"""How far the fingers open to let go [m]: the widest that touches nothing but the object."""
+"""Spacing of poses on the way down [m]."""
+RELEASES = (0.024, 0.016, 0.010, 0.006, 0.003)
+"""How far the fingers open to let go [m]: the widest that touches nothing but the object. 12 mm a
+side are clear of what leans over; 1.5 mm a side still let go."""
 CLEARANCE = 0.001
+RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
+"""Higher up the hand may be able to open where it cannot at the bottom [m]."""
+MAX_TRIES = 40
+"""Places of one action that are looked at exactly."""
+SAME_PLACE = 0.012
+"""Where something is in the way, it is so for the same turn this far around [m]."""
+APART = 0.02
+"""Placements that are offered are this far apart [m]: what goes wrong at one does beside it too."""
+MAX_FOUND = 8
+"""Placements offered for one action."""
+UNREACHED_STEP = 0.02
+"""Places this much further away than one that the arm does not reach are not looked at [m]."""
 
 
 @dataclass(frozen=True)
@@ -42,146 +63,194 @@ class Placement:
     """Length of the way back [m]."""
 
 
-def lower_onto(
-    belief: Belief, attached: Attached, target: Pose, touching: set[str], blockers: Blockers
-) -> Placement | None:
-    """Straight down onto a surface from a hover pose; None where the arm cannot or something is
-    in the way. ``touching``: addresses that the object may come to touch.
+class Tally:
+    """What became of the places that were looked at.
+
+    Attributes:
+        blockers: who was in the way.
+        unreached: places that the arm does not reach.
+        obstructed: places where something was in the way of object, hand or arm.
     """
-    checker, arm = belief.checker, belief.arm
-    tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(belief.opening)
-    above = arm.reach(tool.moved(UP * HOVER), belief.commanded)
-    if not above.reached:
-        return None
-    down, count = arm.line(straight(tool.moved(UP * HOVER), tool), above.joints)
-    if count == 0 or np.linalg.norm(arm.forward(down[-1]).position - tool.position) > 2e-3:
-        return None
-    for joints, allow in ((down[-1], touching), (above.joints, set())):
-        hits = checker.hits(joints, attached, clearance=CLEARANCE, allow_attached=allow)
-        if hits:
-            blockers.add(hits)
-            return None
-    retreat = _retreat(belief, attached.name, tool, down[-1])
-    return None if retreat is None else Placement(above.joints, down, *retreat, drop=0.0)
+
+    def __init__(self, world: World) -> None:
+        self.blockers = Blockers(world)
+        self.unreached = self.obstructed = 0
+
+    @property
+    def looked_at(self) -> int:
+        """All places looked at."""
+        return self.unreached + self.obstructed
 
 
-def lower_into(
-    belief: Belief,
-    attached: Attached,
-    target: Pose,
-    hover: float,
-    blockers: Blockers,
-) -> Placement | None:
-    """Down into a container as deep as it goes without touching anything.
-
-    When something fills the container, the object starts from above that and is let go there.
-    """
-    checker, arm = belief.checker, belief.arm
-    tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(belief.opening)
-    start = None
-    for extra in (0.0, 0.05, 0.10):
-        pose = tool.moved(UP * (hover + extra))
-        above = arm.reach(pose, belief.commanded)
-        if not above.reached:
-            return None
-        hits = checker.hits(above.joints, attached, clearance=CLEARANCE)
-        if not hits:
-            start = pose
-            break
-        blockers.add(hits)
-    if start is None:
-        return None
-    down, count = arm.line(straight(start, tool, LOWER_STEP), above.joints)
-    depth = 0
-    for index in range(count):
-        hits = checker.hits(down[index], attached, clearance=CLEARANCE)
-        if hits:
-            blockers.add(hits)
-            break
-        depth = index + 1
-    path = down[:depth] if depth else above.joints[None]
-    reached = arm.forward(path[-1])
-    retreat = _retreat(belief, attached.name, reached, path[-1])
-    if retreat is None:
-        return None
-    drop = float(reached.position[2] - tool.position[2])
-    return Placement(above.joints, path, *retreat, drop=drop)
-
-
-def slide_in(
-    belief: Belief, attached: Attached, target: Pose, way_in: Vector, blockers: Blockers
-) -> Placement | None:
-    """Level through a front and back out the same way.
+def placements(
+    belief: Belief, request: Request, tally: Tally, tries: int = MAX_TRIES
+) -> Iterator[Placement]:
+    """Prepared placements, the best first; worked out as they are asked for.
 
     Args:
-        belief: holds the object.
-        attached: the object in the hand.
-        target: where it is let go, just above what it will stand on.
-        way_in: from where the object is clear of the front to the target (3,), base frame [m].
-        blockers: takes note of what is in the way.
+        belief: the scene, with the object in the hand.
+        request: what goes where.
+        tally: takes note of what becomes of the places.
+        tries: bound on the places looked at exactly.
     """
-    checker, arm = belief.checker, belief.arm
-    tool = target @ attached.in_tool.inverse()
-    checker.set_fingers(belief.opening)
-    outside = tool.moved(-way_in)
-    # The target first: where hand or arm have no room there, the way to it need not be found.
-    inside = arm.reach(tool, belief.commanded)
-    if not inside.reached:
+    finder = PlaceFinder(belief, request)
+    done: list[tuple[Vector, Vector | None]] = []
+    found, far = 0, np.inf
+    for place in finder.places():
+        position, rotation = place.pose.position, place.pose.rotation
+        if tally.looked_at >= tries:
+            return
+        radius = float(np.hypot(*position[:2]))
+        if radius > far or any(
+            np.hypot(*(position - at)[:2]) < (SAME_PLACE if other is not None else APART)
+            and (other is None or np.array_equal(rotation, other))
+            for at, other in done
+        ):
+            continue
+        belief.checker.freeze(belief.data)
+        with belief.checker.without(request.absent):
+            way = _Way(belief, request, place, tally)
+            placement = way.through_front() if request.support.from_front else way.from_above()
+        if placement is not None:
+            yield placement
+            found += 1
+            if found == MAX_FOUND:
+                return
+            done.append((position, None))
+        elif way.reached:
+            tally.obstructed += 1
+            done.append((position, rotation))
+        else:
+            tally.unreached += 1
+            done.append((position, rotation))
+            if radius > belief.arm.comfortable_radius(request.support.center[2]):
+                far = min(far, radius + UNREACHED_STEP)
+
+
+class _Way:
+    """The arm's way to one place."""
+
+    def __init__(self, belief: Belief, request: Request, place: Place, tally: Tally) -> None:
+        self._belief, self._place, self._tally = belief, place, tally
+        self._attached, self._support = request.attached, request.support
+        enclosed = self._support.is_container or self._support.from_front
+        gap = FLOOR_GAP if enclosed else SURFACE_GAP
+        self._target = place.pose.moved(UP * (gap + place.drop))
+        self._let_go = self._target
+        self._bearers: set[str] = set()
+        if not self._support.is_container or self._support.from_front:
+            self._bearers = {self._support.address, *place.bearers}
+        elif place.quality >= Quality.PILED:
+            self._bearers = set(place.bearers)
+        self.reached = False
+        """Whether the arm gets there at all."""
+
+    def from_above(self) -> Placement | None:
+        """Straight down to the place, or to as little above it as the hand needs to open."""
+        support, lift = self._support, 0.0
+        hover = support.room + MOUTH_CLEARANCE if support.is_container else HOVER
+        for raised in RAISES if support.is_container else RAISES[:1]:
+            placement = self._down(lift + raised, max(hover - self._place.drop, HOVER))
+            if placement is not None or not self.reached:
+                return placement
         return None
-    hits = checker.hits(inside.joints, attached, clearance=CLEARANCE)
-    if hits:
-        blockers.add(hits)
-        return None
-    poses = straight(tool, outside, LOWER_STEP)
-    out, count = arm.line(poses, inside.joints)
-    if count < len(poses):
-        return None
-    for joints in out:
-        hits = checker.hits(joints, attached, clearance=CLEARANCE)
-        if hits:
-            blockers.add(hits)
-            return None
-    release = _widest_release(belief, attached.name, [inside.joints, *out], (CLEARANCE,))
-    if release is None:
-        return None
-    path = np.vstack([out[-2::-1], inside.joints])
-    return Placement(out[-1], path, out, release, 0.0, float(np.linalg.norm(way_in)))
 
-
-def _retreat(belief: Belief, name: str, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
-    """The way back out along the approach direction, and how far the fingers open for it [m].
-
-    Fingers that open against a container's wall would carry it off.
-    """
-    arm = belief.arm
-    away = tool.moved(-RETREAT * tool.rotation[:, 2])
-    path, count = arm.line(straight(tool, away), joints)
-    if count < 2:
-        return None
-    rows = (joints, path[count // 2], path[-1])
-    release = _widest_release(belief, name, rows, (CLEARANCE, 0.0, 0.0))
-    return None if release is None else (path, release)
-
-
-def _widest_release(
-    belief: Belief, name: str, rows: Sequence[Vector], margins: Sequence[float]
-) -> float | None:
-    """How far the fingers can open to let go [m] without touching anything but the object.
-
-    ``margins``: required distance for each row of joint values [m]; the last one for the rest.
-    """
-    checker = belief.checker
-    wanted = [*margins, *[margins[-1]] * (len(rows) - len(margins))]
-    try:
-        for release in RELEASES:
-            checker.set_fingers(belief.opening + release)
-            if not any(
-                checker.hits(row, clearance=margin, allow={name})
-                for row, margin in zip(rows, wanted, strict=True)
-            ):
-                return release
-    finally:
+    def _down(self, raised: float, hover: float) -> Placement | None:
+        belief, attached = self._belief, self._attached
+        checker, arm = belief.checker, belief.arm
         checker.set_fingers(belief.opening)
-    return None
+        self._let_go = self._target.moved(UP * raised)
+        tool = self._let_go @ attached.in_tool.inverse()
+        at_place = arm.reach(tool, belief.commanded)
+        self.reached |= at_place.reached
+        if not at_place.reached or self._is_hit(at_place.joints, self._bearers):
+            return None
+        release = self._release(tool, at_place.joints)
+        if release is None:
+            return None
+        # From high above where the arm gets there, else from as high as it does.
+        poses = straight(tool, tool.moved(UP * hover), LOWER_STEP)
+        up, count = arm.line(poses, at_place.joints)
+        needed = hover if self._support.is_container else HOVER / 2
+        if count < len(poses) and count * LOWER_STEP < needed:
+            self.reached = False
+            return None
+        rows = [up[-1], up[count // 2]] if not self._support.is_container else up[::-1]
+        if any(self._is_hit(row, self._bearers) for row in rows):
+            return None
+        down = np.vstack([up[-2::-1], at_place.joints])
+        return Placement(up[-1], down, *release, drop=self._place.drop + raised)
+
+    def through_front(self) -> Placement | None:
+        """Level in through the front, and back out the same way."""
+        belief, attached, support = self._belief, self._attached, self._support
+        checker, arm = belief.checker, belief.arm
+        checker.set_fingers(belief.opening)
+        tool = self._target @ attached.in_tool.inverse()
+        inside = arm.reach(tool, belief.commanded)
+        self.reached = inside.reached
+        if not inside.reached or self._is_hit(inside.joints, self._bearers):
+            return None
+        low, high = checker.extent(attached.name, self._target.rotation)
+        out = np.array([*support.axes[0], 0.0])
+        depth = float(support.local(self._target.position[None, :2])[0, 0])
+        length = support.half[0] - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
+        poses = straight(tool, tool.moved(out * length), LOWER_STEP)
+        path, count = arm.line(poses, inside.joints)
+        if count < len(poses):
+            self.reached = False
+            return None
+        if any(self._is_hit(row, self._bearers) for row in path):
+            return None
+        release = self._widest_release([inside.joints, *path], CLEARANCE)
+        if release is None:
+            return None
+        down = np.vstack([path[-2::-1], inside.joints])
+        return Placement(path[-1], down, path, release, 0.0, length)
+
+    def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
+        hits = self._belief.checker.hits(
+            joints, self._attached, clearance=CLEARANCE, allow_attached=touching
+        )
+        self._tally.blockers.add(hits)
+        return bool(hits)
+
+    def _release(self, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
+        """The way back out and how far the fingers open for it [m]: along the approach, or up
+        where that is shut in.
+        """
+        arm = self._belief.arm
+        approach = tool.rotation[:, 2]
+        for direction in (-approach, UP):
+            path, count = arm.line(straight(tool, tool.moved(RETREAT * direction)), joints)
+            if count >= 2:
+                release = self._widest_release([joints, path[count // 2], path[-1]], 0.0)
+                if release is not None:
+                    return path, release
+            if approach[2] < -1 + 1e-3:
+                break  # up is where it came from
+        return None
+
+    def _widest_release(self, rows: list[Vector], on_the_way: float) -> float | None:
+        """How far the fingers can open to let go [m] without touching anything else, nor on the way
+        back what they have let go.
+
+        Fingers that open against a container's wall would carry it off. ``on_the_way``: required
+        distance from others on the way back [m].
+        """
+        belief, name = self._belief, self._attached.name
+        checker, largest = belief.checker, belief.world.robot.spec.gripper.opening
+        checker.place(name, self._let_go)
+        try:
+            for release in RELEASES:
+                checker.set_fingers(min(belief.opening + release, largest))
+                hits = checker.hits(rows[0], clearance=CLEARANCE, allow={name})
+                for row in rows[1:]:
+                    hits = hits or checker.hits(row, clearance=on_the_way, allow={name})
+                    hits = hits or [hit for hit in checker.hits(row, clearance=0.0) if hit == name]
+                if not hits:
+                    return release
+            self._tally.blockers.add(hits)
+        finally:
+            checker.set_fingers(belief.opening)
+        return None

@@ -1,0 +1,106 @@
+"""Why nothing can be put down: found by looking again without what may be in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.outcome import SkillOutcome, failed
+from etot_cli.skills.placements.placement import Tally, placements
+from etot_cli.skills.placements.places import PlaceFinder, Request
+from etot_cli.world.state import CauseKind
+
+MAX_SUSPECTS = 5
+"""Objects that are taken away one at a time to see whether that helps."""
+TRIES = 8
+"""Places that are looked at each time."""
+
+
+def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome:
+    """The cause of a put that has no place.
+
+    Args:
+        belief: the scene.
+        request: what was to go where.
+        tally: what became of the places that were looked at.
+    """
+    name, address = request.attached.name, request.support.address
+    suspects = _suspects(belief, request, tally)
+    guilty = [one for one in suspects[:MAX_SUSPECTS] if _helps(belief, request, [one])]
+    if not guilty and len(suspects) > 1 and _helps(belief, request, suspects):
+        guilty = _least(belief, request, suspects)
+    if guilty:
+        return failed(
+            CauseKind.NO_ROOM,
+            [*guilty, name],
+            f"there is no room for {name} {_preposition(request)} {address}: "
+            f"{_listed(guilty)} in the way",
+        )
+    if tally.unreached and not tally.obstructed:
+        return failed(
+            CauseKind.UNREACHABLE,
+            [name],
+            f"the arm does not reach {_all(tally.unreached)} for {name} "
+            f"{_preposition(request)} {address}",
+        )
+    owner = [] if request.support.owner is None else [request.support.owner]
+    if tally.obstructed:
+        fixed = [
+            other
+            for other in tally.blockers.evidence().most(excluding=[name])
+            if not belief.world.entries[other].free
+        ]
+        text = f"neither {name} nor the hand that holds it as it does gets"
+        return failed(
+            CauseKind.NO_ROOM,
+            [*(fixed or owner), name],
+            f"{text} {'into' if request.support.is_container else 'onto'} {address}",
+        )
+    return failed(
+        CauseKind.NO_ROOM,
+        [*owner, name],
+        f"{name} does not fit {_preposition(request)} {address}",
+    )
+
+
+def _suspects(belief: Belief, request: Request, tally: Tally) -> list[str]:
+    """Movable objects that may be in the way, those that stand there first."""
+    name = request.attached.name
+    there = PlaceFinder(belief, request).relief.occupants()
+    met = tally.blockers.evidence().most(excluding=[name])
+    return [
+        other
+        for other in dict.fromkeys([*there, *met])
+        if belief.world.entries[other].info.movable and other not in (name, request.support.owner)
+    ]
+
+
+def _helps(belief: Belief, request: Request, absent: Iterable[str]) -> bool:
+    """Whether there is a place once some objects are taken away."""
+    without = replace(request, absent=frozenset(absent))
+    tally = Tally(belief.world)
+    return next(placements(belief, without, tally, TRIES), None) is not None
+
+
+def _least(belief: Belief, request: Request, suspects: list[str]) -> list[str]:
+    """Of objects that help together those that are needed for it."""
+    needed = list(suspects)
+    for other in suspects[::-1][:MAX_SUSPECTS]:
+        fewer = [one for one in needed if one != other]
+        if fewer and _helps(belief, request, fewer):
+            needed = fewer
+    return needed
+
+
+def _preposition(request: Request) -> str:
+    return "in" if request.support.is_container else "on"
+
+
+def _all(count: int) -> str:
+    return "the only place" if count == 1 else f"any of the {count} places looked at"
+
+
+def _listed(names: list[str]) -> str:
+    *others, last = names
+    return f"{', '.join(others)} and {last} are" if others else f"{last} is"

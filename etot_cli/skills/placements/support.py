@@ -1,0 +1,141 @@
+"""What things are put down on or into, all kinds alike: a level floor with bounds and a way in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.belief import Belief
+from etot_cli.world.index import Region, Surface
+from etot_cli.world.placing import object_bounds
+from etot_cli.world.state import DESK
+
+Vector = NDArray[np.float64]
+
+DESK_EDGE = 0.05
+"""Distance kept from the desk's edges [m]: what is nudged there must not fall."""
+LEVEL = 0.95
+"""A named top counts as a floor while its normal is this close to the vertical (cosine; 18°);
+beyond, whatever side of the object is up serves."""
+UPRIGHT = 0.7
+"""Containers that lean more than this (cosine) are not filled."""
+FRONT = 0.5
+"""Containers whose opening rises less than this (sine) are filled from the front."""
+
+
+@dataclass(frozen=True)
+class Support:
+    """A level floor.
+
+    Attributes:
+        address: what an action calls it.
+        center: (3,) the middle of the floor, base frame [m].
+        axes: (2, 2) level unit vectors along its sides, one a row; the first points out of the
+            front where there is one.
+        half: (2,) half extents along them [m].
+        is_round: a disc of radius ``half[0]``.
+        room: free height above the floor, up to the rim or the roof [m].
+        is_container: it has walls, and what is let go in it falls no further than its floor.
+        from_front: got at level, through the side that ``axes[0]`` points to.
+        owner: the object that it belongs to; None for the desk.
+    """
+
+    address: str
+    center: Vector
+    axes: Vector
+    half: Vector
+    is_round: bool = False
+    room: float = np.inf
+    is_container: bool = False
+    from_front: bool = False
+    owner: str | None = None
+
+    def local(self, points: Vector) -> Vector:
+        """Base-frame points (m, 2) in the floor's frame [m]."""
+        return np.asarray((points - self.center[:2]) @ self.axes.T)
+
+    def inside(self, local: Vector) -> Vector:
+        """Whether points (m, 2) of the floor's frame lie on it, (m,)."""
+        if self.is_round:
+            return np.asarray(np.hypot(local[:, 0], local[:, 1]) <= self.half[0] + 1e-9)
+        return np.asarray((np.abs(local) <= self.half + 1e-9).all(axis=1))
+
+
+def surface_support(belief: Belief, address: str) -> Support | None:
+    """The desk, a top or a board; None where there is no such surface."""
+    if address == DESK:
+        desk = belief.world.scene.desk
+        half = np.array(desk.size) / 2 - DESK_EDGE
+        return Support(DESK, np.array([*desk.center, desk.top]), np.eye(2), half)
+    surface = belief.world.surfaces.get(address)
+    if surface is None:
+        return None
+    if surface.space is not None:
+        return _space(belief, address, surface.space, is_container=False)
+    body = belief.data.body(surface.body)
+    rotation = body.xmat.reshape(3, 3)
+    if rotation[2, 2] < LEVEL:
+        return _whatever_is_up(belief, surface)
+    center = body.xpos + rotation @ np.array(surface.center)
+    return Support(
+        address,
+        center,
+        _level_axes(rotation),
+        np.array(surface.half),
+        surface.round,
+        owner=address.split(".")[0],
+    )
+
+
+def container_support(belief: Belief, address: str) -> Support | None:
+    """The inside of a container by its own or its part's address; None where it is none."""
+    part = belief.world.parts.get(address)
+    region = belief.world.regions.get(part.info.address if part else address)
+    return None if region is None else _space(belief, address, region, is_container=True)
+
+
+def _space(belief: Belief, address: str, region: Region, *, is_container: bool) -> Support | None:
+    body = belief.data.body(region.body)
+    rotation = body.xmat.reshape(3, 3)
+    if rotation[2, 2] < UPRIGHT:
+        return None
+    floor = body.xpos + rotation @ (np.array(region.center) - np.array([0.0, 0.0, region.half[2]]))
+    half, axes = np.array(region.half[:2]), _level_axes(rotation)
+    out = rotation @ np.array(region.opening)
+    from_front = bool(abs(out[2]) < FRONT)
+    if from_front:
+        # The axes in the order and with the signs that bring the way out to the front.
+        first = axes @ out[:2]
+        along = int(np.argmax(np.abs(first)))
+        outward = axes[along] * np.sign(first[along])
+        axes = np.stack([outward, [-outward[1], outward[0]]])
+        half = half[[along, 1 - along]]
+    return Support(
+        address,
+        floor,
+        axes,
+        half,
+        region.round,
+        2 * region.half[2],
+        is_container,
+        from_front,
+        region.address.split(".")[0],
+    )
+
+
+def _level_axes(rotation: Vector) -> Vector:
+    """The sides of a body (3, 3) that stands upright, as seen from above (2, 2)."""
+    first = rotation[:2, 0] / np.hypot(*rotation[:2, 0])
+    return np.array([first, [-first[1], first[0]]])
+
+
+def _whatever_is_up(belief: Belief, surface: Surface) -> Support:
+    """The bounds of an object that does not stand as it was made to."""
+    name = surface.address.split(".")[0]
+    low, high = object_bounds(belief.world, belief.data, name)
+    center = (low + high) / 2
+    center[2] = high[2]
+    half = (high - low)[:2] / 2
+    return Support(surface.address, center, np.eye(2), half, owner=name)
