@@ -16,6 +16,8 @@ import pytest
 
 from tests.cli.test_process import ROOT, TOY, call, environment
 
+pytestmark = pytest.mark.slow
+
 PLAN = [*TOY, "plan", "toy.yaml", "--no-html"]
 WORKS = {"TOY_BRANCHES": "cup"}
 

@@ -13,6 +13,8 @@ from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import others
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("use_masks", [True, False], ids=["given masks", "no masks"])
 def test_displacement_and_desk_of_a_dark_scene(tmp_path: Path, use_masks: bool) -> None:

@@ -19,6 +19,8 @@ from etot_cli.world.snapshot import Snapshot
 from tests.skills.helpers import BALL, CUP, PEN, UNIT, drawers, episode, robot_at
 from tests.world.helpers import make_scene
 
+pytestmark = pytest.mark.slow
+
 PLAN = parse_plan(
     "[PICK UP, ball] [PUT ON, desk] [OPEN, unit] [PICK UP, pen] [PUT INTO, cup] [CLOSE, unit]"
 )
