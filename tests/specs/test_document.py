@@ -181,7 +181,7 @@ class TestFiles:
     def test_too_large(self, tmp_path: Path) -> None:
         file = tmp_path / "big.yaml"
         file.write_bytes(b"#" * (MAX_BYTES + 1))
-        assert "larger than 1024 KiB" in self.message(file)
+        assert "larger than 1 MiB" in self.message(file)
 
     def test_not_utf8(self, tmp_path: Path) -> None:
         file = tmp_path / "latin.yaml"
