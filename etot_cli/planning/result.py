@@ -57,7 +57,9 @@ def told(limit: LimitKind | None, limits: Limits) -> str:
     """What a bound of the search cut off, in a sentence; empty for bounds that are not its own."""
     match limit:
         case LimitKind.MAX_NODES:
-            return f"{limits.max_nodes} actions were simulated, the most that --max-nodes allows"
+            count = limits.max_nodes
+            said = "1 action was" if count == 1 else f"{count} actions were"
+            return f"{said} simulated, the most that --max-nodes allows"
         case LimitKind.TIME:
             return f"the {limits.time_limit_s:g} s that --time-limit allows were over"
         case LimitKind.REVISIONS:

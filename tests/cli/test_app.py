@@ -13,8 +13,9 @@ from etot_cli.cli.app import run
 from etot_cli.commands import rooms
 from etot_cli.errors import ServiceError, SpecError
 from etot_cli.planning.options import Ablation
+from etot_cli.specs.task import Condition
 from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, fails
-from tests.reporting.toy_rooms import ToyRooms
+from tests.reporting.toy_rooms import SUCCESS, ToyRooms
 
 SIMULATE = ["simulate", "toy.yaml", "--plan", "[PICK UP, cup] [PUT ON, desk]"]
 
@@ -45,9 +46,13 @@ def etot(
     monkeypatch.setenv("COLUMNS", "200")
 
     def call(
-        *arguments: str, rule: Rule | None = None, branches: Sequence[str] = ("a b",)
+        *arguments: str,
+        rule: Rule | None = None,
+        branches: Sequence[str] = ("a b",),
+        success: tuple[Condition, ...] = SUCCESS,
     ) -> Answer:
-        toys = ToyRooms(ToySimulator(rule or fails()), ToyReasoner(branches))
+        reasoner = ToyReasoner(branches)
+        toys = ToyRooms(ToySimulator(rule or fails()), reasoner, success=success)
         monkeypatch.setattr(rooms, "default_rooms", toys.rooms)
         code = run(arguments)
         captured = capsys.readouterr()
@@ -201,3 +206,47 @@ def test_missing_opengl_is_told_after_the_report_is_saved(
     answer = etot(*SIMULATE, "--video", "--out", "x")
     assert answer.code == 3 and "OpenGL" in answer.err
     assert json.loads((tmp_path / "x" / "report.json").read_text())["status"] == "success"
+
+
+NOT_DONE = (
+    Condition.model_validate({"on": ["cup", "desk"]}),
+    Condition.model_validate({"in_hand": "cup"}),
+)
+
+
+def test_a_plan_after_which_the_task_is_not_done_is_no_success(etot: Etot) -> None:
+    answer = etot("plan", "toy.yaml", success=NOT_DONE)
+    assert answer.code == 1
+    assert "feasible plan" in answer.out
+    assert "the task is not done after it: cup in hand does not hold" in answer.out
+    assert "cup on desk: holds" in answer.out
+    quiet = etot("plan", "toy.yaml", "-q", success=NOT_DONE)
+    assert quiet.code == 1 and len(quiet.out.splitlines()) == 1 and "not done" in quiet.out
+    report = etot("plan", "toy.yaml", "--json", success=NOT_DONE).report
+    assert report["status"] == "feasible"
+    assert report["success"] == {
+        "holds": False,
+        "conditions": [
+            {"condition": "cup on desk", "holds": True},
+            {"condition": "cup in hand", "holds": False},
+        ],
+    }
+
+
+def test_a_goal_that_seems_to_hold_is_checked_too(etot: Etot) -> None:
+    answer = etot("plan", "toy.yaml", branches=(), success=NOT_DONE)
+    assert answer.code == 1 and "not done" in answer.out
+
+
+def test_a_limit_shows_how_far_the_search_came(etot: Etot) -> None:
+    answer = etot("plan", "toy.yaml", "--max-nodes", "1", branches=("a b c",))
+    assert answer.code == 1
+    assert "As far as it came" in answer.out and "then [PICK UP, b] [PICK UP, c]" in answer.out
+    assert "1 actions were simulated" in answer.out or "1 action was simulated" in answer.out
+    report = etot("plan", "toy.yaml", "--max-nodes", "1", "--json", branches=("a b c",)).report
+    assert report["status"] == "limit" and report["success"] is None
+    assert report["prefix"] == {
+        "actions": ["[PICK UP, a]"],
+        "nodes": [1],
+        "missing": ["[PICK UP, b]", "[PICK UP, c]"],
+    }

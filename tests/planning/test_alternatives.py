@@ -161,7 +161,7 @@ def test_limit_keeps_the_best_prefix(max_nodes: int) -> None:
         limits=Limits(max_nodes=max_nodes),
     )
     assert result.status is SearchStatus.LIMIT and result.limit is LimitKind.MAX_NODES
-    assert f"{max_nodes} actions" in result.stopped
+    assert f"{max_nodes} action" in result.stopped
     assert result.prefix is not None
     assert names(result.prefix.last.actions) == "a"
     assert [node.action.target for node in result.prefix.missing] == ["b", "c", "x"]
