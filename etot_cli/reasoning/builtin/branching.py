@@ -9,10 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice, product
+from typing import NamedTuple
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.choices import Choice, choices
+from etot_cli.reasoning.builtin.constraints import broken_constraint
 from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Constraint,
     Goal,
     Open,
     Pick,
@@ -23,7 +27,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
 from etot_cli.reasoning.builtin.rules import check_plan
-from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
 from etot_cli.reasoning.protocol import Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.world.state import SceneState
@@ -48,33 +52,50 @@ def branches_of(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch]:
         InstructionError: no well-formed plan can do what is asked for.
         ReasonerStopped: more choices are left than are looked at.
     """
-    if any(branch is not None and not branch.actions for branch in _looked_at(goals, scene)):
+    if any(found is not None and not found.branch.actions for found in _looked_at(goals, scene)):
         return
     seen: set[tuple[Action, ...]] = set()
     objection = "nothing fits what was asked for"
-    for count, branch in enumerate(_candidates(goals, scene)):
+    for count, candidate in enumerate(_candidates(goals, scene)):
         if count == MAX_CHOICES:
             raise ReasonerStopped(
                 StopReason.MAX_CHOICES,
                 f"only the first {MAX_CHOICES} choices that the instruction leaves were looked at",
             )
-        if branch is None or branch.actions in seen:
+        if candidate is None or candidate.branch.actions in seen:
             continue
-        violations = check_plan(branch.actions, scene)
-        if violations:
-            objection = str(violations[0])
+        broken = _objection(candidate, scene)
+        if broken is not None:
+            objection = broken
             continue
-        seen.add(branch.actions)
-        yield branch
+        seen.add(candidate.branch.actions)
+        yield candidate.branch
     if not seen:
         raise InstructionError(f"no well-formed plan does what is asked for: {objection}")
 
 
-def _looked_at(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch | None]:
+class _Candidate(NamedTuple):
+    """A branch, the parts that it is to leave open, and what it must not do."""
+
+    branch: Branch
+    left_open: tuple[str, ...]
+    constraints: tuple[Constraint, ...]
+
+
+def _objection(candidate: _Candidate, scene: SceneState) -> str | None:
+    """Why a branch cannot be followed: a rule or a constraint that it breaks."""
+    actions = candidate.branch.actions
+    violations = check_plan(actions, scene, candidate.left_open)
+    if violations:
+        return str(violations[0])
+    return broken_constraint(actions, candidate.constraints, scene)
+
+
+def _looked_at(goals: Sequence[Goal], scene: SceneState) -> Iterator[_Candidate | None]:
     return islice(_candidates(goals, scene), MAX_CHOICES)
 
 
-def _candidates(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch | None]:
+def _candidates(goals: Sequence[Goal], scene: SceneState) -> Iterator[_Candidate | None]:
     """One branch per choice; None where a choice makes no sense."""
     for goal in goals:
         ordered = replace(goal, steps=in_final_order(goal.steps))
@@ -84,17 +105,23 @@ def _candidates(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch | N
                 yield None
                 continue
             for selected in product(*poses):
-                yield _branch(ordered.steps, choice, selected, scene)
+                left_open = _left_open(ordered.steps, choice, scene)
+                branch = _branch(ordered.steps, choice, selected, scene, left_open)
+                yield _Candidate(branch, left_open, goal.constraints)
 
 
 def _branch(
-    steps: Sequence[Step], choice: Choice, poses: Sequence[GraspPose | None], scene: SceneState
+    steps: Sequence[Step],
+    choice: Choice,
+    poses: Sequence[GraspPose | None],
+    scene: SceneState,
+    left_open: tuple[str, ...],
 ) -> Branch:
     """The actions of one way of resolving a goal."""
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
-    puts = _in_order(choice, poses)
+    puts = _in_order(steps, choice, poses)
     for index, (step, pose) in enumerate(zip(steps, poses, strict=True)):
         if isinstance(step, Pick):
             name = choice.object(step.what)
@@ -102,9 +129,13 @@ def _branch(
             words.append(f"take {name}" + (f" ({pose.value})" if pose else ""))
         elif isinstance(step, Put):
             for placement, grasp in islice(puts, len(choice.placements[index])):
-                sketch.put(*placement, grasp)
-                joint = "into" if placement.relation is Relation.INSIDE else "on"
-                words.append(f"{placement.name} {joint} {placement.target}")
+                name, relation, target, where = placement
+                if step.aside:
+                    sketch.take_away(name, PUT_DOWN)
+                    continue
+                sketch.put(name, relation, target, grasp, where, left_open)
+                joint = "into" if relation is Relation.INSIDE else "on"
+                words.append(" ".join([name, joint, target, *map(str, where)]))
         elif isinstance(step, Open):
             for part in choice.parts(step, scene):
                 if not _opened_anyway(part.address, index, choice):
@@ -117,16 +148,30 @@ def _branch(
     return Branch(tuple(sketch.actions), ", ".join(dict.fromkeys(words)))
 
 
+def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tuple[str, ...]:
+    """Parts that are to be opened in so many words and never closed again."""
+    found: dict[str, bool] = {}
+    for step in steps:
+        if isinstance(step, Open | Close):
+            for part in choice.parts(step, scene):
+                found[part.address] = isinstance(step, Open)
+    return tuple(address for address, is_open in found.items() if is_open)
+
+
 def _in_order(
-    choice: Choice, poses: Sequence[GraspPose | None]
+    steps: Sequence[Step], choice: Choice, poses: Sequence[GraspPose | None]
 ) -> Iterator[tuple[Placement, GraspPose | None]]:
-    """All placements of a choice, supports before what stands on them, each with its grasp."""
-    given = [
-        (placement, poses[index])
-        for index, placements in choice.placements.items()
-        for placement in placements
-    ]
-    return (given[index] for index in supports_first([placement for placement, _ in given]))
+    """All placements of a choice, each with its grasp; of those that no word puts in an order
+    supports come before what stands on them.
+    """
+    runs: dict[int, list[tuple[Placement, GraspPose | None]]] = {}
+    for index, placements in choice.placements.items():
+        step = steps[index]
+        assert isinstance(step, Put)  # only these have placements
+        run = runs.setdefault(step.run, [])
+        run += [(placement, poses[index]) for placement in placements]
+    for given in runs.values():
+        yield from (given[index] for index in supports_first([item for item, _ in given]))
 
 
 def _opened_anyway(address: str, index: int, choice: Choice) -> bool:

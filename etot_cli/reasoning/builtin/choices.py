@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.goal import (
     Goal,
     Grouping,
     Open,
+    Place,
     Put,
     Referent,
     Relation,
@@ -18,6 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import container_parts, is_closed, owner_of
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 
@@ -65,10 +67,11 @@ def choices(goal: Goal, scene: SceneState) -> Iterator[Choice | None]:
             yield None
             continue
         for placed in _combined(list(puts.values()), things, scene):
-            if placed is None or not _consistent(placed):
+            resting = None if placed is None else _resting(placed, scene)
+            if resting is None or not _consistent(resting):
                 yield None
             else:
-                yield Choice(things, dict(zip(puts, placed, strict=True)))
+                yield Choice(things, dict(zip(puts, resting, strict=True)))
 
 
 def _combined(
@@ -160,17 +163,72 @@ def _placements(
     if len(set(names)) < len(names):
         return
     places = [
-        (place.relation, address)
+        (place.relation, address, where)
         for place in step.places
-        for thing in things[place.where]
-        for address in address_of(thing, place.relation, scene)
+        for where in _whereabouts(place, things)
+        for address in _addresses(place, things, scene)
     ]
     for selected in _distributions(list(dict.fromkeys(places)), len(names), step.grouping):
         placed = tuple(Placement(name, *place) for name, place in zip(names, selected, strict=True))
         yield None if any(item.name == owner_of(item.target) for item in placed) else placed
 
 
-_Place = tuple[Relation, str]
+_Place = tuple[Relation, str, tuple[Whereabouts, ...]]
+
+
+def _addresses(
+    place: Place, things: tuple[tuple[Thing, ...], ...], scene: SceneState
+) -> tuple[str, ...]:
+    """Addresses of a place's surface or container; empty text where its landmark's is meant."""
+    if place.where is None:
+        return ("",)
+    return tuple(
+        address
+        for thing in things[place.where]
+        for address in address_of(thing, place.relation, scene)
+    )
+
+
+def _whereabouts(
+    place: Place, things: tuple[tuple[Thing, ...], ...]
+) -> list[tuple[Whereabouts, ...]]:
+    """Where on the surface, for the things that the landmarks stand for; none beside itself."""
+    found = []
+    for near in place.beside:
+        names = tuple(things[index][0].name for index in near.landmarks)
+        if len(set(names)) < len(names):
+            return []
+        found.append(Whereabouts(near.relation, names, near.point))
+    return [tuple(found)]
+
+
+def _resting(
+    placed: tuple[tuple[Placement, ...], ...], scene: SceneState
+) -> tuple[tuple[Placement, ...], ...] | None:
+    """The placements with the surface named that a landmark stands on by then; None where an
+    object would be beside itself or its landmark stands on nothing.
+    """
+    surfaces: dict[str, str | None] = {
+        name: (state.on[0] if state.on and state.inside is None else None)
+        for name, state in scene.states.items()
+    }
+    resting = []
+    for placements in placed:
+        row = []
+        for item in placements:
+            if any(item.name in where.landmarks for where in item.where):
+                return None
+            target = item.target
+            if not target:
+                landmark = next(mark for where in item.where for mark in where.landmarks)
+                support = surfaces[landmark]
+                if support is None:
+                    return None
+                target = support
+            surfaces[item.name] = target if item.relation is Relation.ON else None
+            row.append(item._replace(target=target))
+        resting.append(tuple(row))
+    return tuple(resting)
 
 
 def _distributions(

@@ -19,9 +19,8 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.matching import ReferenceProblem
-from etot_cli.reasoning.builtin.references import Role, can_be
 from etot_cli.reasoning.builtin.relations import is_inside, is_on
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import DESK, SceneState

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from etot_cli.skills.action import GraspPose
+from etot_cli.world.spatial import Nearby
 
 
 class Relation(StrEnum):
@@ -67,11 +68,30 @@ class Pick:
 
 
 @dataclass(frozen=True, slots=True)
+class Near:
+    """Where on a surface: a relation to referents, or a point x, y in the base frame [m]."""
+
+    relation: Nearby
+    landmarks: tuple[int, ...] = ()
+    point: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Place:
-    """A destination: a relation to a referent."""
+    """A destination: a relation to a referent.
+
+    ``where`` is None for what the first landmark of ``beside`` stands on. All of ``beside`` has to
+    hold.
+    """
 
     relation: Relation
-    where: int
+    where: int | None
+    beside: tuple[Near, ...] = ()
+
+    def referents(self) -> tuple[int, ...]:
+        """All referents that it is about."""
+        own = () if self.where is None else (self.where,)
+        return (*own, *(index for near in self.beside for index in near.landmarks))
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +106,10 @@ class Put:
     grouping: Grouping = Grouping.ANY
     poses: tuple[GraspPose | None, ...] = (None,)
     removal: bool = False
+    aside: bool = False
+    """Only to wait there, anywhere on the desk where it is not in the way."""
+    run: int = 0
+    """Steps of one run are a set, which may be done in any order; runs follow each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,18 +131,47 @@ class Close:
 Step = Pick | Put | Open | Close
 
 
+class Keep(StrEnum):
+    """What a constraint on the way forbids; the value says what the thing has to stay."""
+
+    UNTOUCHED = "untouched"
+    UNMOVED = "unmoved"
+    CLOSED = "closed"
+    OPEN = "open"
+    AWAY = "not there"
+    """A thing is not put at a place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Constraint:
+    """What must not happen on the way.
+
+    ``names``: objects or addresses of parts. ``places``: relation and address, for ``Keep.AWAY``.
+    """
+
+    keep: Keep
+    names: tuple[str, ...]
+    places: tuple[tuple[Relation, str], ...] = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """Steps in the order in which they were asked for, about referents."""
+    """Steps in the order in which they were asked for, about referents.
+
+    ``constraints`` hold on the way. ``notes``: what words were taken for where that was a choice,
+    for people.
+    """
 
     referents: tuple[Referent, ...]
     steps: tuple[Step, ...]
+    constraints: tuple[Constraint, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def referents_of(step: Step) -> tuple[int, ...]:
     """Indices of the referents that a step is about."""
     if isinstance(step, Put):
-        return (*step.what, *(place.where for place in step.places))
+        return (*step.what, *(index for place in step.places for index in place.referents()))
     return (step.what,)
 
 

@@ -11,14 +11,16 @@ from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import owner_of
+from etot_cli.world.spatial import Whereabouts
 
 
 class Placement(NamedTuple):
-    """An object and where it is to be."""
+    """An object and where it is to be; ``where`` says at which part of the surface."""
 
     name: str
     relation: Relation
     target: str
+    where: tuple[Whereabouts, ...] = ()
 
 
 def supports_first(placements: Sequence[Placement]) -> list[int]:
@@ -54,6 +56,6 @@ def _comes_before(first: Placement, second: Placement) -> bool:
     """Whether ``second`` cannot be done, or would be undone, unless ``first`` is done."""
     if second.relation is not Relation.ON:
         return False
-    support = owner_of(second.target)
+    supports = {owner_of(second.target), *(mark for item in second.where for mark in item.landmarks)}
     is_content = first.relation is Relation.INSIDE and first.target == second.target
-    return first.name == support or is_content
+    return first.name in supports or is_content

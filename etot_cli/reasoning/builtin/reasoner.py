@@ -36,7 +36,7 @@ class BuiltinReasoner:
             self._goals = goals_of(assignment.goal, scene)
         else:
             # The grammar needs the parser, which only this role should pay for.
-            from etot_cli.reasoning.builtin.instructions import goal_of
+            from etot_cli.reasoning.language.instructions import goal_of
 
             self._goals = (goal_of(assignment.instruction, scene),)
         return branches_of(self._goals, scene)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.relations import OPEN_ENOUGH, container_address, owner_of
@@ -28,7 +28,9 @@ class Violation:
         return f"step {self.index + 1}: {self.text} (rule {self.rule})"
 
 
-def check_plan(actions: Sequence[Action], scene: SceneState) -> list[Violation]:
+def check_plan(
+    actions: Sequence[Action], scene: SceneState, left_open: Collection[str] = ()
+) -> list[Violation]:
     """Everything in a plan that breaks a rule; empty for a well-formed plan.
 
     Physical feasibility is not looked at; that is for the simulation.
@@ -36,17 +38,20 @@ def check_plan(actions: Sequence[Action], scene: SceneState) -> list[Violation]:
     Args:
         actions: the whole plan, from the scene on.
         scene: the state in which the plan starts.
+        left_open: addresses of parts that the goal wants open in the end; an insertion into one of
+            them needs no CLOSE.
     """
     if len(actions) > MAX_PLAN_ACTIONS:
         return [Violation(MAX_PLAN_ACTIONS, 1, f"more than {MAX_PLAN_ACTIONS} actions")]
-    return _Checker(scene).check(actions)
+    return _Checker(scene, left_open).check(actions)
 
 
 class _Checker:
     """Follows hand and openings through a plan."""
 
-    def __init__(self, scene: SceneState) -> None:
+    def __init__(self, scene: SceneState, left_open: Collection[str]) -> None:
         self._scene = scene
+        self._left_open = left_open
         self._held = scene.holding
         self._open = {
             part.address: scene.openness(part) >= OPEN_ENOUGH
@@ -127,7 +132,7 @@ class _Checker:
             )
         if not self._open[part.address]:
             self._say(index, 3, f"{part.address} must be opened before something is put into it")
-        self._to_close = part.address
+        self._to_close = None if part.address in self._left_open else part.address
 
     def _articulate(self, index: int, action: Action) -> None:
         verb = action.verb.value

@@ -12,8 +12,8 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     referents_of,
 )
-from etot_cli.reasoning.builtin.matching import ReferenceProblem
 from etot_cli.reasoning.builtin.relations import is_on
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.world.state import DESK, SceneState
 
 

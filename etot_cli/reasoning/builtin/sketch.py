@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import (
@@ -14,6 +14,8 @@ from etot_cli.reasoning.builtin.relations import (
     owner_of,
 )
 from etot_cli.skills.action import Action, GraspPose, Verb
+from etot_cli.world import spatial
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 PUT_DOWN = Action(Verb.PUT_ON, DESK, safe=True)
@@ -33,6 +35,7 @@ class Sketch:
         self._scene = scene
         self._held = scene.holding
         self._moved: dict[str, tuple[Relation, str]] = {}
+        self._placed: dict[str, tuple[str, tuple[Whereabouts, ...]]] = {}
         parts = [part for info in scene.infos.values() for part in info.parts]
         self._accessible = {part.address: scene.openness(part) >= OPEN_ENOUGH for part in parts}
         self._open = {part.address: is_open(scene, part) for part in parts}
@@ -51,20 +54,27 @@ class Sketch:
         self.do(Action(Verb.PICK_UP, name, pose))
 
     def put(
-        self, name: str, relation: Relation, target: str, pose: GraspPose | None = None
+        self,
+        name: str,
+        relation: Relation,
+        target: str,
+        pose: GraspPose | None = None,
+        where: tuple[Whereabouts, ...] = (),
+        left_open: Collection[str] = (),
     ) -> None:
         """Brings an object to a place; nothing when it is there.
 
-        An insertion into an articulated container is a cycle of its own: open, pick, put, close.
+        An insertion into an articulated container is a cycle of its own: open, pick, put, close,
+        without the last one for parts that are to be ``left_open``.
         """
-        if self.holds(name, relation, target):
+        if self.holds(name, relation, target, where):
             return
         part = self._scene.part(target) if relation is Relation.INSIDE else None
         if part is None:
             verb = Verb.PUT_ON if relation is Relation.ON else Verb.PUT_INTO
             opened = self._uncover(target)
             self.pick_up(name, pose)
-            self.do(Action(verb, target))
+            self.do(Action(verb, target, where=where))
             for outer in reversed(opened):
                 self.do(Action(Verb.CLOSE, outer.address))
             return
@@ -73,7 +83,8 @@ class Sketch:
             self.do(Action(Verb.OPEN, part.address))
         self.pick_up(name, pose)
         self.do(Action(Verb.PUT_INTO, part.address))
-        self.do(Action(Verb.CLOSE, part.address))
+        if part.address not in left_open:
+            self.do(Action(Verb.CLOSE, part.address))
 
     def closed_around(self, name: str) -> list[PartInfo]:
         """Parts that an object lies in and that are closed, the outermost first."""
@@ -117,10 +128,19 @@ class Sketch:
             return True
         return all(self._accessible[part.address] for part in self._parts_around(owner))
 
-    def holds(self, name: str, relation: Relation, target: str) -> bool:
+    def holds(
+        self, name: str, relation: Relation, target: str, where: tuple[Whereabouts, ...] = ()
+    ) -> bool:
         """Whether an object is at a place by now."""
         if name == self._held:
             return False
+        if where and name in self._moved:
+            return self._placed.get(name) == (target, where)
+        if where:
+            landmarks = {landmark for item in where for landmark in item.landmarks}
+            still = not landmarks & set(self._moved)
+            at_place = all(spatial.holds(item, name, self._scene) for item in where)
+            return still and at_place and is_on(self._scene, name, target)
         if relation is Relation.ON:
             if name in self._moved:
                 return self._moved[name] == (relation, target)
@@ -174,6 +194,7 @@ class Sketch:
                         Relation.ON if on else Relation.INSIDE,
                         action.target,
                     )
+                    self._placed[self._held] = (action.target, action.where)
                 self._held = None
             case Verb.OPEN | Verb.CLOSE:
                 part = self._scene.part(action.target)

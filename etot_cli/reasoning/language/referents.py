@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.determiners import quantity_of
-from etot_cli.reasoning.builtin.discourse import PLURAL_PRONOUNS, Discourse
-from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
-from etot_cli.reasoning.builtin.matching import ReferenceProblem
-from etot_cli.reasoning.builtin.references import Resolved, Resolver, Role, can_be, is_robot
-from etot_cli.reasoning.builtin.syntax import (
+from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.coreference import PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.determiners import quantity_of
+from etot_cli.reasoning.language.noun_phrases import Resolved, Resolver, is_robot
+from etot_cli.reasoning.language.syntax import (
+    Beside,
     Destination,
     Modifier,
     NounPhrase,
@@ -18,6 +19,7 @@ from etot_cli.reasoning.builtin.syntax import (
     Things,
     Toward,
 )
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
 _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
@@ -104,6 +106,10 @@ class Phrases:
             pronoun=self._pronoun_things,
         )
 
+    def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What a phrase means, without speaking of it."""
+        return self._resolved(phrase, role)
+
     def _pronoun_things(self, phrase: NounPhrase) -> tuple[Thing, ...]:
         indices = self.discourse.antecedents(phrase.pronoun, Role.ANY, phrase.text)
         return tuple(thing for index in indices for thing in self.discourse.things(index))
@@ -118,10 +124,18 @@ class Phrases:
         places: dict[Place, None] = {}
         for destination in destinations:
             if destination.toward is Toward.HERE:
-                places.update(dict.fromkeys(self._here(destination.word, themes, prefer)))
-                continue
-            for phrase in destination.targets:
-                places.update(dict.fromkeys(self._targets(destination.toward, phrase, themes)))
+                found = list(self._here(destination.word, themes, prefer))
+            elif destination.toward is Toward.BESIDE:
+                found = [self._beside_only(destination.beside, themes)]
+            else:
+                found = [
+                    place
+                    for phrase in destination.targets
+                    for place in self._targets(destination.toward, phrase, themes)
+                ]
+                if destination.beside:
+                    found = self._narrowed(found, destination, themes)
+            places.update(dict.fromkeys(found))
         return tuple(places)
 
     def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
@@ -131,7 +145,7 @@ class Phrases:
             options = self.discourse.referents[index].options
             if quantity_of(phrase.determiner).every and any(len(option) > 1 for option in options):
                 raise ReferenceProblem(phrase.text, "say what is to go into or on which", 2)
-            if index in themes and len(self.discourse.referents[index].options) == 1:
+            if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             things = self.discourse.things(index)
             fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
@@ -140,6 +154,77 @@ class Phrases:
                 found.append(Place(Relation.INSIDE, index))
             if fits_on and toward is not Toward.INSIDE:
                 found.append(Place(Relation.ON, index))
+        return found
+
+    def _narrowed(
+        self, places: list[Place], destination: Destination, themes: Sequence[int]
+    ) -> list[Place]:
+        """Places on a surface, at some part of it only."""
+        text = " or ".join(phrase.text for phrase in destination.targets)
+        surfaces = [place for place in places if place.relation is Relation.ON]
+        if not surfaces:
+            raise ReferenceProblem(text, "there is no left or right inside a container", 2)
+        near = tuple(self._near(item, themes) for item in destination.beside)
+        return [replace(place, beside=near) for place in surfaces]
+
+    def _beside_only(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place:
+        """A place beside something, on whatever that stands on, or a region of a surface."""
+        surface: int | None = None
+        regions = [item for item in beside if item.relation.landmarks == 0]
+        for item in regions:
+            for phrase in item.phrases:
+                self._check_region(phrase, item.relation)
+                (surface,) = self.refer(phrase, Role.SURFACE, themes)
+        if surface is None and (len(regions) == len(beside)):
+            surface = self.on_the_desk().where
+        near = tuple(self._near(item, themes) for item in beside)
+        return Place(Relation.ON, surface, near)
+
+    def _check_region(self, phrase: NounPhrase, relation: Nearby) -> None:
+        """Whether a thing has such a region. The left side of what can be moved is beside it."""
+        resolved = self._resolved(phrase, Role.ANY)
+        things = {thing for option in resolved.options for thing in option}
+        if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
+            raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
+        anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
+        if relation in anywhere or all(thing.name == DESK for thing in things):
+            return
+        if any(thing.name == DESK or self._scene.infos[thing.name].movable for thing in things):
+            raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
+
+    def _near(self, beside: Beside, themes: Sequence[int]) -> Near:
+        """A relation to the things that its phrases mean."""
+        if beside.relation.landmarks == 0:
+            return Near(beside.relation)
+        landmarks: list[int] = []
+        for phrase in beside.phrases:
+            if is_robot(phrase):
+                raise ReferenceProblem(phrase.text, "say beside which object", 2)
+            landmarks += self._landmark(phrase, themes)
+        if len(landmarks) != beside.relation.landmarks:
+            text = " and ".join(phrase.text for phrase in beside.phrases)
+            why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
+            raise ReferenceProblem(text, why, 2)
+        return Near(beside.relation, tuple(landmarks))
+
+    def _landmark(self, phrase: NounPhrase, themes: Sequence[int]) -> list[int]:
+        """Referents of a landmark, each a single thing; "the two bowls" gives two."""
+        found = []
+        for index in self.refer(phrase, Role.ANY, themes):
+            referent = self.discourse.referents[index]
+            if index in themes:
+                raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
+            things = self.discourse.things(index)
+            if any(thing.name == DESK for thing in things):
+                raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
+            if any(self._scene.states[thing.name].inside is not None for thing in things):
+                raise ReferenceProblem(phrase.text, "it lies in a container", 2)
+            if all(len(option) == 1 for option in referent.options):
+                found.append(index)
+            else:
+                for thing in things:
+                    alone = Resolved(((thing,),), definite=False, other=False, noun=thing.name)
+                    found.append(self.discourse.add(alone, phrase.text, Role.ANY))
         return found
 
     def _here(self, word: str, themes: Sequence[int], prefer: Sequence[int]) -> tuple[Place, ...]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin import spatial
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.lexicon import ORDINALS, SIDES, SIZES, STATES
-from etot_cli.reasoning.builtin.matching import ReferenceProblem
 from etot_cli.reasoning.builtin.relations import contents, is_closed
-from etot_cli.reasoning.builtin.syntax import Modifier, Prep
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language import space
+from etot_cli.reasoning.language.lexicon import ORDINALS, SIDES, SIZES, STATES
+from etot_cli.reasoning.language.syntax import Modifier, Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
 
@@ -39,7 +39,16 @@ def select(
     Raises:
         ReferenceProblem: nothing is left.
     """
-    sides = [side_word(item.word) for item in modifiers if item.prep is Prep.SIDE]
+    denied = [item for item in modifiers if item.prep is Prep.SIDE and item.denied]
+    for item in denied:
+        side = side_word(" ".join(item.words))
+        at_side = _at_side(SIDES[side], things, 1, scene, phrase) if side else []
+        things = [thing for thing in things if thing not in at_side]
+    sides = [
+        side_word(" ".join(item.words))
+        for item in modifiers
+        if item.prep is Prep.SIDE and not item.denied
+    ]
     ordinals = [word for word in words if word in ORDINALS]
     for word in words:
         if word in STATES:
@@ -47,6 +56,11 @@ def select(
     if not things:
         raise ReferenceProblem(phrase, "nothing is in that state", 1)
     if ordinals:
+        others = [word for word in words if word in SIZES or word in SIDES]
+        if len(ordinals) > 1 or others or len(sides) > 1:
+            word = (*ordinals[1:], *others, "the side")[0]
+            why = f"{word!r} does not go together with {ordinals[0]!r}"
+            raise ReferenceProblem(phrase, why, 2, word=word)
         return [_nth(ordinals[0], sides[0] if sides else "left", things, scene, phrase)]
     for word in words:
         if word in SIZES:
@@ -88,7 +102,7 @@ def _nth(
     if all(thing.part is not None or thing.board is not None for thing in things):
         ordered = things
     else:
-        ordered = spatial.by_side(SIDES[origin or "left"], things, scene)
+        ordered = space.by_side(SIDES[origin or "left"], things, scene)
     index = ORDINALS[ordinal]
     if index >= len(ordered):
         names = ", ".join(thing.name for thing in things)
@@ -117,8 +131,8 @@ def _at_side(
         if len(things) % 2 == 0:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
-        return [spatial.by_side("left", things, scene)[len(things) // 2]]
-    return _leading(spatial.by_side(side, things, scene), count, phrase)
+        return [space.in_a_row(things, scene)[len(things) // 2]]
+    return _leading(space.by_side(side, things, scene), count, phrase)
 
 
 def _leading(ordered: list[Thing], count: int | None, phrase: str) -> list[Thing]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from etot_cli.reasoning.builtin.lexicon import NUMBERS
+from etot_cli.reasoning.language.lexicon import NUMBERS
 
 _DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "your", "its", "their"})
 
@@ -24,6 +24,11 @@ class Quantity:
     every: bool = False
     definite: bool = False
     other: bool = False
+    unclear: str = ""
+    """A word for a number that could be any ("several")."""
+
+
+_UNCLEAR = ("several", "few", "many", "couple", "pair", "half", "most", "none", "no")
 
 
 def quantity_of(determiner: str) -> Quantity:
@@ -32,11 +37,20 @@ def quantity_of(determiner: str) -> Quantity:
     if not words:
         return Quantity(definite=True)
     first = words[0]
-    other = "other" in words or first == "another"
+    unclear = next((word for word in words if word in _UNCLEAR), "")
+    if unclear in ("couple", "pair"):
+        return Quantity(count=2)
+    if unclear:
+        return Quantity(unclear=unclear)
+    if first in ("exactly", "just", "single", "only"):
+        return quantity_of(" ".join(words[1:]))
+    other = first == "another" or any(word in words for word in ("other", "remaining", "different"))
     numbers = [NUMBERS.get(word) or (int(word) if word.isdigit() else None) for word in words]
     count = next((number for number in reversed(numbers) if number is not None), None)
     if "single" in words and count is None:
         count = 1
+    if first in ("the", "those", "these") and "remaining" in words and count is None:
+        return Quantity(every=True, definite=True, other=True)
     if first in ("all", "every", "each"):
         counted = count if first == "all" else None
         return Quantity(count=counted, every=True, definite=True, other=other)

@@ -9,30 +9,85 @@ from collections.abc import Iterable
 
 from etot_cli.world.colors import BASIC_COLORS, NAMED_COLORS, nearest_basic
 
-KIND_NOUNS: dict[str, tuple[str, ...]] = {
-    "sphere": ("ball", "sphere", "orb"),
-    "box": ("box", "block", "cube", "brick", "cuboid"),
-    "cylinder": ("cylinder", "can", "tin", "bottle", "jar"),
-    "capsule": ("capsule", "pill"),
-    "pen": ("pen", "pencil", "marker", "rod", "stick", "crayon"),
-    "cup": ("cup", "mug", "holder", "glass", "beaker", "tumbler", "pot", "vase", "vessel"),
-    "bowl": ("bowl", "dish", "basin", "vessel"),
-    "drawer_unit": ("drawer", "chest", "dresser", "cabinet", "unit"),
-    "cabinet": ("cabinet", "cupboard", "locker"),
-    "shelf": ("shelf", "rack", "bookcase"),
+def word_set(text: str) -> frozenset[str]:
+    """The words of a text."""
+    return frozenset(text.split())
+
+
+KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
+    "sphere": (("ball", "sphere", "orb"),),
+    "box": (
+        ("block", "cube", "brick", "cuboid"),
+        ("box", "carton", "crate", "package", "packet", "parcel", "case"),
+    ),
+    "cylinder": (("cylinder",), ("can", "tin"), ("bottle", "flask"), ("jar",)),
+    "capsule": (("capsule", "pill"),),
+    "pen": (("pen", "pencil", "marker", "crayon"), ("rod", "stick")),
+    "cup": (
+        ("cup", "mug", "holder", "beaker", "tumbler", "vessel"), ("glass",), ("pot",), ("vase",),
+    ),
+    "bowl": (("bowl", "dish", "basin", "vessel"),),
+    "drawer_unit": (("drawer", "chest", "dresser", "cabinet", "unit"),),
+    "cabinet": (("cabinet", "cupboard", "locker"), ("microwave", "oven")),
+    "shelf": (("shelf", "rack", "bookcase", "bookshelf", "stand"),),
+}  # fmt: skip
+"""Nouns that name an object by its kind, those that may stand for each other together."""
+KIND_NOUNS = {
+    kind: tuple(noun for group in groups for noun in group) for kind, groups in KIND_GROUPS.items()
 }
-"""Nouns that name an object by its kind when its own words do not."""
+PURPOSES = word_set(
+    """
+    coffee tea water milk beer wine juice soup salad fruit cereal sugar salt pepper flower
+    plant pencil pen tennis golf ping pong billiard base basket bouncy play toy kitchen desk
+    office storage writing drinking mixing serving dinner breakfast cookie candy soda cola
+    """
+)
+"""What a thing may be for or made for, before its noun ("a pencil cup")."""
+MATERIALS = word_set(
+    """
+    wooden wood plastic metal metallic steel iron ceramic porcelain paper cardboard glass
+    rubber leather cotton cloth stone marble copper brass silicone woolen
+    """
+)
+"""What things are made of, of which a scene says nothing but by their labels."""
+COMMON_NOUNS = word_set(
+    """
+    apple orange banana lemon lime peach pear plum cherry grape berry strawberry melon mango
+    pineapple tomato potato onion carrot cucumber eggplant corn pepper garlic mushroom
+    cabbage bread toast bun cake cookie donut pizza egg cheese butter meat steak fish
+    chicken soup sauce milk juice water coffee tea cola soda beer wine sugar salt cereal
+    chocolate candy jam honey plate saucer tray spoon fork knife spatula ladle whisk tongs
+    pan pot kettle lid toaster stove sink faucet fridge refrigerator freezer dishwasher
+    towel napkin cloth sponge soap brush broom book magazine newspaper paper notebook letter
+    envelope stapler scissors tape glue ruler eraser phone telephone laptop computer
+    keyboard mouse monitor camera lamp light bulb battery cable clock watch key wallet purse
+    bag basket bin trash bucket hat shoe sock glove shirt coat scarf toy doll bear duck car
+    truck train robot dice coin card button bell whistle screw nut bolt hammer wrench
+    screwdriver drill saw nail chair sofa couch bed pillow blanket door window wall floor
+    vase flower plant candle picture frame mirror bottle can jar cup mug glass bowl dish box
+    block cube ball pen pencil marker stick shelf drawer cabinet table desk cake caddy moka
+    skillet tissue sandwich burger ring rope string sphere cylinder star heart cross hexagon
+    moon pentagon triangle square
+    """
+)
+"""Things that people have: such a word is no slip of the pen for another, and what is called by one
+is not also called by a noun for its mere shape (an apple is no ball)."""
 JOINT_NOUNS: dict[str, tuple[str, ...]] = {
-    "slide": ("drawer", "tray"),
-    "hinge": ("door", "lid", "flap"),
+    "slide": ("drawer", "tray", "layer", "compartment", "level", "rack", "shelf"),
+    "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
 CONTAINER_NOUNS = ("container", "vessel", "receptacle")
 """Nouns for anything that things can be put into."""
-THING_NOUNS = ("object", "thing", "item", "one", "everything", "anything", "something")
+THING_NOUNS = (
+    "object", "thing", "item", "one", "stuff", "everything", "anything", "something", "rest", "others",
+    "else",
+)  # fmt: skip
 """Nouns that fit any movable object."""
 DESK_NOUNS = ("desk", "table", "tabletop", "desktop", "worktop", "workbench", "counter", "surface")
-BOARD_NOUNS = ("board", "level", "shelf", "tier", "surface")
+BOARD_NOUNS = (
+    "board", "level", "shelf", "tier", "surface", "layer", "compartment", "rack", "tray",
+)  # fmt: skip
 """Nouns for one surface of a piece of furniture that has several."""
 
 NUMBERS = {

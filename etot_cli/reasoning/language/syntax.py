@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.skills.action import GraspPose
+from etot_cli.world.spatial import Nearby
 
 
 class Prep(StrEnum):
@@ -30,8 +31,10 @@ class Prep(StrEnum):
     BEARING = "bearing"
     SIDE = "side"
     """"on the left", "at the back": the word says which."""
-    STATE = "state"
-    """"that is open": the word says which."""
+    QUALITY = "quality"
+    """"that is red", "red" after "everything": the words say which."""
+    EXCEPT = "except"
+    """Those that fit, without the phrases' things."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,14 +43,18 @@ class Modifier:
 
     prep: Prep
     phrases: tuple[NounPhrase, ...] = ()
-    word: str = ""
+    words: tuple[str, ...] = ()
+    denied: bool = False
+    """It is *not* so ("that is not on the tray")."""
 
 
 @dataclass(frozen=True, slots=True)
 class NounPhrase:
     """Determiner, words (the last one is the head), modifiers; or a pronoun.
 
-    ``owner``: the possessor in "the chest's drawer". ``text``: as it was written.
+    ``owner``: the possessor in "the chest's drawer". ``text``: as it was written. ``without``: words
+    that it is not ("the non-red cup"). ``joined``: an "and" stands between its first words ("the
+    yellow and white mug"), so that it is one thing only if the thing has them all.
     """
 
     determiner: str = ""
@@ -56,6 +63,8 @@ class NounPhrase:
     pronoun: str = ""
     owner: NounPhrase | None = None
     text: str = ""
+    without: tuple[str, ...] = ()
+    joined: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +84,20 @@ class Toward(StrEnum):
     """Whichever fits the target."""
     HERE = "here"
     """No target: "inside", "there", "on top"; the word is in ``Destination.word``."""
+    BESIDE = "beside"
+    """On what the landmark stands on."""
+    HOME = "home"
+    """Where it was at the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """Where on a surface: a relation to landmarks, or a region of ``phrases[0]``, or of what the
+    surface is.
+    """
+
+    relation: Nearby
+    phrases: tuple[NounPhrase, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +107,7 @@ class Destination:
     toward: Toward
     targets: tuple[NounPhrase, ...] = ()
     word: str = ""
+    beside: tuple[Beside, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +145,8 @@ class PutClause:
     groups: tuple[PutGroup, ...]
     grouping: Grouping = Grouping.ANY
     conditions: tuple[State, ...] = ()
+    first: tuple[NounPhrase, ...] = ()
+    """Those of the things that go first ("the blue one first")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,23 +179,83 @@ class ReorientClause:
     things: Things
 
 
-Clause = PickClause | PutClause | RemoveClause | MoveClause | EnsureClause | ReorientClause
+@dataclass(frozen=True, slots=True)
+class TowerClause:
+    """Things upon each other. ``upward``: they are named from the bottom up (None: not said);
+    ``bottom``, ``top``: the ones that "with the red one at the bottom" names.
+    """
+
+    things: Things
+    upward: bool | None = None
+    bottom: NounPhrase | None = None
+    top: NounPhrase | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SwapClause:
+    """Each of two things goes where the other one is."""
+
+    things: Things
+
+
+class Avoid(StrEnum):
+    """What must not happen on the way."""
+
+    TOUCH = "touched"
+    MOVE = "moved"
+    OPEN = "opened"
+    CLOSE = "closed"
+    PUT = "put there"
+
+
+@dataclass(frozen=True, slots=True)
+class AvoidClause:
+    """What must not be done. ``things`` is None for "anything else"."""
+
+    avoid: Avoid
+    things: Things | None
+    destinations: tuple[Destination, ...] = ()
+
+
+Clause = (
+    PickClause
+    | PutClause
+    | RemoveClause
+    | MoveClause
+    | EnsureClause
+    | ReorientClause
+    | TowerClause
+    | SwapClause
+    | AvoidClause
+)
+
+
+class Order(StrEnum):
+    """When a clause is to be done, where that is not its place in the text."""
+
+    SAID = "said"
+    THEN = "then"
+    """After what was said before, in so many words."""
+    FIRST = "first"
+    BEFORE_THAT = "before that"
+    LAST = "last"
 
 
 @dataclass(frozen=True, slots=True)
 class Spoken:
-    """A clause and where it begins in the text; clauses are not always said in order."""
+    """A clause, where it begins in the text, and when it is to be done."""
 
     clause: Clause
     position: int
+    order: Order = Order.SAID
 
 
-def modifier_count(node: object) -> int:
-    """How many modifiers a syntax tree hangs on nouns: the fewer, the more it says of the goal."""
+def reading_cost(node: object) -> int:
+    """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
     if isinstance(node, NounPhrase):
         own = len(node.modifiers)
-        return own + sum(modifier_count(item) for item in (*node.modifiers, node.owner))
+        return own + sum(reading_cost(item) for item in (*node.modifiers, node.owner))
     if isinstance(node, tuple):
-        return sum(modifier_count(item) for item in node)
+        return sum(reading_cost(item) for item in node)
     fields = getattr(node, "__dataclass_fields__", {})
-    return sum(modifier_count(getattr(node, name)) for name in fields)
+    return sum(reading_cost(getattr(node, name)) for name in fields)

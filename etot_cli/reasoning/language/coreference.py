@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
-from etot_cli.reasoning.builtin.lexicon import same_noun
-from etot_cli.reasoning.builtin.matching import ReferenceProblem
-from etot_cli.reasoning.builtin.references import Resolved, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.lexicon import same_noun
+from etot_cli.reasoning.language.noun_phrases import Resolved
 from etot_cli.world.state import SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
@@ -41,6 +41,10 @@ class Discourse:
     last_places: tuple[Place, ...] = ()
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
+    notes: list[str] = field(default_factory=list)
+    """What words were taken for, where that was a choice."""
+    stacks: dict[int, int] = field(default_factory=dict)
+    """Number of the clause that built a stack → the referent at its bottom."""
 
     def copy(self) -> Discourse:
         """An independent copy, for trying a reading."""
@@ -51,6 +55,8 @@ class Discourse:
             self.clause,
             self.last_places,
             dict(self.put_into),
+            list(self.notes),
+            dict(self.stacks),
         )
 
     def add(self, resolved: Resolved, text: str, role: Role) -> int:
@@ -58,6 +64,7 @@ class Discourse:
 
         A definite phrase with the same meaning as an earlier one speaks of the same choice.
         """
+        self.notes += [note for note in resolved.notes if note not in self.notes]
         index = len(self.referents)
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
@@ -163,6 +170,9 @@ class Discourse:
 
     def _plural(self, role: Role) -> tuple[int, ...]:
         for clause in sorted({mention.clause for mention in self.mentions}, reverse=True):
+            if clause in self.stacks and role in (Role.THEME, Role.ANY):
+                # What stands on the bottom goes with it.
+                return (self.stacks[clause],)
             found = self._acted_on([m for m in self.mentions if m.clause == clause], role)
             several = len(found) > 1 or any(
                 len(option) > 1 for index in found for option in self.referents[index].options

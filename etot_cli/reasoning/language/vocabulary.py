@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.lexicon import (
+from etot_cli.reasoning.language.lexicon import (
     BOARD_NOUNS,
+    COMMON_NOUNS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
     JOINT_NOUNS,
+    KIND_GROUPS,
     KIND_NOUNS,
     THING_NOUNS,
     basic_color,
     is_plural_of,
     matches_any,
+    singular,
 )
-from etot_cli.reasoning.builtin.reader import normalized
+from etot_cli.reasoning.language.phrases import GRAMMAR_WORDS
+from etot_cli.reasoning.language.text import normalized
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 EXACT, HEAD, GENERIC, PART_OF_NAME, REST_OF_NAME = range(5)
@@ -40,6 +45,7 @@ class Entry:
         exact: full names.
         color: its basic colour.
         info: the object (or the part's owner); None for the desk.
+        called: the words of its label and of its name.
     """
 
     thing: Thing
@@ -51,6 +57,11 @@ class Entry:
     exact: tuple[str, ...] = ()
     color: str | None = None
     info: ObjectInfo | None = None
+    called: tuple[tuple[str, ...], ...] = ()
+
+    def is_called(self, words: Sequence[str]) -> bool:
+        """Whether words are its whole name or label."""
+        return tuple(words) in self.called
 
     def grade(self, noun: str) -> int | None:
         """How well a noun fits, None where it does not."""
@@ -71,6 +82,13 @@ class Entry:
     def has_color(self, color: str) -> bool:
         """Whether it is of a basic colour, or is called by a word for it."""
         return self.color == color or any(basic_color(word) == color for word in self.own)
+
+    def is_plainly(self, color: str) -> bool:
+        """Whether a basic colour is what people would call its colour first: by its own words, or
+        by how it looks when it is called by no colour.
+        """
+        named = {word for word in self.own if basic_color(word)}
+        return color in named or (not named and self.color == color)
 
     def is_colored(self) -> bool:
         """Whether anything is known of its colour."""
@@ -102,16 +120,42 @@ class Vocabulary:
         return frozenset(word for entry in entries for word in (*entry.own, *entry.exact))
 
     def joined(self, text: str) -> str:
-        """Normalized text in which names with single letters ("mug a") stand as one word."""
-        for entry in self.objects:
-            if entry.info is not None and re.search(r"(?:^|_)[^\W\d_](?:_|$)", entry.info.name):
-                spaced = re.escape(entry.info.name.casefold().replace("_", " "))
-                text = re.sub(rf"\b{spaced}\b", entry.info.name.casefold(), text)
+        """Normalized text in which names and labels that no noun phrase could be ("mug a", "carton
+        of milk", "yellow and white mug") stand as one word.
+        """
+        for words, name in sorted(self._odd_names(), key=lambda item: -len(item[0])):
+            spaced = r"[ ,]*\s".join(re.escape(word) for word in words)
+            text = re.sub(rf"(?<!\w){spaced}(?!\w)", name, text)
         return text
+
+    def _odd_names(self) -> list[tuple[tuple[str, ...], str]]:
+        """Names of several words, at least one of which is no noun or adjective; each as one word
+        that means the object.
+        """
+        found = []
+        for entry in self.objects:
+            for words in entry.called:
+                odd = any(word in GRAMMAR_WORDS or len(word) == 1 for word in words)
+                unique = sum(words in other.called for other in self.objects) == 1
+                if len(words) > 1 and odd and unique:
+                    found.append((words, entry.exact[0]))
+        return found
 
     def is_known(self, word: str) -> bool:
         """Whether some object of the scene is called so, at least in part."""
         return any(entry.has_word(word) for entry in (*self.objects, *self.parts, *self.boards))
+
+    def nearest(self, word: str) -> list[str]:
+        """Names of the things whose words are most like a word, at most three; often none."""
+        close = get_close_matches(word, sorted(self.words()), n=3, cutoff=0.6)
+        return list(
+            dict.fromkeys(
+                entry.exact[0]
+                for item in close
+                for entry in (*self.objects, *self.parts)
+                if item in entry.exact or entry.has_word(item)
+            )
+        )[:3]
 
     def names(self) -> str:
         """What an error message lists."""
@@ -128,6 +172,29 @@ def is_general_noun(word: str) -> bool:
     return any(matches_any(word, group) for group in groups)
 
 
+def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
+    """Nouns for a kind that fit something called by these nouns: a can is no bottle."""
+    groups = KIND_GROUPS.get(kind, ())
+    own = {singular(head) for head in heads}
+    fitting = [group for group in groups if own & set(group)]
+    if not fitting and not own & COMMON_NOUNS:
+        fitting = list(groups)
+    if kind in own:
+        fitting = list(groups)
+    return tuple(noun for group in fitting for noun in group)
+
+
+_LINKS = ("of", "with", "for", "in", "and", "on", "the", "a")
+"""Words inside a label after which no noun of its own stands ("carton of milk" is a carton)."""
+
+
+def _head_of(words: Sequence[str]) -> str | None:
+    """The noun of a label's words."""
+    cut = next((i for i, word in enumerate(words) if i and word in ("of", "with", "for")), None)
+    nouns = words[:cut]
+    return nouns[-1] if nouns else None
+
+
 def _words_of(text: str) -> list[str]:
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|_|(?<=[A-Za-z])(?=\d)", " ", text)
     return re.findall(r"\w+", normalized(spaced))
@@ -140,10 +207,11 @@ def _object_entry(info: ObjectInfo) -> Entry:
     numbers: dict[str, None] = {}
     for words in called:
         nouns = [word for word in words if not word.isdigit() and len(word) > 1]
-        own.update(dict.fromkeys(nouns))
-        heads.update(dict.fromkeys(nouns[-1:]))
+        own.update(dict.fromkeys(word for word in nouns if word not in _LINKS))
+        head = _head_of(nouns)
+        heads.update({} if head is None else {head: None})
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
-    generic = KIND_NOUNS.get(info.kind, ())
+    generic = _kind_nouns(info.kind, heads)
     if info.container or any(part.container for part in info.parts):
         generic = (*generic, *CONTAINER_NOUNS)
     return Entry(
@@ -155,6 +223,7 @@ def _object_entry(info: ObjectInfo) -> Entry:
         exact=(info.name.casefold(),),
         color=info.color,
         info=info,
+        called=tuple(dict.fromkeys(tuple(words) for words in called if words)),
     )
 
 

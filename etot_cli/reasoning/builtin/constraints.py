@@ -1,0 +1,94 @@
+"""What must not happen on the way: checked on plans beforehand and on what happened afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
+from etot_cli.reasoning.builtin.harm import CHANGED, displacement
+from etot_cli.reasoning.builtin.relations import is_inside, is_on, owner_of
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState
+
+ROBOT = ("robot", "gripper")
+"""The robot's names in contacts."""
+
+
+def broken_constraint(
+    actions: Sequence[Action], constraints: Iterable[Constraint], scene: SceneState
+) -> str | None:
+    """What a plan would do that it must not, as a sentence; None for nothing."""
+    for constraint in constraints:
+        held = scene.holding
+        for index, action in enumerate(actions, 1):
+            if _does(action, held, constraint, scene):
+                return f"step {index}, {action}: {_wish(constraint)}"
+            if action.verb is Verb.PICK_UP:
+                held = action.target
+            elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+                held = None
+    return None
+
+
+def cause_of_breach(record: RolloutRecord, constraints: Iterable[Constraint]) -> Cause | None:
+    """What an action did that it must not have done; None for nothing."""
+    for constraint in constraints:
+        for name in constraint.names:
+            text = _breach(name, constraint, record)
+            if text is not None:
+                return Cause(CauseKind.COLLISION, (owner_of(name),), text)
+    return None
+
+
+def _does(action: Action, held: str | None, constraint: Constraint, scene: SceneState) -> bool:
+    names = constraint.names
+    match constraint.keep:
+        case Keep.UNTOUCHED | Keep.UNMOVED:
+            return owner_of(action.target) in names and (
+                action.verb in (Verb.PICK_UP, Verb.OPEN, Verb.CLOSE)
+            )
+        case Keep.CLOSED | Keep.OPEN:
+            verb = Verb.OPEN if constraint.keep is Keep.CLOSED else Verb.CLOSE
+            part = scene.part(action.target)
+            own = () if part is None else (part.owner, f"{part.owner}.{part.name}")
+            return action.verb is verb and any(name in names for name in own)
+        case Keep.AWAY:
+            verbs = {Verb.PUT_ON: Relation.ON, Verb.PUT_INTO: Relation.INSIDE}
+            return (
+                held in names
+                and not action.safe
+                and (verbs.get(action.verb), action.target) in constraint.places
+            )
+
+
+def _breach(name: str, constraint: Constraint, record: RolloutRecord) -> str | None:
+    before, after = record.before, record.after
+    owner = owner_of(name)
+    if owner not in before.states:
+        return None
+    match constraint.keep:
+        case Keep.UNTOUCHED:
+            for contact in record.contacts:
+                pair = (owner_of(contact.first), owner_of(contact.second))
+                if owner in pair and (set(pair) & {*ROBOT, before.holding, after.holding}):
+                    return f"{owner} was touched, which it must not be"
+            if displacement(owner, record) > CHANGED:
+                return f"{owner} was moved, and it must stay untouched"
+        case Keep.UNMOVED:
+            if displacement(owner, record) > CHANGED:
+                return f"{owner} was moved, which it must not be"
+        case Keep.AWAY:
+            for relation, place in constraint.places:
+                holds = is_on if relation is Relation.ON else is_inside
+                if holds(after, owner, place) and not holds(before, owner, place):
+                    return f"{owner} came to be {relation.value} {place}, where it must not be"
+        case Keep.CLOSED | Keep.OPEN:
+            return None  # a part moves only by an action, and that is never planned
+    return None
+
+
+def _wish(constraint: Constraint) -> str:
+    names = ", ".join(constraint.names)
+    if constraint.keep is Keep.AWAY:
+        return f"{names} must not be put there"
+    return f"{names} must stay {constraint.keep.value}"

@@ -1,0 +1,172 @@
+"""From syntax trees to a goal: every phrase gets its referents, every clause its steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from itertools import islice
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.branching import branches_of
+from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.settling import settled
+from etot_cli.reasoning.protocol import ReasonerStopped
+from etot_cli.reasoning.language.clauses import Clauses
+from etot_cli.reasoning.language.coreference import Discourse
+from etot_cli.reasoning.language.noun_phrases import Resolver
+from etot_cli.reasoning.language.ordering import Timed, in_order
+from etot_cli.reasoning.language.reader import Sentence
+from etot_cli.reasoning.language.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.vocabulary import Vocabulary
+from etot_cli.world.state import SceneState
+
+MAX_BRANCHES = 16
+"""Branches by which goals are compared; those that differ do so from the first."""
+MAX_COMPARED = 6
+"""Different goals of one sentence that are compared; more are too many to name."""
+
+
+def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """The goal of an instruction about a scene.
+
+    Raises:
+        ReferenceProblem: no reading of a sentence fits the scene, or several fit that ask for
+            different things.
+    """
+    state = _State(scene, Discourse(scene), Resolver(scene, vocabulary))
+    for sentence in sentences:
+        state = _best_reading(state, sentence)
+    goal = settled(state.goal(), scene, state.clauses.turned)
+    if not goal.steps and goal.constraints and not state.asked:
+        raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
+    return goal
+
+
+class _State:
+    """What has been understood up to some point of an instruction."""
+
+    def __init__(self, scene: SceneState, discourse: Discourse, resolver: Resolver) -> None:
+        self._scene, self._resolver = scene, resolver
+        self.clauses = Clauses(scene, resolver, discourse)
+        self.timed: list[Timed] = []
+        self.sentence = 0
+
+    @property
+    def asked(self) -> bool:
+        """Whether anything has been asked for, even if it holds already."""
+        return any(item.steps for item in self.timed)
+
+    def copy(self) -> _State:
+        """An independent copy, for trying a reading."""
+        other = _State(self._scene, self.clauses.discourse.copy(), self._resolver)
+        other.clauses.turned = list(self.clauses.turned)
+        other.clauses.constraints = list(self.clauses.constraints)
+        other.timed = list(self.timed)
+        other.sentence = self.sentence
+        return other
+
+    def read(self, reading: Sequence[Spoken]) -> None:
+        """Reads the clauses in the order they are said, and notes when each is to be done."""
+        self.sentence += 1
+        steps = {}
+        for spoken in sorted(reading, key=lambda item: item.position):
+            steps[id(spoken)] = self.clauses.read(spoken.clause)
+        for spoken in reading:
+            done = tuple(steps[id(spoken)])
+            self.timed.append(Timed(done, spoken.order, self.sentence))
+
+    def goal(self) -> Goal:
+        """The goal so far."""
+        discourse = self.clauses.discourse
+        steps = in_order(self.timed)
+        return Goal(
+            tuple(discourse.referents),
+            tuple(steps),
+            tuple(dict.fromkeys(self.clauses.constraints)),
+            tuple(discourse.notes),
+        )
+
+
+def _best_reading(state: _State, sentence: Sentence) -> _State:
+    """The simplest reading that fits the scene; of several, the one that asks for something.
+
+    Raises:
+        ReferenceProblem: none fits, or equally simple ones ask for different things.
+    """
+    problem: ReferenceProblem | None = None
+    found: dict[Goal, _State] = {}
+    cost = -1
+    for reading in sentence.readings:
+        simplicity = reading_cost(reading)
+        if found and simplicity > cost:
+            break
+        attempt = state.copy()
+        try:
+            attempt.read(reading)
+            goal = attempt.goal()
+        except ReferenceProblem as error:
+            if problem is None or error.weight > problem.weight:
+                problem = error
+            continue
+        cost = simplicity
+        found.setdefault(_meaning(goal), attempt)
+        if len(found) > MAX_COMPARED:
+            raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
+    if not found:
+        assert problem is not None  # a sentence has at least one reading
+        raise problem
+    if len(found) == 1:
+        return next(iter(found.values()))
+    return _only_one_that_asks(state, sentence, found)
+
+
+def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _State]) -> _State:
+    plans: dict[tuple[object, ...], tuple[str, _State]] = {}
+    for goal, attempt in found.items():
+        with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
+            scene = state.clauses.discourse.scene
+            branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
+            if branches:
+                key = tuple(branch.actions for branch in branches)
+                plans.setdefault(key, (branches[0].reason, attempt))
+    if len(plans) > 1:
+        ways = [f"{number}) {reason}" for number, (reason, _) in enumerate(plans.values(), 1)]
+        raise ReferenceProblem(
+            sentence.text, f"it can be read in {len(plans)} ways: {'; '.join(ways)}", 4
+        )
+    for _, attempt in plans.values():
+        return attempt
+    return next(iter(found.values()))
+
+
+def _meaning(goal: Goal) -> Goal:
+    """A goal without the words that it was put in and the referents that no step is about."""
+    used: dict[int, int] = {}
+    referents: list[Referent] = []
+
+    def renumbered(index: int) -> int:
+        if index not in used:
+            used[index] = len(referents)
+            referents.append(replace(goal.referents[index], text="", distinct_from=()))
+        return used[index]
+
+    steps: list[Pick | Put | Open | Close] = []
+    for step in goal.steps:
+        if isinstance(step, Put):
+            places = tuple(
+                replace(
+                    place,
+                    where=None if place.where is None else renumbered(place.where),
+                    beside=tuple(
+                        replace(near, landmarks=tuple(map(renumbered, near.landmarks)))
+                        for near in place.beside
+                    ),
+                )
+                for place in step.places
+            )
+            steps.append(replace(step, what=tuple(map(renumbered, step.what)), places=places))
+        else:
+            steps.append(replace(step, what=renumbered(step.what)))
+    return Goal(tuple(referents), tuple(steps), goal.constraints)

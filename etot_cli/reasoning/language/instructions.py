@@ -1,0 +1,70 @@
+"""From an instruction's text to a goal about a scene, or a message that helps to reword it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.goal import Goal
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals import interpret
+from etot_cli.reasoning.language.languages import other_language
+from etot_cli.reasoning.language.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.rewording import Refused, rewordings
+from etot_cli.reasoning.language.vocabulary import Vocabulary
+from etot_cli.world.state import SceneState
+
+
+def goal_of(instruction: str, scene: SceneState) -> Goal:
+    """Reads an instruction.
+
+    Args:
+        instruction: controlled English, as described in ``docs/instructions.md``.
+        scene: what it is about.
+
+    Raises:
+        InstructionError: what could not be understood and what can be done about it.
+    """
+    try:
+        return _read(instruction, scene)
+    except (UnreadableError, ReferenceProblem) as error:
+        raise InstructionError(_message(error, instruction, scene)) from None
+
+
+def _read(instruction: str, scene: SceneState) -> Goal:
+    vocabulary = Vocabulary(scene)
+    found = read(vocabulary.joined(normalized(instruction)), vocabulary.words())
+    goal = interpret(found.sentences, scene, vocabulary)
+    slips = tuple(f"read {correction}" for correction in found.corrections)
+    return replace(goal, notes=(*slips, *goal.notes))
+
+
+def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene: SceneState) -> str:
+    """Which words, why, and one way to say it that is read in this scene."""
+    if isinstance(error, UnreadableError):
+        language = other_language(instruction, scene)
+        why = f"it seems to be in {language}; only English is read" if language else error.why
+        head = f"cannot read the instruction at {error.words!r}" + (f": {why}" if why else "")
+        second = f"  understood up to there: {error.understood or 'nothing'}"
+        refused = Refused(instruction, error.words, without=error.without)
+    else:
+        head = f"cannot tell what {error.phrase!r} means in the instruction: {error.why}"
+        second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
+        refused = Refused(instruction, error.phrase, word=error.word, candidates=error.candidates)
+    lines = [head, second]
+    example = next(rewordings(refused, scene, _reads), None)
+    if example is not None:
+        lines.append(f"  what would be read: {example}")
+    lines.append(
+        "  or write the goal as conditions under 'goal:' in the task file, or let a model read it "
+        "with --reasoner vlm"
+    )
+    return "\n".join(lines)
+
+
+def _reads(instruction: str, scene: SceneState) -> bool:
+    try:
+        _read(instruction, scene)
+    except (UnreadableError, ReferenceProblem):
+        return False
+    return True

@@ -1,0 +1,320 @@
+"""Which things a noun with its adjectives may mean, before it is said where they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.lexicon import (
+    CONTAINER_NOUNS,
+    DESK_NOUNS,
+    LEVELS,
+    MATERIALS,
+    ORDINALS,
+    PURPOSES,
+    SIDES,
+    SIZES,
+    STATES,
+    THING_NOUNS,
+    basic_color,
+    matches_any,
+    singular,
+)
+from etot_cli.reasoning.language.vocabulary import (
+    GENERIC,
+    HEAD,
+    PART_OF_NAME,
+    REST_OF_NAME,
+    Entry,
+    Vocabulary,
+    is_general_noun,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """Things that a noun and its adjectives fit.
+
+    Args:
+        entries: in scene order.
+        selectors: words that single out instances by place, size, order or state.
+        plural: the noun stands in the plural.
+        notes: words that were taken for something near them, as sentences.
+    """
+
+    entries: tuple[Entry, ...]
+    selectors: tuple[str, ...] = ()
+    plural: bool = False
+    notes: tuple[str, ...] = ()
+
+
+def match_words(
+    words: Sequence[str], vocabulary: Vocabulary, phrase: str, noun: str | None = None
+) -> Match:
+    """Finds what a noun phrase's words fit; every word of them counts.
+
+    Args:
+        words: adjectives and the noun; it may be followed by a number.
+        vocabulary: the scene's.
+        phrase: the whole phrase, for messages.
+        noun: what "one" stands for, the noun of an earlier phrase.
+
+    Raises:
+        ReferenceProblem: nothing fits, or a word is not understood.
+    """
+    everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
+    for entry in everything:
+        if len(words) == 1 and words[0] in entry.exact:
+            return Match((entry,))
+    number = words[-1] if words[-1].isdigit() and len(words) > 1 else None
+    if number is not None:
+        words = words[:-1]
+    adjectives, head = tuple(words[:-1]), words[-1]
+    if matches_any(head, ("one",)) and noun is not None:
+        head = noun
+    if basic_color(head) and not any(entry.grade(head) == HEAD for entry in everything):
+        found = _by_color(adjectives, head, number, vocabulary, phrase)
+        if found is not None:
+            return found
+    for pool in _pools(vocabulary, head, adjectives):
+        found = _match_in(pool, adjectives, head, number, vocabulary, phrase)
+        if found is not None and found.plural and len(found.entries) == 1:
+            # "The drawers" of the only chest.
+            parts = vocabulary.parts
+            found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
+        if found is not None:
+            return found
+    raise _nothing(head, adjectives, number, vocabulary, phrase)
+
+
+def _by_color(
+    adjectives: tuple[str, ...],
+    color: str,
+    number: str | None,
+    vocabulary: Vocabulary,
+    phrase: str,
+) -> Match | None:
+    """What a colour alone may mean ("the orange"), said as the guess that it is."""
+    words = (*adjectives, color)
+    found = _match_in(vocabulary.objects, words, "object", number, vocabulary, phrase)
+    if found is None:
+        return None
+    names = _names(found.entries)
+    return replace(found, notes=(*found.notes, f"read {color!r} as the colour of {names}"))
+
+
+def _pools(vocabulary: Vocabulary, head: str, adjectives: Sequence[str]) -> list[list[Entry]]:
+    """Where to look, in this order: parts come first where a level or their own name is said."""
+    fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
+    one_of_many = len(fitting) == 1 and _is_stacked(fitting[0])
+    level = any(
+        word in LEVELS or (one_of_many and (word in ORDINALS or word in STATES))
+        for word in adjectives
+    )
+    objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
+    named = [
+        part
+        for part in parts
+        if any(part.has_word(word) for word in adjectives) and part.grade(head) is not None
+    ]
+    pools = [objects, parts, boards, [vocabulary.desk]]
+    if named:
+        return [named, *pools]
+    if level and not any(
+        entry.grade(head) is not None and any(entry.has_word(word) for word in adjectives)
+        for entry in objects
+    ):
+        return [parts, boards, objects, [vocabulary.desk]]
+    return pools
+
+
+@dataclass
+class _Sifted:
+    """Entries that are left, and what the words so far were taken for."""
+
+    graded: list[tuple[Entry, int]]
+    selectors: list[str] = field(default_factory=list)
+    unknown: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def _match_in(
+    pool: list[Entry],
+    adjectives: tuple[str, ...],
+    head: str,
+    number: str | None,
+    vocabulary: Vocabulary,
+    phrase: str,
+) -> Match | None:
+    """What fits among some entries, None when nothing does."""
+    sifted = _Sifted(_graded(pool, head, adjectives))
+    called = (*adjectives, head, *((number,) if number else ()))
+    exactly = [item for item in sifted.graded if item[0].is_called(called)]
+    if len(exactly) == 1 and len(called) > 1:
+        return Match((exactly[0][0],))
+    if number is not None:
+        sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
+    for word in adjectives:
+        _sift(sifted, word, vocabulary)
+    if not sifted.graded:
+        return None
+    best = min(grade for _, grade in sifted.graded)
+    entries = tuple(entry for entry, grade in sifted.graded if grade == best)
+    if sifted.unknown:
+        raise _not_understood(sifted.unknown[0], entries, vocabulary, phrase)
+    if matches_any(head, THING_NOUNS):
+        plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
+    else:
+        plural = any(entry.is_plural(head) for entry in entries)
+    loose = best in (PART_OF_NAME, REST_OF_NAME) or (
+        best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
+    )
+    if loose and any(entry.info is not None and entry.thing.part is None for entry in entries):
+        sifted.notes.append(f"read {head!r} as {_names(entries)}")
+    return Match(entries, tuple(sifted.selectors), plural, tuple(sifted.notes))
+
+
+def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
+    """Keeps the entries that an adjective fits, or notes what it is."""
+    graded = sifted.graded
+    fitting = [item for item in graded if item[0].has_word(word)]
+    color = basic_color(word)
+    if word.isdigit():
+        sifted.graded = []  # a number before the noun that is no count
+    elif word in LEVELS and any(_has_levels(entry) for entry, _ in graded):
+        sifted.graded = _at_level(graded, LEVELS[word])
+    elif color is not None:
+        sifted.graded = _of_color(sifted, word, color)
+    elif fitting:
+        sifted.graded = fitting
+    elif word in LEVELS and any(_is_stacked(entry) for entry, _ in graded):
+        # What has parts on several levels has none on this one.
+        sifted.graded = [item for item in graded if not _is_stacked(item[0])]
+    elif word in SIDES or word in SIZES or word in ORDINALS or word in STATES:
+        sifted.selectors.append(word)
+    elif any(matches_any(word, entry.context) for entry, _ in graded):
+        pass  # it names the owner: "the microwave door"
+    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
+        names = _names([entry for entry, _ in graded])
+        sifted.notes.append(f"took {word!r} for what {names} is for")
+    else:
+        sifted.unknown.append(word)
+
+
+def _of_color(sifted: _Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
+    """Entries of a colour. A name beats a look, and a look beats a neighbouring colour."""
+    graded = sifted.graded
+    if word == color:
+        plain = [item for item in graded if item[0].is_plainly(color)]
+    else:
+        plain = [item for item in graded if item[0].has_word(word)]
+    if plain:
+        return plain
+    near = [item for item in graded if item[0].has_color(color)]
+    # A thing of unknown colour may have any.
+    found = near or [item for item in graded if not item[0].is_colored()]
+    if found:
+        names = _names([entry for entry, _ in found])
+        sifted.notes.append(f"took {names} for {word!r}")
+    return found
+
+
+def _names(entries: Iterable[Entry]) -> str:
+    return " or ".join(dict.fromkeys(entry.exact[0] for entry in entries))
+
+
+def _graded(pool: list[Entry], head: str, adjectives: tuple[str, ...]) -> list[tuple[Entry, int]]:
+    """Entries that a noun fits, with how well."""
+    if matches_any(head, THING_NOUNS):
+        return [(e, GENERIC) for e in pool if e.info is not None and e.thing.part is None]
+    graded = [(entry, grade) for entry in pool if (grade := entry.grade(head)) is not None]
+    if graded or is_general_noun(head):
+        return graded
+    # "the kettle thingamy": a noun that nobody knows after words that fit an object's own name.
+    plain = [word for word in adjectives if not _is_descriptive(word)]
+    return [
+        (entry, REST_OF_NAME)
+        for entry in pool
+        if plain and all(entry.has_word(word) for word in plain) and entry.thing.part is None
+    ]
+
+
+def _is_descriptive(word: str) -> bool:
+    return (
+        basic_color(word) is not None
+        or word in SIDES
+        or word in SIZES
+        or word in ORDINALS
+        or word in STATES
+        or word in LEVELS
+    )
+
+
+def _has_levels(entry: Entry) -> bool:
+    return entry.thing.part is not None or entry.thing.board is not None
+
+
+def _is_stacked(entry: Entry) -> bool:
+    return (
+        entry.info is not None
+        and entry.thing.part is None
+        and bool(entry.info.parts or entry.info.boards)
+    )
+
+
+def _at_level(graded: list[tuple[Entry, int]], level: str) -> list[tuple[Entry, int]]:
+    """Of each piece of furniture the part at a level: by the parts' names, else by their order."""
+    found: list[tuple[Entry, int]] = []
+    owners = dict.fromkeys(entry.thing.name for entry, _ in graded)
+    for owner in owners:
+        stacked = [item for item in graded if item[0].thing.name == owner]
+        levels = [{LEVELS.get(word) for word in item[0].own} - {None} for item in stacked]
+        named = [item for item, said in zip(stacked, levels, strict=True) if level in said]
+        if named or all(levels):
+            found += named
+            continue
+        # Parts are listed from top to bottom, boards from bottom to top.
+        if stacked[0][0].thing.board is not None:
+            stacked = stacked[::-1]
+        index = {"top": 0, "bottom": -1, "middle": len(stacked) // 2}[level]
+        if level != "middle" or len(stacked) % 2:
+            found.append(stacked[index])
+    return found
+
+
+def _not_understood(
+    word: str, entries: Sequence[Entry], vocabulary: Vocabulary, phrase: str
+) -> ReferenceProblem:
+    names = _names(entries)
+    if word in MATERIALS:
+        why = f"the scene does not say what {names} is made of"
+    else:
+        why = f"no word of {names}, and no word for a place, size or state"
+    return ReferenceProblem(phrase, f"{word!r} is not understood: {why}", 3, word=word)
+
+
+def _nothing(
+    head: str,
+    adjectives: Sequence[str],
+    number: str | None,
+    vocabulary: Vocabulary,
+    phrase: str,
+) -> ReferenceProblem:
+    everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards)
+    alike = [entry for entry in everything if entry.grade(head) is not None]
+    what = " ".join((*adjectives, head, *((number,) if number else ())))
+    if alike:
+        names = ", ".join(dict.fromkeys(entry.exact[0] for entry in alike))
+        return ReferenceProblem(
+            phrase, f"there is no {what!r}; what fits {head!r}: {names}", 1, word=what,
+            candidates=tuple(dict.fromkeys(entry.exact[0] for entry in alike)),
+        )  # fmt: skip
+    near = vocabulary.nearest(head)
+    return ReferenceProblem(
+        phrase,
+        f"nothing in the scene is called {head!r}; "
+        + (f"nearest: {', '.join(near)}" if near else f"it has {vocabulary.names()} and the desk"),
+        word=head,
+        candidates=tuple(near),
+    )

@@ -1,0 +1,405 @@
+"""Resolves noun phrases against a scene: words, modifiers, place, size and number.
+
+"a", "one of" and "either" leave a free choice among the instances; so does "the" where several
+instances fit and nothing singles one out. Every choice becomes a branch. Every word of a phrase has
+to be understood; what is taken for something near it is noted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, islice
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language import space
+from etot_cli.reasoning.language.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.lexicon import (
+    ORDINALS,
+    SIDES,
+    SIZES,
+    STATES,
+    THING_NOUNS,
+    basic_color,
+    matches_any,
+    singular,
+)
+from etot_cli.reasoning.language.matching import Match, match_words
+from etot_cli.reasoning.language.selection import select, state_holds
+from etot_cli.reasoning.language.syntax import Modifier, NounPhrase, Prep
+from etot_cli.reasoning.language.vocabulary import Entry, Vocabulary
+from etot_cli.world.state import DESK, SceneState
+
+MAX_OPTIONS = 256
+"""Ways of choosing instances for one phrase that are looked at."""
+ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
+
+_INCOMPLETE = frozenset({"", "the", "a", "an", "my", "your", "its", "their", "our"})
+"""Determiners that do not stand without a noun."""
+_RANKING = frozenset(
+    {
+        Prep.NEAR, Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN, Prep.LEFT, Prep.RIGHT, Prep.BEHIND,
+        Prep.FRONT,
+    }
+)  # fmt: skip
+_GENERAL = {
+    "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
+    "all else": "all other", "the rest": "all other", "the others": "all other",
+    "the other ones": "all other", "all others": "all other", "all the others": "all other",
+    "all the rest": "all other",
+}  # fmt: skip
+"""Determiners that nouns for anything stand for."""
+
+Pronoun = Callable[[NounPhrase], Sequence[Thing]]
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """What a phrase means.
+
+    Args:
+        options: alternative sets of things.
+        definite: it may be something mentioned before.
+        other: it is none of what was mentioned before with this noun.
+        noun: the phrase's noun.
+        every: it stands for all that fit.
+        notes: what words were taken for, where that was a choice.
+    """
+
+    options: tuple[tuple[Thing, ...], ...]
+    definite: bool
+    other: bool
+    noun: str
+    every: bool = False
+    notes: tuple[str, ...] = ()
+
+
+def is_robot(phrase: NounPhrase) -> bool:
+    """Whether a phrase means the robot itself, as a landmark."""
+    return len(phrase.words) == 1 and matches_any(phrase.words[0], ROBOT_NOUNS)
+
+
+class Resolver:
+    """Resolves phrases against one scene.
+
+    Args:
+        scene: what the phrases are about.
+        vocabulary: the scene's words.
+    """
+
+    def __init__(self, scene: SceneState, vocabulary: Vocabulary) -> None:
+        self._scene = scene
+        self._vocabulary = vocabulary
+
+    def resolve(
+        self,
+        phrase: NounPhrase,
+        role: Role,
+        *,
+        noun: str | None = None,
+        excluded: Sequence[Thing] = (),
+        pronoun: Pronoun = lambda phrase: (),
+    ) -> Resolved:
+        """What a phrase with a noun means.
+
+        Args:
+            phrase: no pronoun.
+            role: what it is used for.
+            noun: the noun of an earlier phrase, for "one" and "the other".
+            excluded: what "the other" is not.
+            pronoun: what a pronoun in a modifier means.
+
+        Raises:
+            ReferenceProblem: nothing fits, or it is unclear what does.
+        """
+        phrase = _plain(phrase)
+        if not phrase.words and phrase.determiner in _INCOMPLETE:
+            raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
+        words = phrase.words or (noun or "object",)
+        quantity = quantity_of(phrase.determiner)
+        if quantity.unclear:
+            raise ReferenceProblem(
+                phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
+                word=quantity.unclear,
+            )  # fmt: skip
+        match = self._match(phrase, words, noun)
+        things = [entry.thing for entry in match.entries]
+        if quantity.other:
+            things = [thing for thing in things if thing not in excluded]
+            if not things:
+                raise ReferenceProblem(phrase.text, "there is no other one", 2)
+        things = self._usable(things, role, phrase)
+        modifiers = phrase.modifiers
+        if phrase.owner is not None:
+            modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
+        count = quantity.count or (None if match.plural else 1)
+        if quantity.every:
+            count = quantity.count
+        things = self._modified(things, modifiers, quantity, count, phrase, pronoun)
+        things = self._without(things, phrase, words, noun, pronoun)
+        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
+        things = self._exactly(things, match, phrase, words, quantity, count)
+        options = _options(things, count, quantity, phrase)
+        head = noun if matches_any(words[-1], THING_NOUNS) and noun else words[-1]
+        every = quantity.every or (count is None and match.plural)
+        return Resolved(options, quantity.definite, quantity.other, head, every, match.notes)
+
+    # -- words -------------------------------------------------------------------------------------
+
+    def _match(self, phrase: NounPhrase, words: tuple[str, ...], noun: str | None) -> Match:
+        """What the words fit, with the qualities that stand behind the noun."""
+        extra = [
+            word
+            for modifier in phrase.modifiers
+            if modifier.prep is Prep.QUALITY and not modifier.denied
+            for word in modifier.words
+        ]
+        words = (*words[:-1], *extra, words[-1])
+        if not phrase.joined:
+            return match_words(words, self._vocabulary, phrase.text, noun)
+        adjectives, head = words[:-1], words[-1]
+        every = match_words((head,), self._vocabulary, phrase.text, noun)
+        if every.plural:
+            # "The red and blue mugs": some are red, some are blue.
+            parts = [
+                match_words((word, head), self._vocabulary, phrase.text, noun)
+                for word in adjectives
+            ]
+            found = {entry.thing: entry for part in parts for entry in part.entries}
+            notes = tuple(note for part in parts for note in part.notes)
+            entries = tuple(entry for entry in every.entries if entry.thing in found)
+            return Match(entries, plural=True, notes=notes)
+        both = tuple(e for e in every.entries if all(e.has_word(word) for word in adjectives))
+        if not both:
+            raise ReferenceProblem(
+                phrase.text, f"no {head} is called both {' and '.join(adjectives)}"
+            )
+        return Match(both)
+
+    def _without(
+        self,
+        things: list[Thing],
+        phrase: NounPhrase,
+        words: tuple[str, ...],
+        noun: str | None,
+        pronoun: Pronoun,
+    ) -> list[Thing]:
+        """The things but for those that the phrase takes out."""
+        out: set[Thing] = set()
+        for word in phrase.without:
+            out |= self._with_quality(things, word, phrase)
+        for modifier in phrase.modifiers:
+            if modifier.prep is Prep.QUALITY and modifier.denied:
+                out |= {
+                    t for word in modifier.words for t in self._with_quality(things, word, phrase)
+                }
+            if modifier.prep is Prep.EXCEPT:
+                for item in modifier.phrases:
+                    out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))
+        left = [thing for thing in things if thing not in out]
+        if not left:
+            raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
+        return left
+
+    def _with_quality(self, things: list[Thing], word: str, phrase: NounPhrase) -> set[Thing]:
+        """The things that an adjective is true of."""
+        if word in STATES:
+            return {thing for thing in things if state_holds(word, thing, self._scene)}
+        color = basic_color(word)
+        entries = {entry.thing: entry for entry in self._entries()}
+        if color is not None:
+            return {thing for thing in things if entries[thing].has_color(color)}
+        if any(entry.has_word(word) for entry in entries.values()):
+            return {thing for thing in things if entries[thing].has_word(word)}
+        if word in SIDES or word in SIZES:
+            return set(select((word,), (), list(things), 1, self._scene, phrase.text))
+        raise ReferenceProblem(phrase.text, f"{word!r} is not understood", 3, word=word)
+
+    def _entries(self) -> tuple[Entry, ...]:
+        vocabulary = self._vocabulary
+        return (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
+
+    def _exactly(
+        self,
+        things: list[Thing],
+        match: Match,
+        phrase: NounPhrase,
+        words: tuple[str, ...],
+        quantity: Quantity,
+        count: int | None,
+    ) -> list[Thing]:
+        """Of several things that "the cup" may mean the one that is called just that."""
+        if not quantity.definite or quantity.every or count != 1 or len(things) < 2:
+            return things
+        exact = [
+            entry.thing
+            for entry in match.entries
+            if entry.thing in things and entry.is_called(words)
+        ]
+        return exact if len(exact) == 1 else things
+
+    def _usable(self, things: list[Thing], role: Role, phrase: NounPhrase) -> list[Thing]:
+        """Things that can be used as asked for; lost ones only when there are no others."""
+        usable = [thing for thing in things if can_be(thing, role, self._scene)]
+        if not usable and role is Role.SURFACE:
+            # "On the bowl" is said of what goes into it; on a drawer is not in it.
+            vessels = [thing for thing in things if thing.part is None]
+            usable = [thing for thing in vessels if can_be(thing, Role.CONTAINER, self._scene)]
+            parts = [thing for thing in things if thing.part is not None]
+            if not usable and parts:
+                owner = parts[0].name
+                raise ReferenceProblem(
+                    phrase.text,
+                    f"nothing can stand on a drawer or door; say 'into' it, or 'on {owner}'",
+                    3,
+                )
+        if not usable:
+            names = ", ".join(dict.fromkeys(thing.name for thing in things))
+            raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
+        at_hand = [
+            thing
+            for thing in usable
+            if thing.name == DESK or not self._scene.states[thing.name].lost
+        ]
+        return at_hand or usable
+
+    # -- modifiers ---------------------------------------------------------------------------------
+
+    def _modified(
+        self,
+        things: list[Thing],
+        modifiers: Sequence[Modifier],
+        quantity: Quantity,
+        count: int | None,
+        phrase: NounPhrase,
+        pronoun: Pronoun,
+    ) -> list[Thing]:
+        """Things that all modifiers are true of, or that they fit best."""
+        for modifier in sorted(modifiers, key=lambda item: item.prep in _RANKING):
+            if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT):
+                continue
+            landmarks = self._landmark_sets(modifier, phrase, pronoun)
+            found = self._related(modifier, things, landmarks, quantity, count)
+            if not found:
+                names = ", ".join(dict.fromkeys(thing.name for thing in things))
+                raise ReferenceProblem(
+                    phrase.text, f"this is true of none of what it could mean ({names})", 1
+                )
+            things = found
+        return things
+
+    def _landmark_sets(
+        self, modifier: Modifier, phrase: NounPhrase, pronoun: Pronoun
+    ) -> list[list[Thing]]:
+        """What each landmark of a modifier may be; "between the bowls" names two at once."""
+        if modifier.prep is Prep.BETWEEN and len(modifier.phrases) == 1:
+            both = self._landmarks(modifier.phrases[0], pronoun)
+            if len(both) != 2:
+                raise ReferenceProblem(phrase.text, "say between which two things", 2)
+            return [[both[0]], [both[1]]]
+        return [self._landmarks(item, pronoun) for item in modifier.phrases]
+
+    def _landmarks(
+        self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None
+    ) -> list[Thing]:
+        """What a phrase inside a modifier may mean."""
+        if phrase.pronoun:
+            return list(pronoun(phrase))
+        if is_robot(phrase):
+            return [space.ROBOT]
+        resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun)
+        return list(dict.fromkeys(thing for option in resolved.options for thing in option))
+
+    def _related(
+        self,
+        modifier: Modifier,
+        things: list[Thing],
+        landmarks: list[list[Thing]],
+        quantity: Quantity,
+        count: int | None,
+    ) -> list[Thing]:
+        scene, prep = self._scene, modifier.prep
+        fitting = [
+            thing
+            for thing in things
+            if any(
+                (thing not in marks and space.holds_at(prep, thing, marks, scene) is not False)
+                or (prep is Prep.OF and space.holds_at(prep, thing, marks, scene))
+                for marks in _tuples(landmarks)
+            )
+        ]
+        if modifier.denied:
+            return [thing for thing in things if thing not in fitting]
+        if prep not in _RANKING:
+            return fitting
+        best: dict[Thing, float] = {}
+        for marks in _tuples(landmarks):
+            others = [
+                thing
+                for thing in fitting
+                if thing not in marks and space.holds_at(prep, thing, marks, scene) is not False
+            ]
+            for cost, thing in space.ranked(prep, others, marks, scene):
+                best[thing] = min(cost, best.get(thing, cost))
+        order = sorted(best, key=lambda thing: best[thing])
+        if quantity.definite and count is not None and not quantity.every:
+            return order[:count]
+        if prep is Prep.NEAR:
+            beside = landmarks[0]
+            near = [t for t in order if any(space.is_next_to(t, m, scene) for m in beside)]
+            order = near or order[:1]
+        elif prep in (Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN):
+            order = order[: count or 1]
+        return [thing for thing in things if thing in order]
+
+
+def _plain(phrase: NounPhrase) -> NounPhrase:
+    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
+    last = phrase.words[-1] if phrase.words else ""
+    if last in _GENERAL and len(phrase.words) == 1:
+        determiner = _GENERAL[last]
+        described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
+        if last == "anything" and (described or phrase.modifiers):
+            determiner = "all"  # whatever is so
+        words = ("objects",) if determiner.startswith("all") else ("object",)
+        return replace(phrase, determiner=determiner, words=words)
+    if phrase.determiner.startswith("only "):
+        phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
+    of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
+    if not last or of is None:
+        return phrase
+    rest = tuple(item for item in phrase.modifiers if item is not of)
+    whole = of.phrases[0]
+    if last == "contents":
+        inside = Modifier(Prep.IN, (whole,))
+        return replace(phrase, determiner="all", words=("objects",), modifiers=(inside, *rest))
+    if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
+        several = singular(whole.words[-1]) != whole.words[-1]
+        if not several:
+            raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
+        noun = (*whole.words[:-1], singular(whole.words[-1]))
+        return replace(phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest))
+    return phrase
+
+
+def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:
+    if len(landmarks) == 1:
+        return [(mark,) for mark in landmarks[0]]
+    return [(one, two) for one in landmarks[0] for two in landmarks[1] if one != two]
+
+
+def _options(
+    things: list[Thing], count: int | None, quantity: Quantity, phrase: NounPhrase
+) -> tuple[tuple[Thing, ...], ...]:
+    """Alternative sets of things, given how many are meant."""
+    names = ", ".join(thing.name for thing in things)
+    if quantity.every and quantity.count is not None and len(things) != quantity.count:
+        raise ReferenceProblem(
+            phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1
+        )
+    if count is None or quantity.every:
+        return (tuple(things),)
+    if count > len(things):
+        raise ReferenceProblem(phrase.text, f"there are only {len(things)} of them: {names}", 1)
+    return tuple(islice(combinations(things, count), MAX_OPTIONS))

@@ -1,0 +1,238 @@
+"""Parsers that find every reading of a row of words, put together from smaller ones.
+
+A parser takes the input and a position and returns all (end, value) pairs. No word is ever skipped:
+a reading covers its words from the first to the last, each by a terminal of the grammar. Work is
+bounded; text with too many readings is refused, never cut down to some of them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any
+
+Result = tuple[int, Any]
+Parser = Callable[["Input", int], Sequence[Result]]
+
+MAX_WORK = 120_000
+"""Results of all rules together for one sentence; the longest sensible ones need a tenth."""
+
+
+class TooManyReadings(Exception):
+    """The words can be put together in more ways than can be looked at."""
+
+
+@dataclass
+class Input:
+    """Words to be read, and what has been found out about them.
+
+    Args:
+        words: in order, lower case; a comma is the word ``~comma``.
+        nouns: words that the scene's things are called by.
+    """
+
+    words: tuple[str, ...]
+    nouns: frozenset[str] = frozenset()
+    reached: int = 0
+    """Up to here some reading could follow the words."""
+    _memo: dict[tuple[int, int], Sequence[Result]] = field(default_factory=dict)
+    _work: int = 0
+
+    def recall(self, rule: Rule, at: int) -> Sequence[Result]:
+        """A rule's results at a position, worked out once."""
+        key = (id(rule), at)
+        if key not in self._memo:
+            self._memo[key] = ()  # no rule of the grammar begins with itself
+            self._memo[key] = tuple(dict.fromkeys(rule.parser(self, at)))
+            self._work += len(self._memo[key])
+            if self._work > MAX_WORK:
+                raise TooManyReadings
+        return self._memo[key]
+
+    def reach(self, end: int) -> None:
+        """Notes that the words up to ``end`` could be followed."""
+        self.reached = max(self.reached, end)
+
+
+class Rule:
+    """A rule of the grammar, which others may use before it is defined."""
+
+    def __init__(self, parser: Parser | None = None) -> None:
+        self._parser = parser
+
+    def define(self, parser: Parser) -> None:
+        """Says what the rule is."""
+        self._parser = parser
+
+    @property
+    def parser(self) -> Parser:
+        """What the rule is."""
+        assert self._parser is not None  # every rule of the grammar is defined
+        return self._parser
+
+    def __call__(self, given: Input, at: int) -> Sequence[Result]:
+        return given.recall(self, at)
+
+
+class _Nothing:
+    """The value of what only has to be there."""
+
+
+NOTHING = _Nothing()
+
+
+def expand(pattern: str) -> list[str]:
+    """All spellings of a pattern: ``(a|b)`` alternatives, ``[c]`` something optional."""
+    pattern = re.sub(r"\[([^\[\]]*)\]", r"(\1|)", pattern)
+    pieces = re.split(r"\(([^()]*)\)", pattern)
+    options = [piece.split("|") if index % 2 else [piece] for index, piece in enumerate(pieces)]
+    return [" ".join("".join(chosen).split()) for chosen in product(*options)]
+
+
+def spellings(patterns: str) -> list[str]:
+    """All spellings of patterns that stand on lines or between commas."""
+    found = [text for part in re.split(r"[,\n]", patterns) for text in expand(part.strip())]
+    return [text for text in dict.fromkeys(found) if text]
+
+
+def phrase(patterns: str, value: Any = None) -> Parser:
+    """One of several phrases; its value is the phrase itself unless one is given.
+
+    Args:
+        patterns: see :func:`spellings`.
+        value: of every phrase.
+    """
+    table: dict[str, list[tuple[str, ...]]] = {}
+    for text in spellings(patterns):
+        split = tuple(text.split())
+        table.setdefault(split[0], []).append(split)
+
+    def parse(given: Input, at: int) -> list[Result]:
+        if at >= len(given.words):
+            return []
+        found = []
+        for candidate in table.get(given.words[at], ()):
+            end = at + len(candidate)
+            if given.words[at:end] == candidate:
+                given.reach(end)
+                found.append((end, " ".join(candidate) if value is None else value))
+            elif len(candidate) > 1:
+                _reach_partly(given, at, candidate)
+        return found
+
+    return parse
+
+
+def _reach_partly(given: Input, at: int, candidate: tuple[str, ...]) -> None:
+    """Notes how far a phrase of several words could be followed ("in front" without "of")."""
+    count = 0
+    while at + count < len(given.words) and given.words[at + count] == candidate[count]:
+        count += 1
+    if at + count == len(given.words):
+        given.reach(at + count)
+
+
+def word(test: Callable[[Input, str], bool]) -> Parser:
+    """A single word that passes a test."""
+
+    def parse(given: Input, at: int) -> list[Result]:
+        if at < len(given.words) and test(given, given.words[at]):
+            given.reach(at + 1)
+            return [(at + 1, given.words[at])]
+        return []
+
+    return parse
+
+
+def sequence(*parsers: Parser, build: Callable[..., Any]) -> Parser:
+    """One after the other; ``build`` gets the values of those that have one."""
+
+    def parse(given: Input, at: int) -> list[Result]:
+        partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
+        for parser in parsers:
+            partial = [
+                (end, values if value is NOTHING else (*values, value))
+                for start, values in partial
+                for end, value in parser(given, start)
+            ]
+            if not partial:
+                return []
+        built = ((end, build(*values)) for end, values in partial)
+        return [(end, value) for end, value in built if value is not None]
+
+    return parse
+
+
+def either(*parsers: Parser) -> Parser:
+    """All that any of them finds."""
+    return lambda given, at: [item for parser in parsers for item in parser(given, at)]
+
+
+def optional(parser: Parser, default: Any = NOTHING) -> Parser:
+    """What a parser finds, or nothing at all."""
+    return lambda given, at: [*parser(given, at), (at, default)]
+
+
+def some(parser: Parser, least: int = 0, most: int = 12) -> Parser:
+    """So many in a row, of every possible length; the value is a tuple."""
+
+    def parse(given: Input, at: int) -> list[Result]:
+        found: list[Result] = [(at, ())] if least == 0 else []
+        partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
+        for count in range(1, most + 1):
+            partial = [
+                (end, values if value is NOTHING else (*values, value))
+                for start, values in partial
+                for end, value in parser(given, start)
+                if end > start
+            ]
+            if not partial:
+                break
+            if count >= least:
+                found += partial
+        return found
+
+    return parse
+
+
+def separated(parser: Parser, separator: Parser, most: int = 12) -> Parser:
+    """One or more with separators between; the value is a tuple."""
+    rest = some(sequence(separator, parser, build=lambda *values: values[-1]), most=most)
+    return sequence(parser, rest, build=lambda first, more: (first, *more))
+
+
+def silent(parser: Parser) -> Parser:
+    """Without its value."""
+    return lambda given, at: [(end, NOTHING) for end, _ in parser(given, at)]
+
+
+def valued(parser: Parser, build: Callable[[Any], Any]) -> Parser:
+    """With another value."""
+    return lambda given, at: [(end, build(value)) for end, value in parser(given, at)]
+
+
+def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
+    """With a value that knows the words that it covers."""
+    return lambda given, at: [
+        (end, build(" ".join(given.words[at:end]).replace(" ~comma", ","), value))
+        for end, value in parser(given, at)
+    ]
+
+
+def located(parser: Parser, build: Callable[[int, Any], Any]) -> Parser:
+    """With a value that knows where it begins."""
+    return lambda given, at: [(end, build(at, value)) for end, value in parser(given, at)]
+
+
+def complete(parser: Parser, given: Input) -> list[Any]:
+    """The values of all readings of the whole input."""
+    return list(dict.fromkeys(value for end, value in parser(given, 0) if end == len(given.words)))
+
+
+def words_of(patterns: Iterable[str]) -> frozenset[str]:
+    """Every single word that occurs in patterns."""
+    return frozenset(
+        item for pattern in patterns for text in spellings(pattern) for item in text.split()
+    )

@@ -1,0 +1,175 @@
+"""Reads an instruction's text into syntax trees, all readings of every sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from etot_cli.reasoning.language import grammar, phrases
+from etot_cli.reasoning.language.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    MATERIALS,
+    NUMBERS,
+    ORDINALS,
+    PURPOSES,
+    SIDES,
+    SIZES,
+    STATES,
+    basic_color,
+    singular,
+)
+from etot_cli.reasoning.language.parsing import Input, TooManyReadings
+from etot_cli.reasoning.language.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.text import (
+    MAX_CHARACTERS,
+    MAX_SENTENCES,
+    MAX_WORDS,
+    Correction,
+    corrected,
+    normalized,
+    sentences_of,
+    spaced,
+    words_in,
+)
+
+SHOWN_WORDS = 4
+
+
+class UnreadableError(Exception):
+    """Text that the grammar does not cover.
+
+    Args:
+        words: the words at which reading stopped.
+        understood: what comes before them.
+        why: what is wrong with them.
+        without: the sentence without those words, where it may be read so.
+    """
+
+    def __init__(self, words: str, understood: str, why: str = "", without: str = "") -> None:
+        self.words = words
+        self.understood = understood
+        self.why = why
+        self.without = without
+        super().__init__(words)
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """A sentence's readings, the simplest first, each as clauses in the order they are put."""
+
+    text: str
+    readings: tuple[tuple[Spoken, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """All sentences, and the slips of the pen that were put right in them."""
+
+    sentences: tuple[Sentence, ...]
+    corrections: tuple[Correction, ...]
+
+
+def read(text: str, vocabulary: frozenset[str]) -> Read:
+    """All sentences of an instruction.
+
+    Args:
+        text: the instruction, normalized.
+        vocabulary: words of the scene's objects, normalized.
+
+    Raises:
+        UnreadableError: part of the text is not covered by the grammar.
+    """
+    if len(text) > MAX_CHARACTERS:
+        raise UnreadableError(
+            text[:40], "", f"it has more than {MAX_CHARACTERS} characters; shorten it"
+        )
+    parts = sentences_of(text)
+    if not any(character.isalnum() for part in parts for character in part):
+        raise UnreadableError(text.strip()[:40], "", "it says nothing")
+    if len(parts) > MAX_SENTENCES:
+        raise UnreadableError(
+            parts[MAX_SENTENCES],
+            ". ".join(parts[:3]),
+            f"it has more than {MAX_SENTENCES} sentences",
+        )
+    sentences: list[Sentence] = []
+    corrections: dict[Correction, None] = {}
+    for part in parts:
+        before = ". ".join(parts[: len(sentences)])
+        words = []
+        for word in words_in(part):
+            meant = None if _is_known(word, vocabulary) else corrected(word, vocabulary)
+            if meant is not None:
+                corrections[Correction(word, meant)] = None
+            words.append(meant or word)
+        sentences.append(_sentence(tuple(words), before, vocabulary))
+    return Read(tuple(sentences), tuple(corrections))
+
+
+def _is_known(word: str, vocabulary: Iterable[str]) -> bool:
+    """Whether a word is one of the scene's, of the grammar's, or of the lexicon's."""
+    tables = (SIDES, SIZES, ORDINALS, STATES, LEVELS, NUMBERS)
+    single = singular(word)
+    return (
+        word in vocabulary
+        or any(single == singular(item) for item in vocabulary)
+        or word in phrases.ALL_WORDS
+        or single in COMMON_NOUNS
+        or single in PURPOSES
+        or word in MATERIALS
+        or any(word in table for table in tables)
+        or basic_color(word) is not None
+        or phrases.is_adverb(word)
+    )
+
+
+def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -> Sentence:
+    if len(words) > MAX_WORDS:
+        why = f"one sentence has over {MAX_WORDS} words; make it several sentences"
+        raise UnreadableError(_some(words), before, why)
+    given = Input(words, vocabulary)
+    try:
+        found = grammar.readings(given)
+    except TooManyReadings:
+        why = "this can be read in too many ways; make it several sentences"
+        raise UnreadableError(_some(words), before, why) from None
+    if not found:
+        raise _stopped(given, before)
+    return Sentence(spaced(words), tuple(sorted(found, key=reading_cost)))
+
+
+def _stopped(given: Input, before: str) -> UnreadableError:
+    """Where reading stopped and why: at a word that is never understood, else where it got to."""
+    words, stop = given.words, given.reached
+    for index, word in enumerate(words):
+        why = "" if word in given.nouns else phrases.REASONS.get(word, "")
+        if not why and word not in given.nouns and phrases.is_adverb(word):
+            why = "" if word in phrases.ALL_WORDS else "how something is done cannot be asked for"
+        if not why and word not in given.nouns and word in phrases.OTHER_VERBS:
+            why = "no skill does that; things can be picked up, put somewhere, opened and closed"
+        if why and (index >= stop - 1 or word not in phrases.ALL_WORDS):
+            without = spaced((*words[:index], *words[index + 1 :]))
+            understood = _joined(before, spaced(words[:index]))
+            return UnreadableError(_some(words[index:]), understood, why, without)
+    understood = _joined(before, spaced(words[:stop]))
+    if stop >= len(words):
+        why = "something is missing, such as into or onto what"
+        return UnreadableError(_last(words), understood, why)
+    without = spaced((*words[:stop], *words[stop + 1 :]))
+    return UnreadableError(_some(words[stop:]), understood, "", without)
+
+
+def _some(words: tuple[str, ...]) -> str:
+    return spaced(words[:SHOWN_WORDS]).strip(", ") + (" …" if len(words) > SHOWN_WORDS else "")
+
+
+def _last(words: tuple[str, ...]) -> str:
+    return ("… " if len(words) > SHOWN_WORDS else "") + spaced(words[-SHOWN_WORDS:])
+
+
+def _joined(before: str, text: str) -> str:
+    return ". ".join(part for part in (before, text.strip(" ,")) if part)
+
+
+__all__ = ["Read", "Sentence", "UnreadableError", "normalized", "read"]

@@ -1,0 +1,81 @@
+"""Ways of saying it that would be read: built from what was said and from this scene."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from etot_cli.reasoning.builtin.relations import container_parts
+from etot_cli.world.state import SceneState
+
+MAX_TRIES = 8
+"""Rewordings that are tried before none is shown."""
+
+Reads = Callable[[str, SceneState], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """An instruction that was refused, and at which words.
+
+    ``word``: of the phrase, the words to blame. ``without``: the sentence without them.
+    ``candidates``: names that may have been meant.
+    """
+
+    instruction: str
+    phrase: str
+    word: str = ""
+    without: str = ""
+    candidates: tuple[str, ...] = ()
+
+
+def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[str]:
+    """Instructions near the refused one that are read in this scene, the nearest first."""
+    tried: set[str] = set()
+    for text in _near(refused, scene):
+        plain = _sentence(text)
+        if plain in tried or len(tried) >= MAX_TRIES:
+            continue
+        tried.add(plain)
+        if plain != _sentence(refused.instruction) and reads(plain, scene):
+            yield plain
+
+
+def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
+    text = refused.instruction
+    if refused.word and refused.candidates:
+        for name in refused.candidates[:3]:
+            yield _replaced(text, refused.phrase, name)
+    if refused.word:
+        yield _replaced(text, refused.word, "")
+    if refused.without:
+        yield refused.without
+    yield from _of_this_scene(scene)
+
+
+def _of_this_scene(scene: SceneState) -> Iterator[str]:
+    """Requests about what is there: put one thing into or onto another, open, close, pick up."""
+    movable = [info for info in scene.infos.values() if info.movable]
+    for info in movable:
+        for other in scene.infos.values():
+            if other.name != info.name and (other.container or container_parts(other)):
+                yield f"Put the {info.label} into the {other.label}"
+                break
+    for other in scene.infos.values():
+        if other.surface and movable and movable[0].name != other.name:
+            yield f"Put the {movable[0].label} on the {other.label}"
+    for info in movable:
+        yield f"Pick up {info.name}"
+
+
+def _replaced(text: str, words: str, name: str) -> str:
+    """The text with the first occurrence of some words replaced by a name, article and all."""
+    pattern = r"\W+".join(re.escape(word) for word in words.replace(",", " ").split())
+    article = r"(?:\b(?:the|a|an)\s+)?" if name else ""
+    return re.sub(rf"{article}(?<!\w){pattern}(?!\w)", name, text, count=1, flags=re.IGNORECASE)
+
+
+def _sentence(text: str) -> str:
+    plain = " ".join(text.split()).strip(" ,.")
+    return f"{plain[:1].upper()}{plain[1:]}." if plain else plain

@@ -1,0 +1,195 @@
+"""Where objects are with respect to each other, as people say it to tell one from another.
+
+Looked at from above by the scene's viewer, by default the robot: left is its left, the back is far
+from it, the front near. What a *destination* beside something means is in ``world/spatial.py``;
+here a phrase has to be true of something that stands there already, and is read more loosely.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
+from etot_cli.reasoning.language.syntax import Prep
+from etot_cli.world.state import DESK, SceneState
+
+NEXT_TO = 0.10
+"""Free distance up to which several objects count as next to something [m]."""
+FAR = 0.30
+"""Free distance from which nothing is next to or near something any more [m]."""
+OFFSET = 0.01
+"""An object is on one side of another when it is off by more than this [m]."""
+OFF_THE_LINE = 0.5
+"""What stands between two things is off the line between them by at most this share of it."""
+
+Test = Callable[[Thing], bool]
+Cost = Callable[[Thing], float]
+
+ROBOT = Thing("robot")
+"""Stands for the robot as a landmark; it is at the origin."""
+
+
+def position(thing: Thing, scene: SceneState) -> tuple[float, float, float]:
+    """Where a thing is; the desk is at its centre, the robot at the origin."""
+    if thing == ROBOT:
+        return (0.0, 0.0, 0.0)
+    if thing.name == DESK:
+        x0, x1, y0, y1 = scene.desk_bounds
+        return ((x0 + x1) / 2, (y0 + y1) / 2, scene.desk_top)
+    return scene.states[thing.name].position
+
+
+def to_the_left(thing: Thing, scene: SceneState) -> float:
+    """How far a thing is to the viewer's left [m]."""
+    x, y, _ = position(thing, scene)
+    return -scene.forward[1] * x + scene.forward[0] * y
+
+
+def to_the_back(thing: Thing, scene: SceneState) -> float:
+    """How far a thing is ahead of the viewer [m]."""
+    x, y, _ = position(thing, scene)
+    return scene.forward[0] * x + scene.forward[1] * y
+
+
+def addresses(thing: Thing, scene: SceneState) -> tuple[str, ...]:
+    """Names by which relations may speak of a thing: itself, and its parts if none is meant."""
+    if thing.name == DESK:
+        return (DESK,)
+    info = scene.infos[thing.name]
+    parts = [part.address for part in info.parts if thing.part in (None, part.name)]
+    if thing.part is not None:
+        return tuple(parts)
+    if thing.board is not None:
+        return (f"{thing.name}.{thing.board}",)
+    return (thing.name, *parts)
+
+
+def rests_on(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
+    """Whether a thing stands on a landmark."""
+    if thing.name == DESK:
+        return False
+    return any(is_on(scene, thing.name, address) for address in addresses(landmark, scene))
+
+
+def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
+    """Whether a thing lies inside a landmark."""
+    if thing.name == DESK:
+        return False
+    return any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
+
+
+def holds_at(
+    prep: Prep, thing: Thing, landmarks: Sequence[Thing], scene: SceneState
+) -> bool | None:
+    """Whether a modifier is true of a thing; None where it only ranks things."""
+    first = landmarks[0]
+    if first == thing:
+        return prep is Prep.OF
+    tests: dict[Prep, Test] = {
+        Prep.ON: lambda landmark: rests_on(thing, landmark, scene),
+        Prep.IN: lambda landmark: lies_in(thing, landmark, scene),
+        Prep.FROM: lambda landmark: (
+            rests_on(thing, landmark, scene) or lies_in(thing, landmark, scene)
+        ),
+        Prep.OF: lambda landmark: thing.name == landmark.name,
+        Prep.CONTAINING: lambda landmark: lies_in(landmark, thing, scene),
+        Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
+        Prep.UNDER: lambda landmark: thing.name in _bearers(landmark, scene),
+        Prep.ABOVE: lambda landmark: landmark.name in _bearers(thing, scene),
+    }
+    if prep in tests:
+        return first != ROBOT and tests[prep](first)
+    match prep:
+        case Prep.LEFT:
+            return to_the_left(thing, scene) > to_the_left(first, scene) + OFFSET
+        case Prep.RIGHT:
+            return to_the_left(thing, scene) < to_the_left(first, scene) - OFFSET
+        case Prep.BEHIND:
+            return to_the_back(thing, scene) > to_the_back(first, scene) + OFFSET
+        case Prep.FRONT:
+            return to_the_back(thing, scene) < to_the_back(first, scene) - OFFSET
+        case Prep.NEAR:
+            return first == ROBOT or gap(thing, first, scene) <= FAR
+        case Prep.BETWEEN:
+            return _is_between(thing, landmarks, scene)
+    return None
+
+
+def ranked(
+    prep: Prep, things: Iterable[Thing], landmarks: Sequence[Thing], scene: SceneState
+) -> list[tuple[float, Thing]]:
+    """Things with the cost of calling them so, the best fitting one first."""
+    if prep is Prep.BETWEEN:
+        (x0, y0, _), (x1, y1, _) = (position(landmark, scene) for landmark in landmarks[:2])
+
+        def cost(thing: Thing) -> float:
+            # The detour through the thing is smallest for what lies between the two.
+            x, y, _ = position(thing, scene)
+            return math.dist((x, y), (x0, y0)) + math.dist((x, y), (x1, y1))
+    else:
+        askew_by = {
+            Prep.LEFT: to_the_back, Prep.RIGHT: to_the_back, Prep.BEHIND: to_the_left,
+            Prep.FRONT: to_the_left,
+        }.get(prep)  # fmt: skip
+        sign = -1.0 if prep is Prep.FARTHEST else 1.0
+        mark = landmarks[0]
+
+        def cost(thing: Thing) -> float:
+            away = math.dist(position(thing, scene)[:2], position(mark, scene)[:2])
+            # Straight to the left is more "left of" than as far to the left and far behind.
+            askew = 0.0 if askew_by is None else abs(askew_by(thing, scene) - askew_by(mark, scene))
+            return sign * (away + askew)
+
+    return sorted(((cost(thing), thing) for thing in things), key=lambda item: item[0])
+
+
+def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
+    """Free distance between two things' outlines, seen as discs [m]; infinite for the desk."""
+    if DESK in (thing.name, landmark.name):
+        return math.inf
+    away = math.dist(position(thing, scene)[:2], position(landmark, scene)[:2])
+    return away - radius(scene.infos[thing.name]) - radius(scene.infos[landmark.name])
+
+
+def is_next_to(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
+    """Whether hardly anything fits between two things."""
+    return landmark == ROBOT or gap(thing, landmark, scene) <= NEXT_TO
+
+
+def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Things ordered from the most to the least ``left``, ``right``, ``near``, ``far``, …"""
+    keys: dict[str, Cost] = {
+        "left": lambda thing: -to_the_left(thing, scene),
+        "right": lambda thing: to_the_left(thing, scene),
+        "near": lambda thing: math.hypot(*position(thing, scene)[:2]),
+        "far": lambda thing: -math.hypot(*position(thing, scene)[:2]),
+        "front": lambda thing: to_the_back(thing, scene),
+        "back": lambda thing: -to_the_back(thing, scene),
+    }
+    return sorted(things, key=keys[side])
+
+
+def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Things in order along the axis in which they spread most, sideways or away."""
+    sideways = by_side("left", things, scene)
+    away = by_side("front", things, scene)
+    width = to_the_left(sideways[0], scene) - to_the_left(sideways[-1], scene)
+    depth = to_the_back(away[-1], scene) - to_the_back(away[0], scene)
+    return sideways if width >= depth else away
+
+
+def _is_between(thing: Thing, landmarks: Sequence[Thing], scene: SceneState) -> bool:
+    (x0, y0, _), (x1, y1, _) = (position(landmark, scene) for landmark in landmarks[:2])
+    x, y, _ = position(thing, scene)
+    length = math.dist((x0, y0), (x1, y1))
+    if length < OFFSET:
+        return False
+    along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length
+    askew = abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / length
+    return 0 < along < length and askew <= OFF_THE_LINE * length
+
+
+def _bearers(thing: Thing, scene: SceneState) -> frozenset[str]:
+    return bearers(scene, thing.name) if thing.name in scene.states else frozenset()

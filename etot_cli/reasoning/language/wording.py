@@ -1,0 +1,89 @@
+"""A goal in formal terms, on one line: what the reader says it understood."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Grouping,
+    Keep,
+    Near,
+    Open,
+    Pick,
+    Place,
+    Put,
+    Relation,
+    Step,
+    Thing,
+)
+
+
+def formal(goal: Goal) -> str:
+    """The goal's steps in their order and its constraints: ``inside: [pen, cup or mug]; …``."""
+    steps = [_step(step, goal) for step in goal.steps]
+    kept = []
+    for item in goal.constraints:
+        names = ", ".join(item.names)
+        if item.keep is Keep.AWAY:
+            where = " or ".join(f"{relation.value} {place}" for relation, place in item.places)
+            kept.append(f"never {where}: {names}")
+        else:
+            kept.append(f"{item.keep.value}: {names}")
+    return "; ".join([*(step for step in steps if step), *kept]) or "nothing to do"
+
+
+def _step(step: Step, goal: Goal) -> str:
+    if isinstance(step, Put):
+        if step.aside:
+            return ""
+        what = " and ".join(_choice(index, goal) for index in step.what)
+        said = "" if step.grouping is Grouping.ANY or len(step.what) < 2 else f" {step.grouping}"
+        keys = dict.fromkeys(_key(place) for place in step.places)
+        if len(keys) == 1:
+            where = " or ".join(dict.fromkeys(_place(place, goal) for place in step.places))
+            return f"{next(iter(keys))}: [{what}, {where}]{_poses(step)}{said}"
+        ways = (f"{_key(place)} {_place(place, goal)}" for place in step.places)
+        return f"[{what}] {' or '.join(dict.fromkeys(ways))}{_poses(step)}{said}"
+    if isinstance(step, Pick):
+        return f"in_hand: {_choice(step.what, goal)}{_poses(step)}"
+    assert isinstance(step, Open | Close)  # there is no other step
+    key = "open" if isinstance(step, Open) else "closed"
+    return f"{key}: {_choice(step.what, goal)}"
+
+
+def _poses(step: Put | Pick) -> str:
+    poses = [pose.value for pose in step.poses if pose is not None]
+    return f" ({' or '.join(poses)})" if poses else ""
+
+
+def _key(place: Place) -> str:
+    return "inside" if place.relation is Relation.INSIDE else "on"
+
+
+def _place(place: Place, goal: Goal) -> str:
+    surface = "" if place.where is None else _choice(place.where, goal)
+    near = ", ".join(_near(item, goal) for item in place.beside)
+    if not near:
+        return surface
+    return f"{surface} ({near})" if surface else f"the same surface ({near})"
+
+
+def _near(near: Near, goal: Goal) -> str:
+    if near.point is not None:
+        return f"at {near.point[0]:.3f} {near.point[1]:.3f}"
+    marks = " and ".join(_choice(index, goal) for index in near.landmarks)
+    return f"{near.relation.value} {marks}".strip()
+
+
+def _choice(index: int, goal: Goal) -> str:
+    options = (_things(option) for option in goal.referents[index].options)
+    return " or ".join(dict.fromkeys(options))
+
+
+def _things(things: Iterable[Thing]) -> str:
+    return " and ".join(
+        ".".join(item for item in (thing.name, thing.part or thing.board) if item)
+        for thing in things
+    )
