@@ -34,7 +34,10 @@ BELOW: dict[str, set[str]] = {
 }
 """Rooms that each room may import besides itself and ``errors``. Rooms still to come may stand on
 everything."""
-WITHOUT_MUJOCO = ("specs", "reasoning/builtin", "planning", "reporting", "commands", "cli")
+WITHOUT_MUJOCO = (
+    "specs", "reasoning/builtin", "reasoning/language", "planning", "reporting", "commands",
+    "cli",
+)  # fmt: skip
 WITHOUT_HTTP = (
     "specs", "world", "skills", "control", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
@@ -44,7 +47,7 @@ PLAIN_DATA = {
     "etot_cli.control": {"simulated"},
 }
 """The modules of lower rooms that carry data alone; physics is behind a protocol."""
-ON_PLAIN_DATA = ("planning", "reasoning/builtin")
+ON_PLAIN_DATA = ("planning", "reasoning/builtin", "reasoning/language")
 
 
 def rooms() -> list[str]:

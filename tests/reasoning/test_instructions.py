@@ -27,6 +27,10 @@ def store(name: str) -> str:
     return f"[OPEN, drawer] [PICK UP, {name}] [PUT INTO, drawer] [CLOSE, drawer]"
 
 
+def left_open(name: str) -> str:
+    return f"[OPEN, drawer] [PICK UP, {name}] [PUT INTO, drawer]"
+
+
 BALL_IN = "[PICK UP, tennis_ball] [PUT INTO, holder]"
 ALLOCATIONS = [
     f"{store('apple')} {store('tennis_ball')}",
@@ -163,11 +167,9 @@ REWORDED: dict[str, dict[str, list[str]]] = {
         "Store the apple and the ball in the drawer or the holder, separately": ALLOCATIONS[1:3],
         "Put the apple and the tennis ball in the same container": [ALLOCATIONS[0], ALLOCATIONS[3]],
         "Open the drawer, put the ball inside, and close it": [store("tennis_ball")],
-        "Open the drawer and put the ball inside": [store("tennis_ball")],
-        "Take the ball, open the drawer and put it inside.": [store("tennis_ball")],
-        "Open the drawer. Put the ball in it. Leave it open.": [
-            f"{store('tennis_ball')} [OPEN, drawer]"
-        ],
+        "Open the drawer and put the ball inside": [left_open("tennis_ball")],
+        "Take the ball, open the drawer and put it inside.": [left_open("tennis_ball")],
+        "Open the drawer. Put the ball in it. Leave it open.": [left_open("tennis_ball")],
         "Get the apple into the holder and the ball into the drawer": [ALLOCATIONS[2]],
         "Put the apple into the holder or on the drawer": [
             APPLE_IN,
@@ -176,7 +178,7 @@ REWORDED: dict[str, dict[str, list[str]]] = {
     },
     "kitchen": {
         "Open the top drawer and put the left bowl inside": [
-            "[OPEN, chest.upper] [PICK UP, bowl_1] [PUT INTO, chest.upper] [CLOSE, chest.upper]"
+            "[OPEN, chest.upper] [PICK UP, bowl_1] [PUT INTO, chest.upper]"
         ],
         "Close the drawer": ["[CLOSE, chest.lower]"],
         "Close all drawers": ["[CLOSE, chest.lower]"],
@@ -202,16 +204,16 @@ REWORDED: dict[str, dict[str, list[str]]] = {
 REFUSED: dict[str, dict[str, str]] = {
     "kitchen": {
         "Juggle the apples": "juggle the apples",
-        "Do not put the apple in the bowl": "do not put",
-        "Put the apple in the bowl without touching the plate": "without touching",
+        "Do not put the apple in the bowl": "not what to do",
+        "Put the red apple in the left bowl without delay": "delay",
         "If the drawer is open, close it": "if the drawer",
-        "Put the bottle next to the bowl": "into or onto what",
+        "Put the bottle next to": "something is missing",
         "Put the big bowl upside down on the plate": "upside down",
         "Put the apple quickly into the bowl": "quickly into the bowl",
         "Close the middle drawer": "no 'middle drawer'",
         "Pick up the yellow mug": "no 'yellow mug'",
-        "Pick up the spoon": "nothing in the scene is called so",
-        "Pick up the shiny mug": "'shiny' does not tell which of mug_a, mug_b, mug_c",
+        "Pick up the spoon": "nothing in the scene is called 'spoon'",
+        "Pick up the shiny mug": "'shiny' is not understood",
         "Pick up both apples": "holds one object at a time",
         "Pick up the chest": "chest cannot be picked up",
         "Put it in the bowl": "not clear what this refers to",
@@ -246,7 +248,9 @@ def test_refusals_say_what_and_how_to_go_on(name: str, text: str, named: str) ->
     message = str(raised.value)
     assert named in message
     assert "understood" in message
-    assert "Pick up the red ball." in message  # an example
+    example = re.search(r"what would be read: (.*)", message)
+    assert example is not None
+    plans(example[1], getattr(scenes, name)())
     assert "goal:" in message
     assert "--reasoner vlm" in message
     assert raised.value.exit_code == 2

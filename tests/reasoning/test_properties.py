@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin import BuiltinReasoner, check_plan
-from etot_cli.reasoning.builtin.instructions import goal_of
 from etot_cli.reasoning.builtin.revision import cycles, purpose
+from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome
 from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.specs.task import Condition

@@ -12,7 +12,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing
 from etot_cli.reasoning.builtin.relations import is_inside, is_on
-from etot_cli.reasoning.builtin.rules import check_plan
+from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import Action, Verb
@@ -35,7 +35,8 @@ def completed(revised: Branch, failed: FailedStep, goals: Iterable[Goal]) -> Bra
                 sketch.put(name, relation, target)
                 break
     actions = tuple(sketch.actions)
-    if actions == revised.actions or check_plan(actions, start):
+    opened = left_open(failed.branch.actions, start)
+    if actions == revised.actions or check_plan(actions, start, opened):
         return revised
     return replace(revised, actions=actions)
 
@@ -70,6 +71,8 @@ def _wanted_from_start(
             if not meant:
                 continue
             for place in step.places:
+                if place.where is None or place.beside:
+                    continue
                 for option in goal.referents[place.where].options:
                     for target in option:
                         for address in address_of(target, place.relation, start):

@@ -56,6 +56,9 @@ def _comes_before(first: Placement, second: Placement) -> bool:
     """Whether ``second`` cannot be done, or would be undone, unless ``first`` is done."""
     if second.relation is not Relation.ON:
         return False
-    supports = {owner_of(second.target), *(mark for item in second.where for mark in item.landmarks)}
+    supports = {
+        owner_of(second.target),
+        *(mark for item in second.where for mark in item.landmarks),
+    }
     is_content = first.relation is Relation.INSIDE and first.target == second.target
     return first.name in supports or is_content

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
 from etot_cli.reasoning.builtin.conditions import goals_of
-from etot_cli.reasoning.builtin.goal import Goal
+from etot_cli.reasoning.builtin.constraints import broken_constraint, cause_of_breach
+from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Verdict
+from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
 
@@ -42,9 +44,25 @@ class BuiltinReasoner:
         return branches_of(self._goals, scene)
 
     def judge(self, action: Action, record: RolloutRecord) -> Verdict:
-        """Compares all objects before and after the action."""
-        return judge_action(action, record)
+        """Compares all objects before and after the action, and holds it to the constraints."""
+        verdict = judge_action(action, record)
+        if verdict.outcome is not Outcome.SUCCESS:
+            return verdict
+        breach = cause_of_breach(record, self._constraints)
+        return (
+            verdict if breach is None else replace(verdict, outcome=Outcome.FAILURE, cause=breach)
+        )
 
     def reflect(self, failed: FailedStep) -> Iterator[Branch]:
         """All corrected branches from the root, best first, worked out as they are asked for."""
-        return (completed(revised, failed, self._goals) for revised in reflect_on(failed))
+        revisions = (completed(revised, failed, self._goals) for revised in reflect_on(failed))
+        return (
+            revised
+            for revised in revisions
+            if broken_constraint(revised.actions, self._constraints, failed.start) is None
+        )
+
+    @property
+    def _constraints(self) -> tuple[Constraint, ...]:
+        """What must not happen on the way, whichever of the alternative goals is followed."""
+        return tuple(constraint for goal in self._goals for constraint in goal.constraints)

@@ -35,7 +35,7 @@ from etot_cli.reasoning.builtin.revision import (
     reachable_throughout,
     relocations,
 )
-from etot_cli.reasoning.builtin.rules import check_plan
+from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.world.state import DESK, Cause, CauseKind, PartInfo
@@ -64,12 +64,13 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
         return
     case = _Case(failed, cause)
     aim = purpose(case.actions, failed.start)
+    opened = left_open(case.actions, failed.start)
     seen = {case.actions}
     for actions, change in case.corrections():
         if actions in seen:
             continue
         seen.add(actions)
-        if purpose(actions, failed.start) == aim and not check_plan(actions, failed.start):
+        if purpose(actions, failed.start) == aim and not check_plan(actions, failed.start, opened):
             yield Branch(actions, f"{change}, because {cause.text}")
 
 

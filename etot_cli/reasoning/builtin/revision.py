@@ -8,8 +8,10 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import is_closed, is_open
+from etot_cli.reasoning.builtin.rules import left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.skills.action import Action, Verb
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import SceneState
 
 Actions = tuple[Action, ...]
@@ -40,7 +42,7 @@ class Purpose:
         held: what is in the hand at the end.
     """
 
-    places: frozenset[tuple[str, Verb, str]]
+    places: frozenset[tuple[str, Verb, str, tuple[Whereabouts, ...]]]
     parts: frozenset[tuple[str, Verb]]
     held: str | None
 
@@ -48,7 +50,7 @@ class Purpose:
 def purpose(actions: Sequence[Action], scene: SceneState) -> Purpose:
     """What a branch is for; relocations to a safe place are means and no part of it."""
     held = scene.holding
-    places: dict[str, tuple[Verb, str]] = {}
+    places: dict[str, tuple[Verb, str, tuple[Whereabouts, ...]]] = {}
     parts: dict[str, Verb] = {}
     for action in actions:
         match action.verb:
@@ -56,7 +58,7 @@ def purpose(actions: Sequence[Action], scene: SceneState) -> Purpose:
                 held = action.target
             case Verb.PUT_ON | Verb.PUT_INTO:
                 if held is not None and not action.safe:
-                    places[held] = (action.verb, action.target)
+                    places[held] = (action.verb, action.target, action.where)
                 held = None
             case Verb.OPEN | Verb.CLOSE:
                 parts[action.target] = action.verb
@@ -182,7 +184,14 @@ def _written_anew(actions: Actions, scene: SceneState) -> Actions:
             else:
                 on = following.verb is Verb.PUT_ON
                 relation = Relation.ON if on else Relation.INSIDE
-                sketch.put(action.target, relation, following.target, action.pose)
+                sketch.put(
+                    action.target,
+                    relation,
+                    following.target,
+                    action.pose,
+                    following.where,
+                    left_open(actions, scene),
+                )
     return tuple(sketch.actions)
 
 

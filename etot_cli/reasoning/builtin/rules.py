@@ -46,6 +46,23 @@ def check_plan(
     return _Checker(scene, left_open).check(actions)
 
 
+def left_open(actions: Sequence[Action], scene: SceneState) -> tuple[str, ...]:
+    """Parts that a well-formed plan puts something into and never closes after that.
+
+    Its goal wants them open, so that a revision of it need not close them either.
+    """
+    found: dict[str, None] = {}
+    for action in actions:
+        part = scene.part(action.target)
+        if part is None:
+            continue
+        if action.verb is Verb.PUT_INTO:
+            found[part.address] = None
+        elif action.verb is Verb.CLOSE:
+            found.pop(part.address, None)
+    return tuple(found)
+
+
 class _Checker:
     """Follows hand and openings through a plan."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import (
     Close,
@@ -20,6 +21,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
+from etot_cli.reasoning.builtin.relations import is_closed, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.coreference import Discourse
 from etot_cli.reasoning.language.determiners import is_distributive
@@ -290,6 +292,8 @@ class Clauses:
         if state.word:
             for phrase in state.subjects:
                 for index in self.phrases.refer(phrase, Role.PART):
+                    if state.kept:
+                        self._keep(index, state.word)
                     step = Open(index, final=True) if state.word == "open" else None
                     self._steps.append(step or Close(index, final=True))
             return
@@ -300,6 +304,18 @@ class Clauses:
         places = self.phrases.places(state.destinations, themes)
         self._add_put(themes, places, Grouping.ANY)
         self.discourse.last_places = places
+
+    def _keep(self, index: int, word: str) -> None:
+        """What is open or closed by now, and is to stay so, must not be moved in between."""
+        opened = word == "open"
+        for thing in self.discourse.things(index):
+            for part in self._scene.infos[thing.name].parts:
+                if thing.part not in (None, part.name):
+                    continue
+                if (is_open if opened else is_closed)(self._scene, part):
+                    keep = Keep.OPEN if opened else Keep.CLOSED
+                    name = f"{part.owner}.{part.name}"
+                    self.constraints.append(Constraint(keep, (name,)))
 
     # -- larger commands ---------------------------------------------------------------------------
 
@@ -314,7 +330,7 @@ class Clauses:
             raise ReferenceProblem(text, "a stack needs at least two things", 2)
         things = self._upward(things, clause, text, listed=len(themes) > 1)
         indices = [self._single(thing, thing.name) for thing in things]
-        for below, above in zip(indices, indices[1:], strict=False):
+        for below, above in pairwise(indices):
             thing = things[indices.index(below)]
             inside = can_be(thing, Role.CONTAINER, self._scene)
             on = can_be(thing, Role.SURFACE, self._scene)

@@ -12,7 +12,6 @@ from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
-from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.reasoning.language.clauses import Clauses
 from etot_cli.reasoning.language.coreference import Discourse
 from etot_cli.reasoning.language.noun_phrases import Resolver
@@ -20,6 +19,7 @@ from etot_cli.reasoning.language.ordering import Timed, in_order
 from etot_cli.reasoning.language.reader import Sentence
 from etot_cli.reasoning.language.syntax import Spoken, reading_cost
 from etot_cli.reasoning.language.vocabulary import Vocabulary
+from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
 MAX_BRANCHES = 16
@@ -124,7 +124,8 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
 
 def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _State]) -> _State:
     plans: dict[tuple[object, ...], tuple[str, _State]] = {}
-    for goal, attempt in found.items():
+    for attempt in found.values():
+        goal = attempt.goal()
         with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
             scene = state.clauses.discourse.scene
             branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
@@ -169,4 +170,8 @@ def _meaning(goal: Goal) -> Goal:
             steps.append(replace(step, what=tuple(map(renumbered, step.what)), places=places))
         else:
             steps.append(replace(step, what=renumbered(step.what)))
+    for index, number in used.items():
+        apart = goal.referents[index].distinct_from
+        distinct = tuple(sorted(used[other] for other in apart if other in used))
+        referents[number] = replace(referents[number], distinct_from=distinct)
     return Goal(tuple(referents), tuple(steps), goal.constraints)

@@ -572,7 +572,7 @@ ENSURE = either(
         silent(phrase(say.KEEP)),
         NP_LIST,
         OPEN_OR_CLOSED,
-        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
+        build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
     sequence(
         NP_LIST,

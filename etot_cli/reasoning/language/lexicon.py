@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 from etot_cli.world.colors import BASIC_COLORS, NAMED_COLORS, nearest_basic
 
+
 def word_set(text: str) -> frozenset[str]:
     """The words of a text."""
     return frozenset(text.split())
@@ -80,8 +81,8 @@ JOINT_NOUNS: dict[str, tuple[str, ...]] = {
 CONTAINER_NOUNS = ("container", "vessel", "receptacle")
 """Nouns for anything that things can be put into."""
 THING_NOUNS = (
-    "object", "thing", "item", "one", "stuff", "everything", "anything", "something", "rest", "others",
-    "else",
+    "object", "thing", "item", "one", "stuff", "everything", "anything", "something", "rest",
+    "others", "else",
 )  # fmt: skip
 """Nouns that fit any movable object."""
 DESK_NOUNS = ("desk", "table", "tabletop", "desktop", "worktop", "workbench", "counter", "surface")

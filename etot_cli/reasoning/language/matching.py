@@ -97,7 +97,9 @@ def _by_color(
 ) -> Match | None:
     """What a colour alone may mean ("the orange"), said as the guess that it is."""
     words = (*adjectives, color)
-    found = _match_in(vocabulary.objects, words, "object", number, vocabulary, phrase)
+    basic = basic_color(color)
+    colored = [entry for entry in vocabulary.objects if basic and entry.has_color(basic)]
+    found = _match_in(colored, words, "object", number, vocabulary, phrase)
     if found is None:
         return None
     names = _names(found.entries)

@@ -34,6 +34,7 @@ from etot_cli.world.state import DESK, SceneState
 MAX_OPTIONS = 256
 """Ways of choosing instances for one phrase that are looked at."""
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
+BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
 _INCOMPLETE = frozenset({"", "the", "a", "an", "my", "your", "its", "their", "our"})
 """Determiners that do not stand without a noun."""
@@ -77,7 +78,10 @@ class Resolved:
 
 def is_robot(phrase: NounPhrase) -> bool:
     """Whether a phrase means the robot itself, as a landmark."""
-    return len(phrase.words) == 1 and matches_any(phrase.words[0], ROBOT_NOUNS)
+    number = phrase.determiner.split()[-1:]
+    return phrase.words[-1:] in [(noun,) for noun in ROBOT_NOUNS] and (
+        len(phrase.words) == 1 and number not in (["one"], ["two"], ["both"])
+    )
 
 
 class Resolver:
@@ -308,6 +312,9 @@ class Resolver:
             return list(pronoun(phrase))
         if is_robot(phrase):
             return [space.ROBOT]
+        if phrase.words and matches_any(phrase.words[-1], BODY_NOUNS):
+            why = "the robot has one gripper and no other tool"
+            raise ReferenceProblem(phrase.text, why, 3, word=phrase.text)
         resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun)
         return list(dict.fromkeys(thing for option in resolved.options for thing in option))
 

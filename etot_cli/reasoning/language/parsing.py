@@ -73,6 +73,7 @@ class Rule:
         return self._parser
 
     def __call__(self, given: Input, at: int) -> Sequence[Result]:
+        """The rule as a parser."""
         return given.recall(self, at)
 
 
@@ -92,8 +93,9 @@ def expand(pattern: str) -> list[str]:
 
 
 def spellings(patterns: str) -> list[str]:
-    """All spellings of patterns that stand on lines or between commas."""
-    found = [text for part in re.split(r"[,\n]", patterns) for text in expand(part.strip())]
+    """All spellings of patterns between commas; a line's end is no more than a space."""
+    plain = " ".join(patterns.split())
+    found = [text for part in plain.split(",") for text in expand(part.strip())]
     return [text for text in dict.fromkeys(found) if text]
 
 

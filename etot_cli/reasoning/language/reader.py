@@ -148,7 +148,8 @@ def _stopped(given: Input, before: str) -> UnreadableError:
             why = "" if word in phrases.ALL_WORDS else "how something is done cannot be asked for"
         if not why and word not in given.nouns and word in phrases.OTHER_VERBS:
             why = "no skill does that; things can be picked up, put somewhere, opened and closed"
-        if why and (index >= stop - 1 or word not in phrases.ALL_WORDS):
+        blamed = word in phrases.PUSHES or word not in phrases.ALL_WORDS
+        if why and (index >= stop - 1 or blamed):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(_some(words[index:]), understood, why, without)

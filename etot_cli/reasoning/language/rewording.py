@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.relations import container_parts
-from etot_cli.world.state import SceneState
+from etot_cli.reasoning.language.lexicon import KIND_NOUNS
+from etot_cli.world.state import ObjectInfo, SceneState
 
 MAX_TRIES = 8
 """Rewordings that are tried before none is shown."""
@@ -51,22 +52,36 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
         yield _replaced(text, refused.word, "")
     if refused.without:
         yield refused.without
-    yield from _of_this_scene(scene)
+    yield from _of_this_scene(text.casefold(), scene)
 
 
-def _of_this_scene(scene: SceneState) -> Iterator[str]:
-    """Requests about what is there: put one thing into or onto another, open, close, pick up."""
-    movable = [info for info in scene.infos.values() if info.movable]
-    for info in movable:
-        for other in scene.infos.values():
+def _of_this_scene(text: str, scene: SceneState) -> Iterator[str]:
+    """Requests about what is there, those about what was spoken of first."""
+    said = set(re.findall(r"[^\W\d_]+", text))
+
+    def mentioned(info: ObjectInfo) -> int:
+        words = re.findall(r"[^\W\d_]+", f"{info.label} {info.name}".casefold())
+        return -len(said & {*words, *KIND_NOUNS.get(info.kind, ())})
+
+    things = sorted(scene.infos.values(), key=mentioned)
+    movable = [info for info in things if info.movable]
+    parts = [part for info in things for part in info.parts]
+    for verb in ("open", "close"):
+        if verb in said and parts:
+            yield f"{verb} {parts[0].owner}.{parts[0].name}"
+    if {"pick", "take", "grab", "lift", "get"} & said and movable:
+        yield f"Pick up {movable[0].name}"
+    for info in movable[:2]:
+        for other in things:
             if other.name != info.name and (other.container or container_parts(other)):
-                yield f"Put the {info.label} into the {other.label}"
+                yield f"Put {info.name} into {other.name}"
                 break
-    for other in scene.infos.values():
-        if other.surface and movable and movable[0].name != other.name:
-            yield f"Put the {movable[0].label} on the {other.label}"
-    for info in movable:
-        yield f"Pick up {info.name}"
+        for other in things:
+            if other.name != info.name and other.surface:
+                yield f"Put {info.name} on {other.name}"
+                break
+    if movable:
+        yield f"Pick up {movable[0].name}"
 
 
 def _replaced(text: str, words: str, name: str) -> str:

@@ -50,6 +50,9 @@ def select(
         if item.prep is Prep.SIDE and not item.denied
     ]
     ordinals = [word for word in words if word in ORDINALS]
+    if any(thing.name == DESK for thing in things) and (words or any(sides)):
+        word = words[0] if words else "side"
+        raise ReferenceProblem(phrase, f"{word!r} tells no desk from another", 2, word=word)
     for word in words:
         if word in STATES:
             things = [thing for thing in things if state_holds(word, thing, scene)]

@@ -52,7 +52,7 @@ class Modifier:
 class NounPhrase:
     """Determiner, words (the last one is the head), modifiers; or a pronoun.
 
-    ``owner``: the possessor in "the chest's drawer". ``text``: as it was written. ``without``: words
+    ``owner``: the possessor in "the chest's drawer". ``text``: as written. ``without``: words
     that it is not ("the non-red cup"). ``joined``: an "and" stands between its first words ("the
     yellow and white mug"), so that it is one thing only if the thing has them all.
     """
@@ -114,12 +114,13 @@ class Destination:
 class State:
     """What is to hold, as in "the plum is inside the cup".
 
-    ``word``: the adjective in "the drawer is closed".
+    ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
     """
 
     subjects: tuple[NounPhrase, ...]
     destinations: tuple[Destination, ...] = ()
     word: str = ""
+    kept: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -127,7 +127,7 @@ def purpose_reasons(original: Sequence[Action], revised: Sequence[Action]) -> li
             continue  # put aside by an earlier revision, not part of the purpose
         if now is None:
             reasons.append(f"it leaves out that {name} ends with {action}")
-        elif (now.verb, now.target) != (action.verb, action.target):
+        elif (now.verb, now.target, now.where) != (action.verb, action.target, action.where):
             reasons.append(f"it ends with {name} at {now}, the plan was {action}; a revision may "
                            "not choose another place")  # fmt: skip
     for part, verb in before.articulated.items():
