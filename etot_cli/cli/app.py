@@ -15,6 +15,7 @@ import typer
 
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
 from etot_cli.cli.interrupts import finish, listen
+from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
 from etot_cli.cli.simulate import simulate
@@ -32,6 +33,8 @@ app = typer.Typer(
 app.command()(plan)
 app.command()(simulate)
 app.command()(reconstruct)
+app.command()(new)
+app.command()(tasks)
 
 
 def _show_version(wanted: bool) -> None:

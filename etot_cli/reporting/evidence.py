@@ -113,7 +113,7 @@ def whereabouts(state: ObjectState) -> str:
     elif state.on:
         place = "on " + " and ".join(state.on)
     else:
-        place = "unsupported"
+        place = "in place"  # fastened, or on its way down
     notes = [f"{part} {100 * share:.0f} % open" for part, share in state.openness.items()]
     if state.toppled:
         notes.insert(0, f"toppled by {state.tilt_deg:.0f}°")

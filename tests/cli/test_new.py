@@ -1,0 +1,116 @@
+"""``etot new`` and ``etot tasks``: a task of one's own, and the shipped ones."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from etot_cli.cli.app import run
+from etot_cli.commands.new import TEMPLATES, NewOptions, write_task
+from etot_cli.errors import EtotError
+from etot_cli.specs.load import load_task
+from etot_cli.specs.shipped import find_shipped, shipped_files
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_new_task_is_ready_to_plan(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "mine.yaml"
+    code = run(
+        ["new", str(file), "--scene", "pen_and_holders", "--move", "black_holder@0.30,-0.2",
+         "--remove", "pen", "--object", "ball=sphere@0.35,0.48,blue",
+         "-i", "Put the ball into the white holder."]
+    )  # fmt: skip
+    assert code == 0
+    task = load_task(file)
+    assert task.scene.objects["black_holder"].at == (0.30, -0.2)
+    assert "pen" not in task.scene.objects
+    assert "[PICK UP, ball] [PUT INTO, white_holder]" in capsys.readouterr().out
+    words = "".join(ElementTree.parse(tmp_path / "mine.svg").getroot().itertext())
+    assert "ball" in words and "robot" in words
+
+
+@pytest.mark.parametrize("kind", sorted(TEMPLATES))
+def test_every_kind_stands_on_the_desk(kind: str, tmp_path: Path) -> None:
+    made = write_task(
+        NewOptions(
+            file=tmp_path / "one.yaml", instruction="Look around.",
+            objects=[f"thing={kind}@0.45,0.1"],
+        )
+    )  # fmt: skip
+    assert "desk" in made.state.states["thing"].on or not made.state.infos["thing"].movable
+    assert not made.state.states["thing"].toppled
+    assert made.problem, "nobody understands that"
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (["--object", "ball"], r"--object 'ball': expected NAME=KIND@X,Y"),
+        (["--object", "ball=tree@0.4,0.1"], "no kind 'tree'; expected sphere"),
+        (["--object", "a=box@9,9"], "at"),
+        (["--move", "cup@0.4,0.1"], "no object 'cup'"),
+        (["--scene", "moon"], "no scene 'moon'; expected a file or one of"),
+        ([], "add an object"),
+    ],
+)
+def test_bad_input_gets_one_line(
+    flags: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["new", str(tmp_path / "x.yaml"), "-i", "Do it.", *flags]) == 2
+    error = capsys.readouterr().err
+    assert message in error and error.count("\n") == 1
+
+
+def test_existing_file_is_kept(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    file.write_text("precious")
+    options = NewOptions(file=file, instruction="Go.", objects=["a=box@0.4,0.1"])
+    with pytest.raises(EtotError, match="exists already; --force"):
+        write_task(options)
+    assert file.read_text() == "precious"
+
+
+def test_questions_are_asked_where_somebody_answers(tmp_path: Path) -> None:
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "etot_cli.cli.app", "new", "mine.yaml"],
+        stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    os.write(ours, b"desk\nball=sphere@0.4,0.2,red\n\nPick up the ball.\n")
+    output, _ = process.communicate(timeout=120)
+    os.close(ours)
+    os.close(theirs)
+    assert process.returncode == 0, output.decode()
+    assert "idea 1: [PICK UP, ball]" in output.decode()
+    assert load_task(tmp_path / "mine.yaml").instruction == "Pick up the ball."
+
+
+def test_tasks_lists_what_is_shipped(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["tasks", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [row["name"] for row in rows] == sorted(shipped_files("tasks"))
+    assert all(load_task(row["file"]).instruction == row["instruction"] for row in rows)
+    assert run(["tasks", rows[0]["name"]]) == 0
+    assert capsys.readouterr().out.strip() == rows[0]["file"]
+    with pytest.raises(EtotError, match="expected a file or one of"):
+        find_shipped("tasks", "nothing")
+
+
+def test_wheel_takes_tasks_and_scenes_to_where_they_are_looked_for() -> None:
+    from etot_cli.specs.shipped import IN_WHEEL
+
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    wheel = tomllib.loads(text)["tool"]["hatch"]["build"]["targets"]["wheel"]
+    for kind in ("tasks", "scenes"):
+        assert (ROOT / kind).is_dir()
+        assert ROOT / wheel["force-include"][kind] == IN_WHEEL / kind
