@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from etot_cli.benchmark.problems import FAMILIES, INFEASIBLE, problem
@@ -13,6 +14,7 @@ from etot_cli.benchmark.problems.margins import GRASPABLE, reach_over
 from etot_cli.skills.action import parse_plan
 from etot_cli.specs.load import load_task
 from etot_cli.world.state import CauseKind
+from tests.world.helpers import set_up
 
 ALL = {name: count for name, (_, count) in (FAMILIES | INFEASIBLE).items()}
 
@@ -76,3 +78,16 @@ def test_reach_is_that_of_the_arm_as_its_maker_describes_it() -> None:
         radius, tool = reach_over(top), 0.13 + top + 0.09
         wrist = math.hypot(radius - 0.076, tool + 0.172 + 0.097 - 0.267)
         assert wrist < upper + fore - 0.02
+
+
+@pytest.mark.parametrize("family", ALL)
+def test_the_waiting_arm_is_clear_of_everything(family: str, tmp_path: Path) -> None:
+    for seed in range(ALL[family]):
+        stage = set_up(load_task(problem(family, seed).write(tmp_path)).scene, settle=0.0)
+        model, owner = stage.world.model, stage.world.geom_object
+        robot = [index for index, name in enumerate(owner) if name in ("robot", "gripper")]
+        model.geom_margin[robot] = model.body_margin[:] = 0.02
+        mujoco.mj_forward(model, stage.data)
+        for pair in stage.data.contact.geom:
+            ours = [owner[int(geom)] in ("robot", "gripper") for geom in pair]
+            assert all(ours), f"{family}:{seed}: {[owner[int(geom)] for geom in pair]}"

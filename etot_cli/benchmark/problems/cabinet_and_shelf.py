@@ -85,7 +85,7 @@ def _board(desk: Desk, seed: int) -> Problem:
 
 def _top(desk: Desk, seed: int) -> Problem:
     """On top of a low rack."""
-    unit = rack(desk, ("bottom", "top"), height=0.19, radius=0.42)
+    unit = rack(desk, ("bottom", "top"), height=0.125, radius=0.42)
     noun, item = desk.rng.choice((("block", block(desk.rng)), ("can", can(desk.rng, 0.065, 0.08))))
     thing = desk.stand(noun, item)
     instruction = sentence(f"put {the(thing)} on top of the rack")

@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 from random import Random
 
-from etot_cli.benchmark.problems.margins import DESK_TOP, FARTHEST, FINGER_ROOM, NEAREST
+from etot_cli.benchmark.problems.margins import (
+    DESK_TOP,
+    FARTHEST,
+    FINGER_ROOM,
+    HOME,
+    HOME_HEIGHT,
+    HOME_RADIUS,
+    NEAREST,
+)
 from etot_cli.benchmark.problems.problem import Document, Problem, Reason
 from etot_cli.benchmark.problems.things import mm, radius_of
 from etot_cli.errors import EtotError
@@ -104,8 +112,10 @@ class Desk:
             and all(overlap(way, other) <= 0 for other in self._tall)
         )
 
-    def fits(self, outline: Footprint) -> bool:
-        """Whether an outline is free and, as a polygon, lies on the desk."""
+    def fits(self, outline: Footprint, *, height: float = 0.0) -> bool:
+        """Whether an outline is free, on the desk and, ``height`` [m] tall, clear of the hand."""
+        if height > HOME_HEIGHT and overlap(outline, Disc(*HOME, HOME_RADIUS)) > 0:
+            return False
         if isinstance(outline, Polygon):
             for x, y in outline.corners:
                 if abs(x - CENTER[0]) > SIZE[0] / 2 or abs(y - CENTER[1]) > SIZE[1] / 2:

@@ -115,7 +115,9 @@ def chest(
             drawer["handle"] = dict(handle)
         drawers.append(drawer)
     lowest = WALL + level / 2 if layout in ("low", "both") else WALL * 2 + level * 1.5
-    x, y, yaw = _stand(desk, depth, wide, height, travel, lowest, yaw_deg, vertical, farthest)
+    x, y, yaw = _stand(
+        desk, depth, wide, height, travel, lowest, yaw_deg, vertical, farthest, opened
+    )
     desk.objects["chest"] = {
         "kind": "drawer_unit", "at": [x, y], "yaw_deg": yaw, "size": [depth, wide, height],
         "mass": 2.0, "wall": WALL, "drawers": drawers, "color": "brown",
@@ -136,6 +138,7 @@ def _stand(
     yaw_deg: float | None,
     vertical: bool,
     farthest: float,
+    opened: float,
 ) -> tuple[float, float, float]:
     """A free place (x, y) where the lowest handle can be worked, and the front's direction."""
     rng = desk.rng
@@ -164,7 +167,9 @@ def _stand(
         zone = _before(x, y, yaw, depth, length, wide + 2 * BESIDE)
         if math.hypot(x, y) - math.hypot(depth, wide) / 2 < 0.13:
             continue
-        if desk.fits(body) and desk.fits(zone):
+        drawer = _before(x, y, yaw, depth, opened + HANDLE, wide)
+        clear = desk.fits(body, height=height) and desk.fits(drawer, height=height)
+        if clear and desk.fits(zone):
             desk.keep_free(body, height=height)
             desk.keep_free(zone)
             return x, y, yaw
@@ -180,6 +185,20 @@ def _before(x: float, y: float, yaw: float, depth: float, length: float, width: 
     """The rectangle before a front."""
     cx, cy = shifted(x, y, turned((depth / 2 + length / 2, 0.0), yaw))
     return rectangle(cx, cy, yaw, length, width)
+
+
+def _panel(
+    x: float, y: float, yaw: float, depth: float, wide: float, hinge: str, open_deg: float
+) -> Polygon:
+    """Where a cabinet's door is, its handle included. Facing the front, left is -y."""
+    side = -1.0 if hinge == "left" else 1.0
+    angle = math.radians(open_deg)
+    middle = (
+        depth / 2 + math.sin(angle) * wide / 2,
+        side * wide / 2 * (1.0 - math.cos(angle)),
+    )
+    cx, cy = shifted(x, y, turned(middle, yaw))
+    return rectangle(cx, cy, yaw + side * open_deg + 90, wide, 2 * HANDLE)
 
 
 @dataclass(frozen=True)
@@ -218,7 +237,8 @@ def cupboard(desk: Desk, facing: str, *, open_deg: float = 0.0, handle: bool = T
             hinge = "left" if side > 0 else "right"
         body = rectangle(x, y, yaw, depth, wide)
         zone = _before(x, y, yaw, depth, wide + 0.03, wide + 0.12)
-        if desk.fits(body):
+        panel = _panel(x, y, yaw, depth, wide, hinge, open_deg)
+        if desk.fits(body, height=height) and desk.fits(panel, height=height):
             break
     else:
         raise FullDeskError("no place for a cabinet")
@@ -251,7 +271,7 @@ def rack(desk: Desk, boards: tuple[str, ...], *, height: float, radius: float) -
         y = mm(radius * math.sin(math.radians(angle)))
         yaw = float(round(angle) + 180)
         body, zone = rectangle(x, y, yaw, 0.22, 0.36), _before(x, y, yaw, 0.22, 0.14, 0.40)
-        if desk.fits(body):
+        if desk.fits(body, height=height):
             desk.keep_free(body, height=height)
             desk.keep_free(zone)
             desk.objects["rack"] = {

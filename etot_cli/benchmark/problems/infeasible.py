@@ -166,7 +166,8 @@ def _filled_by_fixed(desk: Desk, seed: int) -> Problem:
     thing = desk.stand("ball", ball(desk.rng, 0.050, 0.060))
     goal = [{"inside": [thing, target]}]
     text = f"put {the(thing)} into {the(target)}"
-    return _infeasible(desk, seed, text, goal, "no_room rebound blocked", blocker, target)
+    kinds = "no_room rebound blocked collision"
+    return _infeasible(desk, seed, text, goal, kinds, blocker, target)
 
 
 def _too_long_for_cupboard(desk: Desk, seed: int) -> Problem:

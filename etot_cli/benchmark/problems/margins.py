@@ -32,6 +32,9 @@ NEAREST = 0.28
 FARTHEST = 0.54
 """Greatest such distance on the desk; the arm gets 0.1 m farther."""
 DESK_TOP = 0.13
+HOME, HOME_RADIUS, HOME_HEIGHT = (0.268, 0.0), 0.105, 0.13
+"""The hand waits at x y with its fingertips 0.159 m above the desk. What rises higher than 0.13 m
+stays out of this circle: 60 mm to the outside of an open finger, and 45 mm."""
 LIFT = 0.09
 """How far above its last place something is carried there."""
 STRETCH = 0.61
