@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
+from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import Memory
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, ObjectState, SceneState
 from etot_cli.world.viewpoint import forward_of
@@ -21,7 +22,8 @@ OPEN_HYSTERESIS = 0.1
 INSIDE_MARGIN = 0.010
 """How far an object that was inside may stick out and still be inside [m]."""
 END_DEPTH = 0.5
-"""A rod is inside when one end is deeper than this share of the container's depth."""
+"""What sticks out is inside when its lower end is deeper than this share of the container's
+depth."""
 UPRIGHT_COSINE = 0.5
 """A container tilted beyond this (cosine to the vertical) holds nothing."""
 CONTACT_DISTANCE = 0.001
@@ -183,14 +185,19 @@ def _within(
     center = to_region(data, region, data.body(entry.body).xpos)
     if _in_bounds(center, region, margin) and abs(center[2]) <= region.half[2] + margin:
         return True
+    shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
     if entry.axis is None:
-        return False
+        # What stands in a container may be taller than that is deep.
+        lowest = data.body(entry.body).xpos.copy()
+        lowest[2] = object_bounds(world, data, entry.info.name)[0][2]
+        local = to_region(data, region, lowest)
+        depth = (region.half[2] - local[2]) / (2 * region.half[2])
+        return _in_bounds(center, region, margin) and shallow <= depth <= 1.1
     axis = data.body(entry.body).xmat.reshape(3, 3) @ np.array(entry.axis)
     for sign in (-1.0, 1.0):
         end = data.body(entry.body).xpos + sign * axis * entry.info.size[0] / 2
         local = to_region(data, region, end)
         depth = (region.half[2] - local[2]) / (2 * region.half[2])
-        shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
         if _in_bounds(local, region, 0.002 + margin) and shallow <= depth <= 1.1:
             return True
     return False

@@ -92,6 +92,13 @@ def test_pen_that_stands_in_a_cup_is_inside_though_its_middle_is_above_the_rim()
     assert pen.inside == "cup"
 
 
+def test_what_stands_in_a_bowl_is_inside_though_its_middle_is_above_the_rim() -> None:
+    bowl = {"kind": "bowl", "diameter": 0.14, "height": 0.04, "mass": 0.4, "at": [0.4, 0.0]}
+    tall = BOX | {"size": [0.04, 0.04, 0.10], "inside": "bowl"}
+    stage = set_up_stage(make_scene(bowl=bowl, box=tall))
+    assert stage.see("box").inside == "bowl"
+
+
 def test_pen_across_a_cups_mouth_is_not_inside() -> None:
     stage = set_up_stage(make_scene(cup=CUP | {"at": [0.4, 0.1]}, pen=PEN | {"inside": "cup"}))
     stage.memory = type(stage.memory)(up=stage.memory.up)

@@ -44,6 +44,8 @@ APART = 0.02
 """Placements that are offered are this far apart [m]: what goes wrong at one does beside it too."""
 MAX_FOUND = 8
 """Placements offered for one action."""
+UNREACHED_AROUND = 0.03
+"""What the arm does not reach it does not reach with the same turn this far around either [m]."""
 UNREACHED_STEP = 0.02
 """Places this much further away than one that the arm does not reach are not looked at [m]."""
 
@@ -94,18 +96,14 @@ def placements(
         tries: bound on the places looked at exactly.
     """
     finder = PlaceFinder(belief, request)
-    done: list[tuple[Vector, Vector | None]] = []
+    done: list[_Mark] = []
     found, far = 0, np.inf
     for place in finder.places():
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return
         radius = float(np.hypot(*position[:2]))
-        if radius > far or any(
-            np.hypot(*(position - at)[:2]) < (SAME_PLACE if other is not None else APART)
-            and (other is None or np.array_equal(rotation, other))
-            for at, other in done
-        ):
+        if radius > far or any(mark.covers(position, rotation) for mark in done):
             continue
         belief.checker.freeze(belief.data)
         with belief.checker.without(request.absent):
@@ -116,15 +114,30 @@ def placements(
             found += 1
             if found == MAX_FOUND:
                 return
-            done.append((position, None))
+            done.append(_Mark(position, None, APART))
         elif way.reached:
             tally.obstructed += 1
-            done.append((position, rotation))
+            done.append(_Mark(position, rotation, SAME_PLACE))
         else:
             tally.unreached += 1
-            done.append((position, rotation))
+            done.append(_Mark(position, rotation, UNREACHED_AROUND))
             if radius > belief.arm.comfortable_radius(request.support.center[2]):
                 far = min(far, radius + UNREACHED_STEP)
+
+
+@dataclass(frozen=True)
+class _Mark:
+    """A place that has been dealt with: with one turn, or with all where there is none."""
+
+    position: Vector
+    rotation: Vector | None
+    radius: float
+
+    def covers(self, position: Vector, rotation: Vector) -> bool:
+        """Whether another place is much the same."""
+        offset = position - self.position
+        near = bool(np.hypot(offset[0], offset[1]) < self.radius)
+        return near and (self.rotation is None or np.array_equal(rotation, self.rotation))
 
 
 class _Way:

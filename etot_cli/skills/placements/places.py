@@ -62,6 +62,9 @@ FLAT = 0.003
 FRONT_MARGIN = 0.015
 """Distance kept from an open front and from the walls beside it [m]: the hand withdraws along
 them."""
+DEEP = 0.4
+"""What sticks out of a container is inside while its bottom is no higher than this share of the
+container's depth, a little less than what counts as inside (``world/relations.py``)."""
 SHORT_DROP = 0.02
 """Something let go this far above its place still comes to rest there [m]."""
 LOWER = 0.85
@@ -244,7 +247,8 @@ class PlaceFinder:
         kind = np.full(len(rest), -1)
         if support.is_container and not support.from_front and not self._is_drawer:
             kind[:] = Quality.LOOSE
-        within = rest - relief.floor <= support.room
+        # As relations read it: with its middle, or so deep that it stands in it.
+        within = (rest - relief.floor <= support.room) | (lift <= DEEP * support.room)
         bearable = (drop <= SHORT_DROP) | support.is_container
         if not self._on_desk:
             # Over an edge there is nothing beside it that the floor's free cells would show.

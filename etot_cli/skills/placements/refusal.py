@@ -26,6 +26,14 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         tally: what became of the places that were looked at.
     """
     name, address = request.attached.name, request.support.address
+    owner = [] if request.support.owner is None else [request.support.owner]
+    if tally.unreached and not tally.obstructed:
+        # No object had a part in that, so none need be taken away to see.
+        return failed(
+            CauseKind.UNREACHABLE,
+            [*owner, name],
+            f"the arm does not reach {address} with {name} held as it is",
+        )
     suspects = _suspects(belief, request, tally)
     guilty = [one for one in suspects[:MAX_SUSPECTS] if _helps(belief, request, [one])]
     if not guilty and len(suspects) > 1 and _helps(belief, request, suspects):
@@ -37,14 +45,6 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
         )
-    if tally.unreached and not tally.obstructed:
-        return failed(
-            CauseKind.UNREACHABLE,
-            [name],
-            f"the arm does not reach {_all(tally.unreached)} for {name} "
-            f"{_preposition(request)} {address}",
-        )
-    owner = [] if request.support.owner is None else [request.support.owner]
     if tally.obstructed:
         fixed = [
             other
@@ -95,10 +95,6 @@ def _least(belief: Belief, request: Request, suspects: list[str]) -> list[str]:
 
 def _preposition(request: Request) -> str:
     return "in" if request.support.is_container else "on"
-
-
-def _all(count: int) -> str:
-    return "the only place" if count == 1 else f"any of the {count} places looked at"
 
 
 def _listed(names: list[str]) -> str:

@@ -1,0 +1,98 @@
+"""Why something cannot be put down. A cause holds: without those it names the action works, with
+them it fails.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from etot_cli.world.state import Cause, CauseKind
+from tests.skills.helpers import BOX, UNIT, drawers, episode
+
+BLOCK = {"kind": "box", "size": [0.04, 0.04, 0.04], "mass": 0.06}
+HELD = BLOCK | {"at": [0.33, 0.22]}
+BOWL = {"kind": "bowl", "diameter": 0.10, "height": 0.05, "mass": 0.3, "at": [0.42, -0.2]}
+CHEST = UNIT | {"at": [0.45, 0.05], "yaw_deg": -90, "drawers": drawers(open=0.13)}
+TOP = {"kind": "box", "size": [0.10, 0.10, 0.03], "mass": 0.5, "at": [0.42, -0.2]}
+
+
+def refused(action: str, **objects: dict[str, Any]) -> Cause:
+    """The cause of a put that must fail, which the objects it names are behind."""
+    cause = outcome(action, **objects)
+    assert cause is not None
+    return cause
+
+
+def outcome(action: str, **objects: dict[str, Any]) -> Cause | None:
+    run = episode(held=HELD, **objects)
+    run.must("[PICK UP, held]")
+    record = run.do(action).record
+    if not record.effect:
+        assert record.after.holding == "held", "a refused put leaves the hand as it was"
+    return record.cause
+
+
+def without(objects: dict[str, dict[str, Any]], names: tuple[str, ...]) -> dict[str, Any]:
+    return {key: value for key, value in objects.items() if key not in names}
+
+
+@pytest.mark.parametrize(
+    ("action", "scene", "guilty"),
+    [
+        (
+            "[PUT ON, top]",
+            {"top": TOP, "lid": {"kind": "box", "size": [0.09, 0.09, 0.03], "mass": 0.2,
+                                 "on": "top"}, "far": BOX | {"at": [0.3, -0.3]}},
+            {"lid"},
+        ),
+        (
+            "[PUT ON, top]",
+            {"top": TOP, "one": BLOCK | {"on": "top", "at": [0.42, -0.175]},
+             "two": BLOCK | {"on": "top", "at": [0.42, -0.225]}},
+            {"one", "two"},
+        ),
+        (
+            "[PUT INTO, chest]",
+            {"chest": CHEST, "filler": {"kind": "box", "size": [0.15, 0.2, 0.055], "mass": 0.3,
+                                        "inside": "chest"}},
+            {"filler"},
+        ),
+    ],
+    ids=["a full top", "two on a top", "a full drawer"],
+)  # fmt: skip
+def test_no_room_names_who_fills_it(
+    action: str, scene: dict[str, dict[str, Any]], guilty: set[str]
+) -> None:
+    cause = refused(action, **scene)
+    assert cause.kind is CauseKind.NO_ROOM
+    named = set(cause.objects) - {"held"}
+    assert named and named <= guilty, cause
+    assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
+
+
+def test_the_arm_alone_is_to_blame_for_what_is_too_far() -> None:
+    cause = refused("[PUT INTO, bowl]", bowl=BOWL | {"at": [0.85, 0.0]})
+    assert cause.kind is CauseKind.UNREACHABLE
+    assert "bowl" in cause.objects
+    assert outcome("[PUT INTO, bowl]", bowl=BOWL) is None
+
+
+def test_what_is_too_large_is_to_blame_itself() -> None:
+    """No movable object is named where none has a part in it."""
+    small = BOWL | {"diameter": 0.046}
+    bystander = BOX | {"at": [0.40, -0.05]}
+    run = episode(held=HELD, bowl=small, bystander=bystander)
+    run.must("[PICK UP, held]")
+    record = run.do("[PUT INTO, bowl]").record
+    assert record.after.states["held"].inside is None
+    if record.cause is not None:
+        assert "bystander" not in record.cause.objects
+
+
+def test_things_that_are_not_in_the_way_are_not_named() -> None:
+    """An object beside the full top has no part in it."""
+    lid = {"kind": "box", "size": [0.09, 0.09, 0.03], "mass": 0.2, "on": "top"}
+    cause = refused("[PUT ON, top]", top=TOP, lid=lid, beside=BOX | {"at": [0.42, -0.05]})
+    assert "beside" not in cause.objects and "lid" in cause.objects
