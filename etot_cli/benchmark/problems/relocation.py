@@ -64,8 +64,9 @@ def _inside(desk: Desk, seed: int) -> Problem:
     """A cup that holds one ball has another one in it, which can be reached from above."""
     rng = desk.rng
     size = between(rng, 0.044, 0.050)
-    # Beside the ball 17 mm are free for a finger of 10 mm, and its equator is 12 mm below the rim.
-    vessel = cup(rng) | {"diameter": mm(size + 0.042), "height": mm(0.75 * size + 0.006)}
+    # Beside the ball 20 mm are free, 18 mm at the edges of a finger, which is 10 mm thick; the
+    # equator is 12 mm below the rim.
+    vessel = cup(rng) | {"diameter": mm(size + 0.048), "height": mm(0.75 * size + 0.006)}
     holder = desk.stand("cup", vessel)
     blocker = desk.put("ball", ball(rng, size, size), inside=holder)
     thing = desk.stand("ball", ball(rng, size, size))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,9 @@ STANDOFF = 0.09
 """Length of the straight approach [m]."""
 LIFT = 0.10
 """Height of the lift [m]."""
+NARROW_ROOMS = (0.008, 0.004)
+"""Free widths between pad and object tried where an open finger hits something [m]: some
+millimetres of error in position are forgiven."""
 CONTACT_CLEARANCE = 0.0008
 """Clearance of the hand at the grasp itself [m]."""
 LEVEL = 0.5
@@ -55,8 +58,16 @@ def prepare_grasp(
     at_grasp = arm.reach(grasp.tool, belief.commanded)
     if not at_grasp.reached:
         return None
-    allow = {name} if grasp.width > belief.world.robot.spec.gripper.opening else set()
+    largest = belief.world.robot.spec.gripper.opening
+    allow = {name} if grasp.width > largest else set()
     hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
+    for room in NARROW_ROOMS if hits else ():
+        # Beside a thing in a cup there may be room for a finger, not for a wide open one.
+        narrow = min(largest, grasp.width + 2 * room)
+        checker.set_fingers(narrow)
+        if not checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow):
+            grasp, hits = replace(grasp, opening=narrow), []
+            break
     if hits:
         blockers.add(hits)
         return False
