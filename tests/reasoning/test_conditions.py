@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import permutations
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.builtin.goal import Relation
+from etot_cli.reasoning.builtin.ordering import Placement, supports_first
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.skills.action import format_plan
 from etot_cli.specs.task import Condition
@@ -80,3 +86,58 @@ def test_refusals(condition: dict[str, Any], named: str) -> None:
 def test_two_objects_cannot_be_in_the_hand() -> None:
     with pytest.raises(InstructionError, match="one object at a time"):
         plans(scenes.apple_and_holder(), {"in_hand": "apple"}, {"in_hand": "holder"})
+
+
+def test_from_drawer_to_drawer_by_way_of_the_desk() -> None:
+    """Of two drawers that stand open, the upper one covers the lower one."""
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.0, "lower": 0.0}),
+        scenes.ball("nut", (0.5, 0.0), on="chest", inside="chest.upper"),
+    )
+    assert plans(state, {"inside": ["nut", "chest.lower"]}) == [
+        "[OPEN, chest.upper] [PICK UP, nut] [PUT ON, desk] [CLOSE, chest.upper] "
+        "[OPEN, chest.lower] [PICK UP, nut] [PUT INTO, chest.lower] [CLOSE, chest.lower]"
+    ]
+
+
+TOWER = [("red", "green"), ("green", "blue"), ("blue", "desk2")]
+
+
+@pytest.mark.parametrize("order", list(permutations(range(3))))
+def test_supports_come_first_whatever_the_order(order: tuple[int, ...]) -> None:
+    names = ("red", "green", "blue", "desk2")
+    state = scenes.scene(*(scenes.item(name, at=(0.3, 0.1 * i)) for i, name in enumerate(names)))
+    conditions = [{"on": list(TOWER[place])} for place in order]
+    assert plans(state, *conditions) == [
+        "[PICK UP, blue] [PUT ON, desk2] [PICK UP, green] [PUT ON, blue] "
+        "[PICK UP, red] [PUT ON, green]"
+    ]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_contents_come_before_what_lies_on_top(turned: bool) -> None:
+    state = scenes.scene(
+        scenes.item("crate", "box", (0.4, 0.0)),
+        scenes.item("lid", "box", (0.3, 0.3)),
+        scenes.ball("nut", (0.3, -0.3)),
+    )
+    infos = {**state.infos, "crate": replace(state.infos["crate"], container=True)}
+    conditions = [{"on": ["lid", "crate"]}, {"inside": ["nut", "crate"]}]
+    found = plans(replace(state, infos=infos), *(conditions[::-1] if turned else conditions))
+    assert found == ["[PICK UP, nut] [PUT INTO, crate] [PICK UP, lid] [PUT ON, crate]"]
+
+
+def test_a_vessel_keeps_its_turn() -> None:
+    """A filled cup can be carried, so the order given stays; reflection may change it."""
+    state = scenes.apple_and_holder()
+    conditions = [{"inside": ["apple", "holder"]}, {"on": ["holder", "drawer"]}]
+    assert plans(state, *conditions)[0].startswith("[PICK UP, apple] [PUT INTO, holder]")
+
+
+@given(st.permutations(range(5)))
+def test_an_order_is_one_of_the_given_placements(order: list[int]) -> None:
+    """Whatever waits for whom, in circles too: each placement comes exactly once."""
+    ring = [Placement(f"n{i}", Relation.ON, f"n{(i + 1) % 5}") for i in order]
+    assert sorted(supports_first(ring)) == list(range(5))
+    free = [Placement(f"n{i}", Relation.ON, "desk") for i in order]
+    assert supports_first(free) == list(range(5)), "the order given stays"

@@ -397,3 +397,27 @@ def test_what_has_its_own_place_goes_there_first() -> None:
     plan = "[PICK UP, brick] [PUT ON, desk] [PICK UP, block] [PUT INTO, bowl]"
     step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "block", "brick"))
     assert revision(step) == "[PICK UP, block] [PUT INTO, bowl] [PICK UP, brick] [PUT ON, desk]"
+
+
+def test_an_upper_drawer_that_stands_open_is_closed_meanwhile() -> None:
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0, "lower": 0.0}),
+        scenes.ball("nut", (0.3, -0.3)),
+    )
+    plan = "[OPEN, chest.lower] [PICK UP, nut] [PUT INTO, chest.lower] [CLOSE, chest.lower]"
+    before = held(changed(state, chest={"openness": {"upper": 1.0, "lower": 1.0}}), "nut")
+    for reason in (CauseKind.NO_ROOM, CauseKind.BLOCKED):
+        step = failed(state, plan, 2, cause(reason, "chest", "nut"), before)
+        # It stood open at the start, so it does in the end.
+        assert revision(step) == f"[CLOSE, chest.upper] {plan} [OPEN, chest.upper]"
+
+
+def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
+    state = scenes.scene(
+        scenes.cabinet("cupboard", (0.4, 0.4), 1.0), scenes.ball("nut", (0.3, 0.1))
+    )
+    step = failed(state, "[PICK UP, nut]", 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
+    assert revisions(step) == [], "it would have to be opened again with a full hand"
+    plan = "[PICK UP, nut] [PUT ON, desk]"
+    step = failed(state, plan, 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
+    assert revisions(step) == [f"[CLOSE, cupboard] {plan} [OPEN, cupboard]"]

@@ -23,7 +23,12 @@ from etot_cli.reasoning.builtin.relations import (
     owner_of,
     radius,
 )
-from etot_cli.reasoning.builtin.relocation import Correction, other_places, relocated
+from etot_cli.reasoning.builtin.relocation import (
+    Correction,
+    other_places,
+    relocated,
+    shut_meanwhile,
+)
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     cycle_of,
@@ -184,6 +189,7 @@ class _Case:
                 yield from self._out_of_the_way(name, index)
             else:
                 yield from self._taken_before_opening(name)
+                yield from shut_meanwhile(self.failed, name)
         if self.cause.kind in _COVERED:
             for opening in opened_before(self.actions, index):
                 part = self.failed.start.part(self.actions[opening].target)
@@ -262,6 +268,7 @@ class _Case:
                 return  # what stands on a full desk has nowhere to go but where this could go
         for name in self._culprits():
             if name == owner:
+                yield from shut_meanwhile(self.failed, owner)
                 continue
             placed = placed_by(self.actions, name, index)
             if placed is not None:
@@ -273,6 +280,7 @@ class _Case:
                 for opening in opened_before(self.actions, index):
                     if owner_of(self.actions[opening].target) == name:
                         yield from self._earlier(opening, name)
+                yield from shut_meanwhile(self.failed, name)
         if self.action.safe and not self._is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
@@ -297,3 +305,5 @@ class _Case:
                     yield from self._earlier(placed, name)
             elif not within or before.openness(part) >= OPEN_ENOUGH:
                 yield from self._out_of_the_way(name, index)
+                yield from shut_meanwhile(self.failed, name)
+        yield from shut_meanwhile(self.failed, part.owner)

@@ -8,8 +8,20 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
-from etot_cli.reasoning.builtin.relations import carriers, container_address, owner_of
-from etot_cli.reasoning.builtin.revision import Actions, hand_free_at, inserted, relocations
+from etot_cli.reasoning.builtin.relations import (
+    carriers,
+    container_address,
+    is_closed,
+    is_inside,
+    owner_of,
+)
+from etot_cli.reasoning.builtin.revision import (
+    Actions,
+    cycle_of,
+    hand_free_at,
+    inserted,
+    relocations,
+)
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import Action, Keepout, Verb
@@ -118,6 +130,32 @@ def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
     for verb, target in places[tried + 1 :]:
         other = replace(action, verb=verb, target=target)
         yield Correction(_replaced(actions, put, other), f"{target} serves as the safe place")
+
+
+def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
+    """The branch with a part that stands open closed before the failed cycle, and opened again.
+
+    A door or an upper drawer that stands open covers what is behind or below it.
+
+    Args:
+        failed: the failed step.
+        name: the object whose parts stand open.
+    """
+    scene, actions = failed.record.before, failed.branch.actions
+    cycle = cycle_of(actions, failed.index)
+    used = {action.target for action in actions[cycle.start : cycle.end]}
+    start = hand_free_at(actions, cycle.start, failed.start)
+    for part in scene.infos[name].parts:
+        needed = {part.address, f"{part.owner}.{part.name}"} & used or any(
+            target in scene.states and is_inside(scene, target, part.address) for target in used
+        )
+        if start is None or needed or is_closed(scene, part):
+            continue
+        shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
+        cleared = (*actions[:start], shut, *actions[start : cycle.end])
+        change = f"{part.address} is closed meanwhile"
+        yield Correction((*cleared, *actions[cycle.end :]), change)
+        yield Correction((*cleared, again, *actions[cycle.end :]), change)
 
 
 def safe_places(actions: Actions, scene: SceneState, held: str | None) -> list[tuple[Verb, str]]:

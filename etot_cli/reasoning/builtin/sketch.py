@@ -65,7 +65,9 @@ class Sketch:
         """Brings an object to a place; nothing when it is there.
 
         An insertion into an articulated container is a cycle of its own: open, pick, put, close,
-        without the last one for parts that are to be ``left_open``.
+        without the last one for parts that are to be ``left_open``. What comes out of another
+        drawer of the same piece is put down in between: of two drawers that stand open, the upper
+        one covers the lower one.
         """
         if self.holds(name, relation, target, where):
             return
@@ -78,6 +80,16 @@ class Sketch:
             for outer in reversed(opened):
                 self.do(Action(Verb.CLOSE, outer.address))
             return
+        others = [
+            other
+            for other in self._parts_around(name)
+            if other.owner == part.owner and other.address != part.address
+        ]
+        stood_open = [other for other in others if self._open[other.address]]
+        for other in others:
+            self.pick_up(name, pose)
+            self.put_down()
+            self.close(other)
         if not self._accessible[part.address]:
             self.put_down()
             self.do(Action(Verb.OPEN, part.address))
@@ -85,6 +97,8 @@ class Sketch:
         self.do(Action(Verb.PUT_INTO, part.address))
         if part.address not in left_open:
             self.do(Action(Verb.CLOSE, part.address))
+        for other in stood_open:
+            self.open(other)
 
     def closed_around(self, name: str) -> list[PartInfo]:
         """Parts that an object lies in and that are closed, the outermost first."""
