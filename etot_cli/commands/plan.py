@@ -24,6 +24,7 @@ from etot_cli.reporting.models import TaskModel
 from etot_cli.reporting.plan_report import (
     PlanOptionsModel,
     PlanReport,
+    doubt_models,
     prefix_model,
     statistics_model,
     success_model,
@@ -128,6 +129,8 @@ def plan_task(
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
+                # A model may propose anything; the built-in reasoner works from the goal itself.
+                check=session is not None,
             )
     except KeyboardInterrupt:
         interrupted = True
@@ -185,6 +188,7 @@ def _report(
         understood=understood_model(result.goal_holds, result.branches),
         tree=tree_model(result),
         statistics=statistics_model(result),
+        doubts=doubt_models(result),
         stopped=result.stopped,
         vlm=vlm_model(account),
     )

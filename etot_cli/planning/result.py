@@ -117,6 +117,9 @@ class SearchResult:
     rollouts: Mapping[int, WorldOutcome] = field(default_factory=dict)
     """Per evaluated node id, what the nominal world did."""
 
+    doubts: Mapping[tuple[Action, ...], str] = field(default_factory=dict)
+    """Plans whose actions all succeeded without doing what was asked for, and why not."""
+
     @property
     def plan(self) -> tuple[Action, ...]:
         """The plan's actions; empty when there is none, or none is needed."""

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from etot_cli.control.simulated import Simulated, Simulator, StateToken, WorldOutcome
+from etot_cli.planning.acceptance import check_of
 from etot_cli.planning.alternatives import Corrections, best_prefix
 from etot_cli.planning.lookahead import Lookahead
 from etot_cli.planning.options import BRANCHES_AT_ONCE, Ablation, Limits
@@ -28,6 +29,7 @@ from etot_cli.planning.result import (
 )
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
+from etot_cli.reasoning.builtin.acceptance import Doubts
 from etot_cli.reasoning.protocol import (
     Assignment,
     Branch,
@@ -49,6 +51,7 @@ def search(
     limits: Limits | None = None,
     without: frozenset[Ablation] = frozenset(),
     observer: SearchObserver | None = None,
+    check: bool = False,
 ) -> SearchResult:
     """Looks for a plan that works in the simulator from its first action to its last.
 
@@ -62,13 +65,16 @@ def search(
         limits: bounds; the defaults when None.
         without: mechanisms to switch off.
         observer: told of every step.
+        check: a plan also has to bring about what is asked for, as far as that can be read without
+            the reasoner; for reasoners that may propose what was not asked for.
 
     Raises:
         InstructionError: the assignment cannot be understood against the scene.
     """
     run = _Search(
-        assignment, simulator, reasoner, limits or Limits(), without, observer or SilentObserver()
-    )
+        assignment, simulator, reasoner, limits or Limits(), without, observer or SilentObserver(),
+        check=check,
+    )  # fmt: skip
     return run.result()
 
 
@@ -83,6 +89,8 @@ class _Search:
         limits: Limits,
         without: frozenset[Ablation],
         observer: SearchObserver,
+        *,
+        check: bool,
     ) -> None:
         self._assignment = assignment
         self._simulator = simulator
@@ -110,6 +118,9 @@ class _Search:
         self._rollouts: dict[int, WorldOutcome] = {}
         self._best: PlanNode | None = None
         self._goal_holds = False
+        self._check = check
+        self._doubts: Doubts = lambda scene: ""
+        self._doubted: dict[tuple[Action, ...], str] = {}
         self._limit: LimitKind | None = None
         self._cut: LimitKind | None = None
         self._stopped = ""
@@ -146,6 +157,7 @@ class _Search:
             stopped=self._stopped or told(self._limit, self._limits),
             prefix=None if self._found else best_prefix(self._tree),
             final=self._final(),
+            doubts={actions: why for actions, why in self._doubted.items() if why},
         )
         self._observer.finished(result)
         return result
@@ -181,8 +193,10 @@ class _Search:
         self._proposals = iter(self._reasoner.propose(self._assignment, scene))
         if Ablation.PRIORI in self._without:
             self._proposals = islice(self._proposals, 1)
+        if self._check:
+            self._doubts = check_of(self._assignment, scene)
         self._propose()
-        self._goal_holds = not self._branches
+        self._goal_holds = not self._branches and self._does_it((), scene)
 
     def _propose(self) -> None:
         """Takes the next of the proposed branches into the tree."""
@@ -304,8 +318,16 @@ class _Search:
 
     def _offer(self, node: PlanNode) -> None:
         """[extractPath] A plan was found; it is kept when it survives in more worlds."""
+        if not self._does_it(node.actions, self._rollouts[node.id].record.after):
+            return
         if self._best is None or len(self._alive(node)) > len(self._alive(self._best)):
             self._best = node
+
+    def _does_it(self, actions: tuple[Action, ...], final: SceneState) -> bool:
+        """Whether actions that have succeeded also did what was asked for."""
+        if actions not in self._doubted:
+            self._doubted[actions] = self._doubts(final)
+        return not self._doubted[actions]
 
     def _can_beat_best(self, node: PlanNode) -> bool:
         """Whether a plan through ``node`` could survive in more worlds than the best one.

@@ -148,6 +148,13 @@ class SuccessModel(Model):
     conditions: list[HoldingModel]
 
 
+class DoubtModel(Model):
+    """A plan that was refused: all its actions succeeded, and what was asked for was not done."""
+
+    actions: list[str]
+    why: str
+
+
 class StatisticsModel(Model):
     """What the search cost."""
 
@@ -236,6 +243,8 @@ class PlanReport(Report):
     """In the nominal world after the plan; null without a plan."""
     prefix: PrefixModel | None
     """How far the search came; null with a plan, or where no action succeeded."""
+    doubts: list[DoubtModel] = Field(default_factory=list)
+    """Plans of a model that the world's state, or our own reading of the instruction, denies."""
     understood: UnderstoodModel
     tree: TreeModel
     statistics: StatisticsModel
@@ -254,6 +263,14 @@ def understood_model(goal_holds: bool, branches: tuple[Branch, ...]) -> Understo
             for branch in branches
         ],
     )
+
+
+def doubt_models(result: SearchResult) -> list[DoubtModel]:
+    """Refused plans as they stand in reports."""
+    return [
+        DoubtModel(actions=[str(action) for action in actions], why=why)
+        for actions, why in result.doubts.items()
+    ]
 
 
 def survival_model(survival: Survival | None) -> SurvivalModel | None:

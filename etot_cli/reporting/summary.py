@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.text import Text
 
 from etot_cli.reporting.failures import Failure, distinct_failures
-from etot_cli.reporting.plan_report import NodeModel, PlanReport, VlmModel
+from etot_cli.reporting.plan_report import DoubtModel, NodeModel, PlanReport, VlmModel
 from etot_cli.reporting.simulate_report import SimulateReport
 from etot_cli.reporting.style import LOOKS, Verbosity, badge, counted, speaks_unicode
 
@@ -62,6 +62,8 @@ class Summary:
             self._steps([by_id[number] for number in report.prefix.nodes])
             self._say(f"then {' '.join(report.prefix.missing)}", 4)
         self._failures(failures, len(report.plan_nodes))
+        for doubt in report.doubts:
+            self._say(Text(_refused(doubt), style=LOOKS["failure"].style), 2)
         if report.stopped:
             self._say(report.stopped, 2)
         shortfall = _shortfall(report)
@@ -211,6 +213,12 @@ class Summary:
 def _name(action: str, safe: bool) -> Text:
     text = Text(action)
     return text.append(" safe place", style="dim") if safe else text
+
+
+def _refused(doubt: DoubtModel) -> str:
+    """A plan that worked and does not do what was asked for, in a sentence."""
+    plan = " ".join(doubt.actions) or "doing nothing"
+    return f"the model's plan {plan} works, but it is not what was asked for: {doubt.why}"
 
 
 def _widest(names: Sequence[str]) -> int:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import gzip
 import json
 import tracemalloc
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from etot_cli.cli.app import run
 from etot_cli.errors import ServiceError
 from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
 from etot_cli.reasoning.vlm.asking import MAX_QUOTED, Asker
@@ -113,3 +115,43 @@ def test_a_secret_in_the_address_is_not_echoed(make_settings: Make) -> None:
     ):
         client.ask(QUESTION)
     assert secret not in str(caught.value) and "[redacted]" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("reply", "said"),
+    [
+        ("1. [PICK UP, toy]", "[PICK UP, toy] works, but it is not what was asked for"),
+        ('{"goal_holds": true, "branches": []}', "nothing is to be done, but"),
+    ],
+)
+def test_a_plan_that_does_not_do_the_task_is_no_plan(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    reply: str,
+    said: str,
+) -> None:
+    monkeypatch.setenv("ETOT_VLM_IMAGES", "0")
+    task = Path(__file__).parents[2] / "tasks" / "task4.yaml"
+    with FakeServer(lambda _: Reply(reply)) as server:
+        code = run(
+            [
+                "plan",
+                str(task),
+                "--reasoner",
+                "vlm",
+                "--vlm-url",
+                server.url,
+                "--judge",
+                "state",
+                "--jobs",
+                "1",
+                "--no-html",
+                "--out",
+                str(tmp_path / "x"),
+            ]
+        )
+    report = json.loads((tmp_path / "x" / "report.json").read_text())
+    assert code == 1 and report["status"] == "infeasible" and report["plan"] == []
+    shown = " ".join(capsys.readouterr().out.split())
+    assert said in shown, shown

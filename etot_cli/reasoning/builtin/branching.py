@@ -91,6 +91,17 @@ def _objection(candidate: _Candidate, scene: SceneState) -> str | None:
     return broken_constraint(actions, candidate.constraints, scene)
 
 
+def reached(goals: Sequence[Goal], scene: SceneState) -> Branch | None:
+    """What is still to be done for the alternative that asks for least; an empty branch when one
+    holds, None where no choice makes sense.
+
+    Raises:
+        InstructionError: the goals cannot be worked out in this scene.
+    """
+    branches = [found.branch for found in _looked_at(goals, scene) if found is not None]
+    return min(branches, key=lambda branch: len(branch.actions), default=None)
+
+
 def _looked_at(goals: Sequence[Goal], scene: SceneState) -> Iterator[_Candidate | None]:
     return islice(_candidates(goals, scene), MAX_CHOICES)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from etot_cli.reasoning.builtin.acceptance import doubts_of
 from etot_cli.reasoning.protocol import (
     Assignment,
     Branch,
@@ -102,7 +103,8 @@ class VlmReasoner:
 
         understanding = self._asker.ask("scene", values, pictures, schemas.SCENE, read_parse)
         values["understanding"] = understanding or "(nothing was said)"
-        proposals = _Proposals(scene, names)
+        doubt = doubts_of(assignment, scene)(scene)
+        proposals = _Proposals(scene, names, doubt)
         self._asker.ask("branches", values, pictures, schemas.BRANCHES, proposals.read,
                         objects=values["objects"])  # fmt: skip
         if proposals.branches:
@@ -189,7 +191,8 @@ class VlmReasoner:
 class _Proposals:
     """Collects well-formed branches over several replies."""
 
-    def __init__(self, scene: SceneState, names: Names) -> None:
+    def __init__(self, scene: SceneState, names: Names, doubt: str) -> None:
+        self._doubt = doubt
         self._scene = scene
         self._names = names
         self._claimed = False
@@ -210,7 +213,10 @@ class _Proposals:
         if found.goal_holds and not found.plans and not self.branches:
             # Doing nothing is the one plan that no simulation can refute: it is asked twice.
             self.goal_holds, self._claimed = self._claimed, True
-            if not self.goal_holds:
+            if self._doubt:
+                self.goal_holds = False
+                reasons.append(f"you say that nothing is to be done, but {self._doubt}")
+            elif not self.goal_holds:
                 reasons.append(
                     "you say that nothing is to be done; check the arrangement again and, if so, "
                     "give the same answer once more"

@@ -1,0 +1,65 @@
+"""Whether a scene is what was asked for: the check on plans that somebody else has proposed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.branching import reached
+from etot_cli.reasoning.builtin.conditions import goals_of
+from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Step
+from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
+from etot_cli.world.state import SceneState
+
+Doubts = Callable[[SceneState], str]
+"""Says why a scene is not what was asked for; empty when it is, or when that cannot be told."""
+
+
+def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
+    """The check for an assignment, read in the scene where its plan starts.
+
+    An instruction beyond the language that is read here leaves nothing to check with.
+    """
+    try:
+        if assignment.goal is not None:
+            goals = goals_of(assignment.goal, start)
+        else:
+            # The grammar needs the parser, which only this check should pay for.
+            from etot_cli.reasoning.language.instructions import goal_of
+
+            goals = (goal_of(assignment.instruction, start),)
+    except InstructionError:
+        return lambda scene: ""
+    lasting = [replace(goal, steps=_lasting(goal.steps)) for goal in goals]
+    return lambda scene: _doubt(lasting, assignment, scene)
+
+
+def _doubt(goals: Sequence[Goal], assignment: Assignment, scene: SceneState) -> str:
+    try:
+        missing = reached(goals, scene)
+    except (InstructionError, ReasonerStopped):
+        return ""
+    if missing is None or not missing.actions:
+        return ""
+    asked = "the goal" if assignment.goal is not None else f"{assignment.instruction!r}"
+    return f"{asked} does not hold then: still to do is {missing.reason}"
+
+
+def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
+    """The steps whose effect is still to be seen at the end.
+
+    What is opened and closed later, or put somewhere and put elsewhere later, leaves no trace of
+    the first step; nor does what only had to wait elsewhere.
+    """
+    kept: list[Step] = []
+    parts: set[int] = set()
+    things: set[int] = set()
+    for step in reversed(steps):
+        about = set(step.what) if isinstance(step, Put) else {step.what}
+        later = parts if isinstance(step, Open | Close) else things
+        if about <= later or (isinstance(step, Put) and step.aside):
+            continue
+        later |= about
+        kept.append(step)
+    return tuple(reversed(kept))
