@@ -217,7 +217,9 @@ def _name(action: str, safe: bool) -> Text:
 
 def _refused(doubt: DoubtModel) -> str:
     """A plan that worked and does not do what was asked for, in a sentence."""
-    plan = " ".join(doubt.actions) or "doing nothing"
+    if not doubt.actions:
+        return f"the model says that nothing is to be done, but {doubt.why}"
+    plan = " ".join(doubt.actions)
     return f"the model's plan {plan} works, but it is not what was asked for: {doubt.why}"
 
 

@@ -213,13 +213,11 @@ class _Proposals:
         if found.goal_holds and not found.plans and not self.branches:
             # Doing nothing is the one plan that no simulation can refute: it is asked twice.
             self.goal_holds, self._claimed = self._claimed, True
-            if self._doubt:
-                self.goal_holds = False
-                reasons.append(f"you say that nothing is to be done, but {self._doubt}")
-            elif not self.goal_holds:
+            if not self.goal_holds:
                 reasons.append(
-                    "you say that nothing is to be done; check the arrangement again and, if so, "
-                    "give the same answer once more"
+                    "you say that nothing is to be done; "
+                    + (f"but {self._doubt}; " if self._doubt else "")
+                    + "check the arrangement again and, if so, give the same answer once more"
                 )
         elif not self.branches and not reasons:
             reasons.append("there are no branches in it")
