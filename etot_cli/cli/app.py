@@ -6,6 +6,7 @@ end otherwise, and even that shows its traceback on request alone.
 
 from __future__ import annotations
 
+import errno
 import sys
 import traceback
 from collections.abc import Sequence
@@ -19,7 +20,7 @@ from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
 from etot_cli.cli.simulate import simulate
-from etot_cli.cli.streams import lost, protect
+from etot_cli.cli.streams import lost, protect, visible
 from etot_cli.errors import EtotError
 
 app = typer.Typer(
@@ -35,6 +36,11 @@ app.command()(simulate)
 app.command()(reconstruct)
 app.command()(new)
 app.command()(tasks)
+
+
+BAD_NAMES = frozenset({errno.ENAMETOOLONG, errno.ELOOP, errno.ENOENT, errno.ENOTDIR, errno.EISDIR,
+                       errno.EACCES, errno.EINVAL})  # fmt: skip
+"""What the system answers to names that the user has to change."""
 
 
 def _show_version(wanted: bool) -> None:
@@ -88,7 +94,7 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         # Files that belong to the input are read with messages of their own.
         _complain(f"the system refuses: {error}")
-        return MISSING
+        return UNUSABLE if error.errno in BAD_NAMES else MISSING
     except Exception as error:  # a defect: whatever it is, a person gets a sentence
         return _confess(error, detailed="-v" in arguments or "--verbose" in arguments)
     return code if isinstance(code, int) else OK
@@ -108,7 +114,8 @@ def main() -> None:
 
 
 def _complain(message: str) -> None:
-    print(f"error: {message}", file=sys.stderr)
+    # What is quoted of files and replies must not speak to the terminal.
+    print(f"error: {visible(message)}", file=sys.stderr)
 
 
 def _confess(error: Exception, *, detailed: bool) -> int:

@@ -29,7 +29,7 @@ from etot_cli.reporting.reconstruct_report import (
 )
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.reading import printable
-from etot_cli.world.build.meshes import convex_pieces
+from etot_cli.world.build.pieces import convex_pieces
 
 __all__ = ["Options", "run_reconstruct"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"

@@ -130,12 +130,18 @@ def read_plan(given: str) -> tuple[Action, ...]:
     if "[" in given and not given.rstrip().endswith(".json"):
         return parse_plan(given)
     path = Path(given)
-    if path.is_dir():
-        path = path / "report.json"
-    if path.exists() or given.endswith(".json"):
+    try:
+        # An empty text would be the current folder.
+        there = bool(given.strip()) and path.exists()
+        if there and path.is_dir():
+            path = path / "report.json"
+    except (OSError, ValueError):  # a name that no file can have
+        there = False
+    if there or given.endswith(".json"):
         return plan_from_report(path)
     raise PlanSyntaxError(
-        f"{given!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report file"
+        f"{given[:200]!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report "
+        "file"
     )
 
 

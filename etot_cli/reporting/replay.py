@@ -8,8 +8,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from etot_cli.errors import PlanSyntaxError
-from etot_cli.skills.action import Action, Keepout, parse_plan
+from etot_cli.errors import PlanSyntaxError, SpecError
+from etot_cli.skills.action import MAX_PLAN_ACTIONS, Action, Keepout, parse_plan
+from etot_cli.specs.reading import read_bytes
 
 MAX_REPORT_BYTES = 64 * 1024 * 1024
 """A report is a few hundred kilobytes; what is far larger is something else."""
@@ -63,6 +64,10 @@ def plan_from_report(path: Path) -> tuple[Action, ...]:
         raise PlanSyntaxError(f"{path}: not a plan report ({found}); expected schema {READABLE!r}")
     if not report.plan:
         raise PlanSyntaxError(f"{path}: the report holds no plan (status {report.status!r})")
+    if len(report.plan) > MAX_PLAN_ACTIONS:
+        raise PlanSyntaxError(
+            f"{path}: a plan of {len(report.plan)} actions; it may have at most {MAX_PLAN_ACTIONS}"
+        )
     nodes = {node.id: node for node in report.tree.nodes}
     detailed = [nodes.get(number) for number in report.plan_nodes]
     return tuple(
@@ -91,13 +96,9 @@ def _parse_one(path: Path, written: str) -> Action:
 
 def _read(path: Path) -> _Head:
     try:
-        if path.stat().st_size > MAX_REPORT_BYTES:
-            raise PlanSyntaxError(
-                f"{path}: larger than {MAX_REPORT_BYTES // 2**20} MiB, so it is no report"
-            )
-        text = path.read_bytes()
-    except OSError as error:
-        raise PlanSyntaxError(f"{path}: cannot be read: {error.strerror or error}") from None
+        text = read_bytes(path, MAX_REPORT_BYTES, "a plan report")
+    except SpecError as error:
+        raise PlanSyntaxError(str(error)) from None
     try:
         return _Head.model_validate_json(text)
     except ValidationError as error:

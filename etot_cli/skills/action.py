@@ -68,11 +68,13 @@ class Action:
 
 
 _ACTION = re.compile(
-    r"\s*(?:\d+[.)]\s*)?\[\s*(?P<verb>[A-Za-z][A-Za-z _]*?)\s*,\s*(?P<target>[A-Za-z][\w.]*)\s*\]"
-    r"\s*(?:\(\s*(?P<note>[^()]*?)\s*\))?\s*[,;]?"
+    r"\s*(?:\d+[.)]\s*)?\[\s*(?P<verb>[A-Za-z][A-Za-z_\s]*),\s*(?P<target>[A-Za-z][\w.]*)\s*\]"
+    r"\s*(?:\((?P<note>[^()]*)\))?\s*[,;]?"
 )
 MAX_PLAN_ACTIONS = 64
 """Longer textual plans are refused."""
+MAX_PLAN_TEXT = 20_000
+"""So many actions with a note each are a third of it [characters]."""
 
 
 def parse_plan(text: str, targets: Iterable[str] | None = None) -> tuple[Action, ...]:
@@ -85,6 +87,8 @@ def parse_plan(text: str, targets: Iterable[str] | None = None) -> tuple[Action,
     Raises:
         PlanSyntaxError: naming the first words that cannot be read and what is expected.
     """
+    if len(text) > MAX_PLAN_TEXT:
+        raise PlanSyntaxError(f"a plan of {len(text)} characters; expected at most {MAX_PLAN_TEXT}")
     actions: list[Action] = []
     position = 0
     allowed = None if targets is None else set(targets)
@@ -112,7 +116,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
     except ValueError:
         expected = ", ".join(item.value for item in Verb)
         raise PlanSyntaxError(
-            f"unknown action {match['verb']!r}; expected one of {expected}"
+            f"unknown action {match['verb'].strip()[:60]!r}; expected one of {expected}"
         ) from None
     target = match["target"]
     if allowed is not None and target not in allowed:

@@ -6,12 +6,12 @@ Nothing else in etot knows how many joints an arm has or what its gripper is cal
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
-import yaml
 from pydantic import Field, ValidationError
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.document import read_document
 from etot_cli.specs.scene import Finite, Spec
 
 BUILTIN_ROBOTS = Path(__file__).parent / "robots"
@@ -90,12 +90,7 @@ def load_robot(robot: str, directory: str | Path = ".") -> RobotSpec:
         raise SpecError(
             f"no robot {robot!r}; expected one of {known}, or a robot YAML file", path="robot"
         )
-    try:
-        data = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SpecError(f"not readable as YAML: {error}", file=str(path)) from error
-    if not isinstance(data, dict):
-        raise SpecError("expected a mapping with name, model, joints, …", file=str(path))
+    data: Any = read_document(path).plain()
     try:
         spec = RobotSpec.model_validate({**data, "directory": str(path.parent)})
     except ValidationError as error:
@@ -108,6 +103,16 @@ def load_robot(robot: str, directory: str | Path = ".") -> RobotSpec:
             f"({len(spec.home)}) must have the same length",
             file=str(path),
         )
+    folder = path.parent.resolve()
+    try:
+        inside = spec.model_path.resolve().is_relative_to(folder)
+    except (OSError, RuntimeError, ValueError):
+        inside = False
+    if not inside:
+        raise SpecError(
+            f"found {spec.model!r}, expected a file below the robot's own folder",
+            file=str(path), path="model",
+        )  # fmt: skip
     if not spec.model_path.is_file():
         raise SpecError(f"missing file {spec.model!r}", file=str(path), path="model")
     return spec

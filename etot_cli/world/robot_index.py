@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.world.build.mjcf_check import check_mjcf
 from etot_cli.world.robot import RobotSpec
 
 ROBOT_PREFIX = "robot/"
@@ -43,6 +44,7 @@ class RobotIndex:
 
 def add_robot(mj: mujoco.MjSpec, robot: RobotSpec) -> None:
     """Attaches the robot's own model, all names prefixed."""
+    check_mjcf(robot.model_path)
     try:
         child = mujoco.MjSpec.from_file(str(robot.model_path))
     except ValueError as error:

@@ -15,14 +15,18 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from etot_cli.errors import EtotError, ServiceError
+from etot_cli.errors import EtotError, ServiceError, SpecError
 from etot_cli.reasoning.vlm.chat import Answer, Question, Trouble, Usage
 from etot_cli.reasoning.vlm.images import encode
 from etot_cli.reasoning.vlm.redact import Redactor
+from etot_cli.specs.reading import read_utf8
 
 SCHEMA = "etot.exchange/1"
 PICTURES = "pictures"
 PICTURE_BYTES = 400_000
+MAX_EXCHANGE = 16 * 1024 * 1024
+"""An exchange with all its repairs has some 100 kB."""
+EXPECTED = "a recorded exchange"
 
 
 class Cassette:
@@ -46,13 +50,9 @@ class Cassette:
             EtotError: the file is damaged.
         """
         path = self._path(question, model)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except FileNotFoundError:
+        if not path.exists():
             return None
-        except (OSError, UnicodeDecodeError) as error:
-            raise EtotError(f"{path}: cannot be read ({error})") from None
-        return _read_answer(path, text)
+        return _read_answer(path, read_utf8(path, MAX_EXCHANGE, EXPECTED))
 
     def write(self, question: Question, model: str, answer: Answer) -> None:
         """Adds an exchange.
@@ -102,8 +102,8 @@ class Cassette:
             raise EtotError(f"--replay {self._folder}: there is no such folder")
         found = set()
         for path in sorted(self._folder.glob("*-*.json")):
-            with contextlib.suppress(ValueError, OSError):
-                data = json.loads(path.read_text(encoding="utf-8"))
+            with contextlib.suppress(ValueError, RecursionError, SpecError):
+                data = json.loads(read_utf8(path, MAX_EXCHANGE, EXPECTED))
                 if isinstance(data, dict) and data.get("schema") == SCHEMA:
                     found.add(str(data.get("model")))
         if not found:
@@ -126,7 +126,7 @@ def find_answer(folder: Path, name: str) -> Answer | None:
     path = folder / f"{name}.json"
     if Path(name).name != name or not path.is_file():
         return None
-    return _read_answer(path, path.read_text(encoding="utf-8"))
+    return _read_answer(path, read_utf8(path, MAX_EXCHANGE, EXPECTED))
 
 
 def _read_answer(path: Path, text: str) -> Answer:

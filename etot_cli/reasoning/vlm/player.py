@@ -21,7 +21,8 @@ from pathlib import Path
 from typing import Any
 
 from etot_cli.errors import EtotError
-from etot_cli.reasoning.vlm.cassette import find_answer
+from etot_cli.reasoning.vlm.cassette import MAX_EXCHANGE, find_answer
+from etot_cli.specs.reading import read_utf8
 
 SCRIPT = "script.json"
 
@@ -165,7 +166,7 @@ def load_player(folder: Path) -> Player:
     rules: Any = []
     if script.exists():
         try:
-            rules = json.loads(script.read_text(encoding="utf-8"))
+            rules = json.loads(read_utf8(script, MAX_EXCHANGE, "a list of rules"))
         except (OSError, ValueError) as error:
             raise EtotError(f"{script}: cannot be read ({error})") from None
         if not isinstance(rules, list):

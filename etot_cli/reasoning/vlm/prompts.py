@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.reading import read_utf8
 
 BUILTIN = Path(__file__).parent / "prompts"
 NAMES = (
@@ -86,12 +87,7 @@ class Prompts:
 
 
 def _load(path: Path, name: str) -> Template:
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError(f"cannot be read: {error}", file=str(path)) from error
-    if len(text) > MAX_TEMPLATE:
-        raise SpecError(f"is longer than {MAX_TEMPLATE} characters", file=str(path))
+    text = read_utf8(path, MAX_TEMPLATE, "a prompt template")
     head = _HEAD.match(text)
     version = _VERSION.search(head["head"]) if head else None
     if head is None or version is None:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.pictures import read_png
 from etot_cli.reconstruction.capture.view import Array, Mask, View
+from etot_cli.specs.reading import read_utf8
 
 NEAREST, FARTHEST = 0.1, 5.0
 """The median depth of a desk scene lies between these [m]; else the unit is wrong."""
@@ -77,17 +78,18 @@ def read_capture(folder: Path, *, use_masks: bool = True) -> Capture:
 
 
 def _read_camera(path: Path) -> dict[str, Any]:
-    try:
-        if path.is_file() and path.stat().st_size > MAX_JSON_BYTES:
-            raise SpecError("is too large for camera data", file=str(path))
-        info = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    if not path.exists():
         raise SpecError(
             "no such file; expected width, height, fx, fy, cx, cy, depth_scale, depth_kind and "
             "camera_to_base",
             file=str(path),
-        ) from None
-    except (OSError, ValueError, RecursionError) as error:
+        )
+    text = read_utf8(path, MAX_JSON_BYTES, "camera data as JSON")
+    try:
+        # Absurdly long numbers become infinite, and are refused as such.
+        info = json.loads(text, parse_int=lambda digits: int(digits) if len(digits) < 20
+                          else float(digits))  # fmt: skip
+    except (ValueError, RecursionError) as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         raise SpecError(f"is not readable JSON ({error})", file=str(path), line=line) from None
     if not isinstance(info, dict):

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.known.mesh_files import MAX_FACES, parse_mesh
+from etot_cli.world.build.mesh_files import MAX_FACES, parse_mesh
 from tests.reconstruction.meshes import mug, toy
 
 

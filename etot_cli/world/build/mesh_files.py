@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
-from etot_cli.reconstruction.capture.view import Array
+
+Array = NDArray[np.float64]
 
 MAX_FACES = 200_000
 MAX_BYTES = 50 * 1024 * 1024
@@ -64,16 +65,15 @@ def parse_mesh(data: bytes, kind: str, shown: str) -> MeshFile:
     """
     import trimesh
 
-    if len(data) > MAX_BYTES:
-        raise SpecError(f"larger than {MAX_BYTES // 2**20} MiB", file=shown)
-    if kind == "glb":
-        _check_glb(data, shown)
+    check_size(data, kind, shown)
     try:
         mesh: Any = trimesh.load(
             io.BytesIO(data), file_type=kind, force="mesh", skip_materials=True
         )
         vertices = np.asarray(mesh.vertices, dtype=np.float64)
         faces = np.asarray(mesh.faces, dtype=np.int64)
+        if faces.size and not 0 <= faces.min() <= faces.max() < len(vertices):
+            raise IndexError
     except Exception as error:  # readers raise whatever they like
         raise SpecError(f"not a readable mesh ({type(error).__name__})", file=shown) from None
     if not 4 <= len(faces) <= MAX_FACES or not np.isfinite(vertices).all():
@@ -86,6 +86,30 @@ def parse_mesh(data: bytes, kind: str, shown: str) -> MeshFile:
         raise SpecError("the mesh is flat: it encloses no volume", file=shown)
     found = MeshFile(data, kind, vertices, faces, shown)
     return replace(found, vertices=vertices @ found.upright.T)
+
+
+def check_size(data: bytes, kind: str, shown: str) -> None:
+    """Refuses a mesh file that unpacks to more than a mesh needs, before anything unpacks it.
+
+    Raises:
+        SpecError: it does.
+    """
+    if len(data) > MAX_BYTES:
+        raise SpecError(f"larger than {MAX_BYTES // 2**20} MiB", file=shown)
+    if kind == "glb":
+        _check_glb(data, shown)
+        return
+    if kind == "obj":
+        # A polygon of n corners becomes n - 2 triangles.
+        faces = sum(max(len(line.split()) - 3, 1) for line in data.splitlines()
+                    if line.lstrip()[:1] == b"f")  # fmt: skip
+    else:
+        # Binary files say how many; some begin with the word that text begins with.
+        faces = (len(data) - 84) // 50
+        if len(data) < 84 or struct.unpack_from("<I", data, 80)[0] != faces:
+            faces = data.count(b"endfacet")
+    if faces > MAX_FACES:
+        raise SpecError(f"found {faces} faces; expected 4 to {MAX_FACES}", file=shown)
 
 
 def _used(vertices: Array, faces: NDArray[np.int64]) -> tuple[Array, NDArray[np.int64]]:
@@ -152,7 +176,12 @@ def _faces_of(node: Any, document: dict[str, Any], counts: list[Any]) -> int:
     primitives = mesh.get("primitives", []) if isinstance(mesh, dict) else []
     total = 0
     for primitive in primitives if isinstance(primitives, list) else []:
-        accessor = primitive.get("indices") if isinstance(primitive, dict) else None
+        if not isinstance(primitive, dict):
+            continue
+        accessor = primitive.get("indices")
+        if accessor is None:  # then every three vertices in a row are a face
+            attributes = primitive.get("attributes")
+            accessor = attributes.get("POSITION") if isinstance(attributes, dict) else None
         if isinstance(accessor, int) and 0 <= accessor < len(counts):
             total += int(counts[accessor]) // 3
     return total
