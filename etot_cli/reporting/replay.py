@@ -98,7 +98,7 @@ def _read(path: Path) -> _Head:
     try:
         text = read_bytes(path, MAX_REPORT_BYTES, "a plan report")
     except SpecError as error:
-        raise PlanSyntaxError(str(error)) from None
+        raise PlanSyntaxError(f"{path}: cannot be read: {error.message}") from None
     try:
         return _Head.model_validate_json(text)
     except ValidationError as error:

@@ -60,6 +60,7 @@ def plan(
                 server.url,
                 "--out",
                 "out",
+                "--force",
                 "--jobs",
                 "1",
                 "-q",

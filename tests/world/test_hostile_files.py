@@ -67,7 +67,7 @@ MESH = '<asset><mesh name="m" file="{}"/></asset>'
         ('<include file="../secret.xml"/>', "outside"),
         ('<asset><model name="a" file="fine.xml"/></asset>', "models in models"),
         ('<asset><model name="a" file="../secret.xml"/></asset>', "models in models"),
-        ('<extension><plugin plugin="mujoco.pid"/></extension>', "plugins are code"),
+        ('<extension><plugin plugin="mujoco.pid"/></extension>', "plugins are not accepted"),
         (MESH.format("link.stl"), "outside"),
     ],
 )

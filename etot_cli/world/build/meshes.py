@@ -57,7 +57,7 @@ def _load(path: Path, scale: float) -> tuple[NDArray[np.float64], NDArray[np.int
         data = read_bytes(path, MAX_BYTES, "a mesh", path.name)
         found = parse_mesh(data, path.suffix[1:].lower(), path.name)
     except SpecError as error:
-        raise WorldError(str(error)) from None
+        raise WorldError(f"{path.name}: not a readable mesh ({error.message})") from None
     # In the file's own axes, as every other program shows it.
     vertices, faces = found.vertices @ found.upright * scale, found.faces
     extents = vertices.max(axis=0) - vertices.min(axis=0)

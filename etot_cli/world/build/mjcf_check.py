@@ -34,8 +34,8 @@ MAX_SIZE = 100_000
 FOLDERS = ("meshdir", "texturedir", "assetdir")
 MESHES = (".obj", ".stl")
 REFUSED = {
-    "plugin": "plugins are code",
-    "extension": "plugins are code",
+    "plugin": "plugins are not accepted, they are code",
+    "extension": "plugins are not accepted, they are code",
     "model": "models in models are not accepted; use <include>",
     "attach": "models in models are not accepted; use <include>",
     "flexcomp": "soft bodies are not simulated here",
