@@ -52,6 +52,16 @@ def test_instructions(instruction: str, changes: dict[str, dict[str, object]], d
     assert (why == "") is done, why
 
 
+@pytest.mark.parametrize(
+    ("where", "done"),
+    [({"on": ("desk",)}, True), ({"on": ("chest",)}, True), ({"inside": "red_cup"}, False)],
+)
+def test_taken_away_is_taken_anywhere(where: dict[str, object], done: bool) -> None:
+    start = scene(ball={"inside": "red_cup", "on": ()})
+    check = check_of(Assignment("Take the ball out of the red cup.", None), start)
+    assert (check(scene(ball={"on": (), **where})) == "") is done
+
+
 def test_a_formal_goal_is_checked_by_the_state() -> None:
     goal = (Condition.model_validate({"inside": ["spoon", "red_cup"]}),)
     check = check_of(Assignment("Whatever.", goal), START)

@@ -32,18 +32,45 @@ def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
     except InstructionError:
         return lambda scene: ""
     lasting = [replace(goal, steps=_lasting(goal.steps)) for goal in goals]
-    return lambda scene: _doubt(lasting, assignment, scene)
+    # Where to is not said of what is only to be taken away: anywhere else will do.
+    removed = _removed(goals[0]) if len(goals) == 1 else ()
+    asked = "the goal" if assignment.goal is not None else f"{assignment.instruction!r}"
+
+    def doubt(scene: SceneState) -> str:
+        missing = _missing(lasting, scene)
+        left = [name for name in removed if _place(scene, name) == _place(start, name)]
+        if left:
+            missing = f"to take {' and '.join(left)} away"
+        return f"{asked} does not hold then: still to do is {missing}" if missing else ""
+
+    return doubt
 
 
-def _doubt(goals: Sequence[Goal], assignment: Assignment, scene: SceneState) -> str:
+def _missing(goals: Sequence[Goal], scene: SceneState) -> str:
+    """What is still to be done, in words; empty when nothing is or nothing can be said."""
     try:
-        missing = reached(goals, scene)
+        branch = reached(goals, scene)
     except (InstructionError, ReasonerStopped):
         return ""
-    if missing is None or not missing.actions:
-        return ""
-    asked = "the goal" if assignment.goal is not None else f"{assignment.instruction!r}"
-    return f"{asked} does not hold then: still to do is {missing.reason}"
+    return "" if branch is None or not branch.actions else branch.reason
+
+
+def _removed(goal: Goal) -> tuple[str, ...]:
+    """Objects that are only to be taken away, as far as it is clear which."""
+    referents = [
+        goal.referents[index]
+        for step in goal.steps
+        if isinstance(step, Put) and step.removal
+        for index in step.what
+    ]
+    return tuple(
+        thing.name for item in referents if len(item.options) == 1 for thing in item.options[0]
+    )
+
+
+def _place(scene: SceneState, name: str) -> object:
+    state = scene.states.get(name)
+    return None if state is None else (state.inside, state.on)
 
 
 def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
@@ -58,7 +85,7 @@ def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
     for step in reversed(steps):
         about = set(step.what) if isinstance(step, Put) else {step.what}
         later = parts if isinstance(step, Open | Close) else things
-        if about <= later or (isinstance(step, Put) and step.aside):
+        if about <= later or (isinstance(step, Put) and (step.aside or step.removal)):
             continue
         later |= about
         kept.append(step)
