@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format schemas bench check-tasks check-random check-reconstruct clean
+.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-reconstruct clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -27,6 +27,13 @@ lint: $(VENV)/.dev  ## style and types
 format: $(VENV)/.dev  ## put the style right
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+docs: $(VENV)/.dev  ## build the documentation as a site in site/, strictly
+	$(BIN)/python -m etot_cli.reporting.formats docs/formats.md
+	$(BIN)/mkdocs build --strict --quiet
+
+figures: $(VENV)/.dev  ## render the documentation's pictures
+	$(BIN)/python -m tests.measure.figures docs/images
 
 schemas: $(VENV)/.run  ## write docs/schemas anew from the report models
 	$(BIN)/python -m etot_cli.reporting.schemas docs/schemas

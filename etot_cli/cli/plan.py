@@ -6,6 +6,7 @@ import os
 import sys
 from enum import StrEnum
 from math import isnan
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -32,6 +33,8 @@ from etot_cli.cli.session import Session
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 from etot_cli.specs.bounds import MAX_WORLDS
 
+EXPORTS = (".xml", ".pddl.txt", ".pddl", ".zip")
+"""Endings of files that --export writes."""
 MAX_JOBS = 256
 MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
 
@@ -117,6 +120,15 @@ def plan(
     replay: VlmReplay = None,
     max_calls: VlmMaxCalls = None,
     max_cost: VlmMaxCost = None,
+    export: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--export",
+            metavar="FILE",
+            help="Also write the plan as a behaviour tree (.xml) or a PDDL plan (.pddl.txt), or "
+            "the scene as MJCF (.zip). May be repeated.",
+        ),
+    ] = None,
     html: Html = True,
     out: Out = None,
     force: Force = False,
@@ -130,6 +142,9 @@ def plan(
     Exit code 0: a feasible plan, after which the task's success conditions hold; 1: none found, or
     they do not hold; 2: unusable input; 3: the model's endpoint cannot be used; 130: interrupted.
     """
+    for file in export or ():
+        if not file.name.endswith(EXPORTS):
+            raise typer.BadParameter(f"--export {file}: expected a name with {', '.join(EXPORTS)}")
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
 
@@ -161,6 +176,11 @@ def plan(
         from etot_cli.commands.pages import write_plan_page
 
         session.add_page(report, lambda told: write_plan_page(planning, session.folder, told))
+    if export:
+        from etot_cli.commands.export import write_exports
+
+        for warning in write_exports(planning, export):
+            print(f"warning: {warning}", file=sys.stderr)
     code = session.conclude(report, path, lambda summary: summary.plan(report, path))
     if code == OK and report.success is not None and not report.success.holds:
         return NO

@@ -71,13 +71,14 @@ def takes(simulation: Simulation) -> list[Take]:
         caption = f"{number} of {len(report.plan)}   {step.action}"
         cause = step.cause
         ending = float(trajectory.times[-1] - trajectory.times[0])
+        verdict = ""
         if step.status != "success":
-            words = cause.text if cause is not None else ""
-            caption += f"   {step.status}" + (f": {words}" if words else "")
+            verdict = f"{step.status}: {cause.text}" if cause is not None else step.status
         found.append(
             Take(
                 trajectory,
                 caption,
+                verdict,
                 "good" if step.status == "success" else "bad",
                 tuple(cause.objects) if cause is not None else (),
                 ending if cause is None or cause.time_s is None else cause.time_s,

@@ -36,10 +36,12 @@ class Take:
 
     trajectory: Trajectory
     caption: str = ""
+    verdict: str = ""
+    """Follows the caption once it has come to pass."""
     tone: Tone = "plain"
     culprits: tuple[str, ...] = ()
     since_s: float = 0.0
-    """Time within the action from which caption colour and outline show the verdict [s]."""
+    """Time within the action from which caption and outline show the verdict [s]."""
 
     def shot(self, row: int) -> Shot:
         """The picture of one row of the trajectory."""
@@ -48,7 +50,7 @@ class Take:
         return Shot(
             self.trajectory.qpos[row],
             self.culprits if judged else (),
-            self.caption,
+            f"{self.caption}   {self.verdict}" if judged and self.verdict else self.caption,
             self.tone if judged else "plain",
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -15,7 +16,7 @@ from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
 from etot_cli.world.build.surroundings import add_surroundings, set_options
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
-from etot_cli.world.robot import load_robot
+from etot_cli.world.robot import RobotSpec, load_robot
 from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, add_robot, robot_index
 
 MASS_TOLERANCE = 1e-6
@@ -81,11 +82,7 @@ def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
         SpecError: the robot description is unusable.
     """
     robot = load_robot(scene.robot, scene.directory)
-    mj = mujoco.MjSpec()
-    set_options(mj)
-    add_surroundings(mj, scene)
-    add_robot(mj, robot)
-    drafts = {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
+    mj, drafts = _drafted(scene, robot)
     if dressed:
         from etot_cli.world.build.dressing import dress
 
@@ -103,6 +100,26 @@ def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         entries[name] = _with_mass(entry, model)
     return World(scene, model, robot_index(model, robot), entries, _addresses(model, entries))
+
+
+def scene_spec(scene: specs.Scene) -> mujoco.MjSpec:
+    """A scene's model before it is compiled, masses not yet scaled.
+
+    Raises:
+        WorldError: a file or the combination of objects cannot be compiled.
+        SpecError: the robot description is unusable.
+    """
+    return _drafted(scene, load_robot(scene.robot, scene.directory))[0]
+
+
+def _drafted(
+    scene: specs.Scene, robot: RobotSpec
+) -> tuple[mujoco.MjSpec, dict[str, tuple[ObjectEntry, Any]]]:
+    mj = mujoco.MjSpec()
+    set_options(mj)
+    add_surroundings(mj, scene)
+    add_robot(mj, robot)
+    return mj, {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
 
 
 def _scale_masses(model: mujoco.MjModel, scene: specs.Scene) -> None:

@@ -1,0 +1,37 @@
+"""The documentation as a site, and the page that is generated from the models."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from etot_cli.reporting.formats import SECTIONS, formats_text
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_page_of_keys_is_up_to_date() -> None:
+    text = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+    assert text == formats_text(), "make docs writes it anew"
+
+
+def test_every_key_of_every_model_is_told() -> None:
+    text = formats_text()
+    for _, models in SECTIONS:
+        for model in models:
+            assert f"### {model.__name__}\n" in text
+    assert "| `diameter` | number over 0" in text
+    assert "directory" not in text
+
+
+def test_site_builds_strictly(tmp_path: Path) -> None:
+    pytest.importorskip("mkdocs")
+    done = subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)],
+        cwd=ROOT, capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "index.html").is_file()
