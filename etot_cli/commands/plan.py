@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from etot_cli.planning.result import (
 )
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import PlanTree
+from etot_cli.planning.trials import CHOOSING_WORLDS, try_plan
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reporting.models import TaskModel
@@ -34,6 +36,7 @@ from etot_cli.reporting.plan_report import (
     vlm_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.skills.deadline import NEVER, OutOfTimeError
 from etot_cli.specs.reading import printable
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
@@ -98,6 +101,7 @@ def plan_task(
         EtotError: the input is unusable or something that is needed is missing.
     """
     watch = Stopwatch()
+    begun_s = time.monotonic()
     task: Task | None = None
     scene: Scene | None = None
     result: SearchResult | None = None
@@ -118,7 +122,7 @@ def plan_task(
                 scene,
                 seed=options.seed,
                 jobs=options.jobs,
-                worlds=options.worlds or task.worlds,
+                worlds=min(options.worlds or task.worlds, CHOOSING_WORLDS),
                 record=options.record or (session is not None and session.needs_trajectories),
             )
         with closing(simulator), watch.phase("search"):
@@ -132,6 +136,9 @@ def plan_task(
                 # A model may propose anything; the built-in reasoner works from the goal itself.
                 check=session is not None,
             )
+        if (options.worlds or task.worlds) > 1 and result.final is not None:
+            with watch.phase("trials"):
+                result = _tried(options, task, scene, result, begun_s, rooms)
     except KeyboardInterrupt:
         interrupted = True
     finally:
@@ -141,6 +148,34 @@ def plan_task(
     found = result or _nothing()
     report = _report(options, task, found, interrupted, watch, account)
     return Planning(report, scene, found)
+
+
+def _tried(
+    options: PlanOptions,
+    task: Task,
+    scene: Scene,
+    result: SearchResult,
+    begun_s: float,
+    rooms: doors.Rooms,
+) -> SearchResult:
+    """The result with the odds of its plan, from worlds that did not choose it."""
+    limit = options.limits.time_limit_s
+    until_s = NEVER if limit is None else begun_s + limit
+    simulator = rooms.open_simulator(
+        scene,
+        seed=options.seed,
+        jobs=options.jobs,
+        worlds=1 + (options.worlds or task.worlds),
+        record=False,
+        fresh=True,
+    )
+    judge = rooms.reasoners["builtin"]()
+    try:
+        with closing(simulator):
+            survival = try_plan(result.plan, simulator, judge, task.success, until_s)
+    except OutOfTimeError:
+        return replace(result, survival=None)
+    return replace(result, survival=survival)
 
 
 def _nothing() -> SearchResult:

@@ -24,9 +24,19 @@ class OpenSimulator(Protocol):
     """Opens a physics world on a scene."""
 
     def __call__(
-        self, scene: Scene, *, seed: int, jobs: int, worlds: int, record: bool
+        self,
+        scene: Scene,
+        *,
+        seed: int,
+        jobs: int,
+        worlds: int,
+        record: bool,
+        fresh: bool = False,
+        truth: Scene | None = None,
     ) -> Simulator:
-        """``record``: keep trajectories for later rendering."""
+        """``record``: keep trajectories for later rendering; ``fresh``: varied worlds that no
+        search has seen; ``truth``: the world to act in, beside the twin.
+        """
         ...
 
 

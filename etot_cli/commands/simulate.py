@@ -13,7 +13,6 @@ from etot_cli.commands.plan import task_model
 from etot_cli.control.simulated import Simulator
 from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.conditions import holds
-from etot_cli.planning.survival import NOMINAL
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.reporting.evidence import contact_models, moved_models
 from etot_cli.reporting.models import action_fields, cause_model, seconds
@@ -108,11 +107,17 @@ def run_simulate(
             # Text that is no plan is refused before the world is built; names need the world.
             run.plan = read_plan(options.plan)
             scene = run.task.scene
-            run.scene = rooms.vary(scene, options.seed) if options.vary else scene
+            truth = rooms.vary(scene, options.seed) if options.vary else None
+            run.scene = truth or scene
         with watch.phase("world"):
             reasoner = rooms.reasoners["builtin"]()
             simulator = rooms.open_simulator(
-                run.scene, seed=options.seed, jobs=1, worlds=1, record=options.record
+                scene,
+                seed=options.seed,
+                jobs=1,
+                worlds=1,
+                record=options.record,
+                truth=truth,
             )
         with closing(simulator), watch.phase("simulate"):
             _carry_out(run, simulator, reasoner, rooms, observer)
@@ -158,7 +163,7 @@ def _carry_out(
         if observer is not None:
             observer.step_started(index, action, len(run.plan))
         simulated = simulator.submit(state, action).result()
-        outcome = simulated.outcomes[NOMINAL]
+        outcome = simulated.outcomes[-1]  # the true world where there is one, else the twin
         verdict = reasoner.judge(action, outcome.record)
         run.final = outcome.record.after
         state = simulated.end

@@ -8,46 +8,67 @@ on Linux they are forked after the worlds are built and share them.
 
 from __future__ import annotations
 
+import hashlib
 import pickle
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
 
+from etot_cli.control.physics_world import Performed
 from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
-from etot_cli.control.simulated_world import Performed, SimulatedWorld
+from etot_cli.control.true_world import Look
+from etot_cli.control.worlds import Recipe, Worlds
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
+from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import DESK, Cause, CauseKind, SceneState
 from etot_cli.world.workers import METHOD, WorkerLostError, WorkerPool
 
-WORLD_SEED_STRIDE = 7919
-"""Seeds of the varied worlds are far apart from those a user counts through."""
-
 
 def open_simulator(
-    scene: Scene, *, seed: int, jobs: int, worlds: int, record: bool
+    scene: Scene,
+    *,
+    seed: int,
+    jobs: int,
+    worlds: int,
+    record: bool,
+    fresh: bool = False,
+    truth: Scene | None = None,
+    look: Look = Look.EACH,
 ) -> ActionSimulator:
-    """Builds the worlds of a scene.
+    """Builds the planner's twin of a scene, and varied worlds in which the robot believes in it.
 
     Args:
-        scene: the scene; world 0 has its parameters unchanged.
-        seed: of the motions' random choices and of the variation of worlds 1….
+        scene: what the twin is built from, unchanged.
+        seed: of the motions' random choices and of the varied worlds.
         jobs: worker processes; 1 works in this process.
-        worlds: how many worlds every action is tried in.
+        worlds: how many worlds every action is tried in, the twin counted.
         record: keep trajectories for rendering.
+        fresh: varied worlds other than those that the same arguments give without it.
+        truth: the one true world, beside the twin as world 1, instead of ``worlds``. The robot acts
+            in it whatever the twin says.
+        look: when the robot looks at a varied world.
 
     Raises:
         WorldError: the scene cannot be built.
     """
-    scenes = [scene]
-    scenes += [vary(scene, seed * WORLD_SEED_STRIDE + index) for index in range(1, worlds)]
-    built = [SimulatedWorld(item, seed, keep_frames=record) for item in scenes]
-    return ActionSimulator(built, max(jobs, 1))
+    if truth is not None:
+        return ActionSimulator(Worlds(Recipe(scene, (truth,), seed, record, look)), 1, go_on=True)
+    kind = "fresh" if fresh else "choosing"
+    drawn = [vary(scene, world_seed(seed, kind, index)) for index in range(1, worlds)]
+    recipe = Recipe(scene, tuple(drawn), seed, record, look)
+    return ActionSimulator(Worlds(recipe), max(jobs, 1), go_on=False)
+
+
+def world_seed(seed: int, kind: str, index: int) -> int:
+    """Seeds of varied worlds, none of which a user meets by counting."""
+    digest = hashlib.sha256(f"{kind}/{seed}/{index}".encode()).digest()
+    return int.from_bytes(digest[:8], "little")
 
 
 def known_targets(scene: SceneState) -> list[str]:
@@ -64,18 +85,19 @@ def known_targets(scene: SceneState) -> list[str]:
 class _Shared:
     """What forked workers inherit, or spawned ones are sent."""
 
-    worlds: list[SimulatedWorld]
+    worlds: Worlds | None = None
 
 
-_shared = _Shared([])
+_shared = _Shared()
 
 
 class ActionSimulator:
     """Implements :class:`etot_cli.control.simulated.Simulator`."""
 
-    def __init__(self, worlds: list[SimulatedWorld], jobs: int) -> None:
+    def __init__(self, worlds: Worlds, jobs: int, *, go_on: bool) -> None:
         self._worlds = worlds
         self._jobs = jobs
+        self._go_on = go_on
         self._pool: WorkerPool | None = None
         self._start: tuple[StateToken, SceneState] | None = None
 
@@ -98,10 +120,7 @@ class ActionSimulator:
         if self._start is None:
             # Workers come up while the scene settles and the instruction is read.
             self._ensure_pool()
-            begun = []
-            for world in self._worlds:
-                world.deadline.at_s = until_s
-                begun.append(world.start())
+            begun = self._worlds.start(until_s)
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start
 
@@ -109,27 +128,57 @@ class ActionSimulator:
         self, state: StateToken, action: Action, until_s: float = NEVER
     ) -> Future[Simulated]:
         """Tries ``action`` in every world; physical failures are outcomes, not exceptions."""
-        begun = time.perf_counter()
-        snapshots = _unpack(state)
+        node = _Node(_unpack(state), action, until_s, time.perf_counter())
         pool = self._ensure_pool()
         if pool is None:
-            future: Future[Simulated] = Future()
-            try:
-                performed = []
-                for world, snapshot in zip(self._worlds, snapshots, strict=True):
-                    world.deadline.at_s = until_s
-                    performed.append(world.perform(snapshot, action))
-                future.set_result(_combine(performed, begun))
-            except MemoryError:
-                future.set_result(self._lost(snapshots, "out of memory", begun))
-            except Exception as error:  # delivered to whoever asks for the result
-                future.set_exception(error)
-            return future
+            return self._here(node)
+        whole: Future[Simulated] = Future()
+        first = pool.submit(_perform, 0, node.snapshots[0], action, until_s, None)
+        _pass_on(
+            [first], whole, partial(self._continue, pool, node, whole), partial(self._lost, node)
+        )
+        return whole
+
+    def _here(self, node: _Node) -> Future[Simulated]:
+        """Works in this process."""
+        future: Future[Simulated] = Future()
+        try:
+            twin = self._worlds.perform(0, node.snapshots[0], node.action, node.until_s)
+            others = (
+                self._worlds.perform(
+                    index, node.snapshots[index], node.action, node.until_s, twin.motion
+                )
+                for index in self._follow(twin)
+            )
+            future.set_result(self._combine(node, [twin, *others]))
+        except MemoryError:
+            future.set_result(self._lost(node, "out of memory"))
+        except Exception as error:  # delivered to whoever asks for the result
+            future.set_exception(error)
+        return future
+
+    def _continue(
+        self, pool: WorkerPool, node: _Node, whole: Future[Simulated], found: list[Performed]
+    ) -> None:
+        """The twin is done: its motion goes to the varied worlds."""
+        (twin,) = found
         parts = [
-            pool.submit(_perform, index, snapshot, action, until_s)
-            for index, snapshot in enumerate(snapshots)
+            pool.submit(
+                _perform, index, node.snapshots[index], node.action, node.until_s, twin.motion
+            )
+            for index in self._follow(twin)
         ]
-        return _gather(parts, begun, lambda why: self._lost(snapshots, why, begun))
+
+        def finish(others: list[Performed]) -> None:
+            whole.set_result(self._combine(node, [twin, *others]))
+
+        _pass_on(parts, whole, finish, partial(self._lost, node))
+
+    def _follow(self, twin: Performed) -> range:
+        """The varied worlds in which the action is carried out too: where it fails in the twin,
+        no plan has it, and what the others would do is of no use.
+        """
+        return range(1, len(self._worlds) if self._go_on or twin.record.effect else 1)
 
     def _ensure_pool(self) -> WorkerPool | None:
         """The workers; None where this process works, for one job or where there is no room."""
@@ -137,23 +186,28 @@ class ActionSimulator:
             self.close()
             self._jobs = 1
         if self._pool is None and self._jobs > 1:
-            given: list[Any] = self._worlds
-            if METHOD == "spawn":
-                given = [(w.world.scene, w.seed, w.keep_frames) for w in self._worlds]
+            given = self._worlds if METHOD == "fork" else self._worlds.recipe
             try:
                 self._pool = WorkerPool(self._jobs, _begin_worker, (given,))
             except (OSError, RuntimeError, MemoryError):
                 self._jobs = 1
         return self._pool
 
-    def _lost(self, snapshots: list[Snapshot], why: str, begun: float) -> Simulated:
+    def _lost(self, node: _Node, why: str) -> Simulated:
         """Stands for an action that could not be simulated to its end: nothing has moved."""
         cause = Cause(CauseKind.ABANDONED, (), f"the simulation was abandoned: {why}")
-        performed = [
-            world.unperformed(snapshot, cause)
-            for world, snapshot in zip(self._worlds, snapshots, strict=True)
-        ]
-        return _combine(performed, begun)
+        return self._combine(node, [self._worlds.unperformed(0, node.snapshots[0], cause)])
+
+    def _combine(self, node: _Node, performed: list[Performed]) -> Simulated:
+        """All worlds' accounts; those in which nothing was done stand as they stood."""
+        for index in range(len(performed), len(self._worlds)):
+            cause = Cause(CauseKind.ABANDONED, (), "not carried out, as it failed in the twin")
+            performed.append(self._worlds.unperformed(index, node.snapshots[index], cause))
+        return Simulated(
+            outcomes=tuple(WorldOutcome(item.record, item.trajectory) for item in performed),
+            end=_pack([item.end for item in performed]),
+            wall_s=time.perf_counter() - node.begun,
+        )
 
     def close(self) -> None:
         """Ends the workers at once; idempotent."""
@@ -162,37 +216,39 @@ class ActionSimulator:
             pool.close()
 
 
-def _begin_worker(given: list[Any]) -> None:
-    _shared.worlds = [
-        item
-        if isinstance(item, SimulatedWorld)
-        else SimulatedWorld(item[0], item[1], keep_frames=item[2])
-        for item in given
-    ]
+@dataclass(frozen=True)
+class _Node:
+    """One submission: the worlds' states, the action, its deadline, and when it was handed in."""
+
+    snapshots: list[Snapshot]
+    action: Action
+    until_s: float
+    begun: float
 
 
-def _perform(index: int, snapshot: Snapshot, action: Action, until_s: float) -> Performed:
-    world = _shared.worlds[index]
-    world.deadline.at_s = until_s
-    return world.perform(snapshot, action)
+def _begin_worker(given: Worlds | Recipe) -> None:
+    _shared.worlds = given if isinstance(given, Worlds) else Worlds(given)
 
 
-def _combine(performed: list[Performed], begun: float) -> Simulated:
-    return Simulated(
-        outcomes=tuple(WorldOutcome(item.record, item.trajectory) for item in performed),
-        end=_pack([item.end for item in performed]),
-        wall_s=time.perf_counter() - begun,
-    )
+def _perform(
+    index: int, snapshot: Snapshot, action: Action, until_s: float, rehearsed: Motion | None
+) -> Performed:
+    assert _shared.worlds is not None  # the worker began with it
+    return _shared.worlds.perform(index, snapshot, action, until_s, rehearsed)
 
 
-def _gather(
-    parts: list[Future[Performed]], begun: float, lost: Callable[[str], Simulated]
-) -> Future[Simulated]:
-    """One future for all worlds of a node; cancelling it cancels what has not begun.
-
-    ``lost`` gives the outcome where workers were lost, from the reason.
+def _pass_on(
+    parts: list[Future[Performed]],
+    whole: Future[Simulated],
+    then: Callable[[list[Performed]], None],
+    lost: Callable[[str], Simulated],
+) -> None:
+    """Calls ``then`` with all parts' results. Cancelling ``whole`` cancels what has not begun;
+    ``lost`` gives its result where workers were lost, from the reason.
     """
-    whole: Future[Simulated] = Future()
+    if not parts:
+        then([])
+        return
 
     def finish(_: Future[Performed]) -> None:
         if whole.cancelled():
@@ -209,11 +265,10 @@ def _gather(
         elif any(part.cancelled() for part in parts):
             whole.cancel()
         else:
-            whole.set_result(_combine([part.result() for part in parts], begun))
+            then([part.result() for part in parts])
 
     for part in parts:
         part.add_done_callback(finish)
-    return whole
 
 
 def _pack(snapshots: list[Snapshot]) -> StateToken:

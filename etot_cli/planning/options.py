@@ -43,4 +43,4 @@ class Limits:
     max_reflections: int = DEFAULT_MAX_REFLECTIONS
     """Failures of branches that the reasoner is asked about."""
     min_survival: float = DEFAULT_MIN_SURVIVAL
-    """Share of the worlds still alive that an action must succeed in, besides the nominal one."""
+    """Share of all worlds that must still be alive after an action, besides the nominal one."""

@@ -86,7 +86,8 @@ def judge_worlds(
 ) -> Judgement:
     """Judges an action in every world that is still alive.
 
-    It succeeds when the nominal world does and at least ``min_survival`` of the living worlds do.
+    It succeeds when the nominal world does and at least ``min_survival`` of all worlds still live:
+    a long plan must hold as often as a short one.
     Otherwise the verdict is the nominal world's, or, when only the others fail, that of the first
     world with the most frequent cause, so that a revision works on a failure that really happened.
 
@@ -102,7 +103,9 @@ def judge_worlds(
     losses = tuple(WorldLoss(w, v) for w, v in verdicts.items() if w not in survived)
     world = NOMINAL
     verdict = verdicts[NOMINAL]
-    if verdict.outcome is Outcome.SUCCESS and len(survived) < min_survival * len(verdicts):
+    if verdict.outcome is Outcome.SUCCESS and len(survived) < min_survival * len(
+        simulated.outcomes
+    ):
         world, verdict = _typical(losses)
         if verdict.cause is not None:
             text = f"in {len(losses)} of {len(verdicts)} varied worlds: {verdict.cause.text}"

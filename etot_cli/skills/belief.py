@@ -18,7 +18,7 @@ from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
 from etot_cli.skills.motion.transit import plan_transit
 from etot_cli.world.model import World
-from etot_cli.world.relations import held_object
+from etot_cli.world.state import SceneState
 
 Vector = NDArray[np.float64]
 
@@ -55,17 +55,21 @@ class Belief:
         twin: the twin.
         data: its state; read, never stepped.
         rng: for the random choices of this action.
+        scene: the same state as relations see it; where poses are seen with an error, contacts in
+            ``data`` tell nothing.
     """
 
-    def __init__(self, twin: Twin, data: mujoco.MjData, rng: np.random.Generator) -> None:
+    def __init__(
+        self, twin: Twin, data: mujoco.MjData, rng: np.random.Generator, scene: SceneState
+    ) -> None:
         self.world, self.arm, self.checker = twin.world, twin.arm, twin.checker
         self.solids, self.scratch = twin.solids, twin.scratch
-        self.data, self.rng = data, rng
+        self.data, self.rng, self.scene = data, rng, scene
         self._twin = twin
 
     def in_state(self, data: mujoco.MjData) -> Belief:
         """The same twin in another state."""
-        return Belief(self._twin, data, self.rng)
+        return Belief(self._twin, data, self.rng, self.scene)
 
     @property
     def joints(self) -> Vector:
@@ -99,8 +103,8 @@ class Belief:
         return Attached(name, self.tool().inverse() @ self.object_pose(name))
 
     def held(self) -> str | None:
-        """The movable object in the hand, if any."""
-        return held_object(self.world, self.data)
+        """The object in the hand, if any."""
+        return self.scene.holding
 
     def plan_transit(
         self,

@@ -17,26 +17,28 @@ PUTS = (Verb.PUT_ON, Verb.PUT_INTO)
 
 
 def plan_motions(
-    belief: Belief, action: Action, scene: SceneState
+    belief: Belief, action: Action, rehearsed: Motion | None = None
 ) -> Iterator[Motion | SkillOutcome]:
     """Motions that carry an action out, best first, worked out one at a time as they are asked for.
 
     Args:
         belief: the twin in the state from which the action starts.
         action: what is to be done.
-        scene: the same state as relations see it.
+        rehearsed: a motion for the same action in a state much like this one; what it holds the
+            object by comes first, retargeted to where the object is believed to be.
 
     Yields:
         Motions; where there is none, the reason as the only item.
     """
     if action.verb is Verb.PICK_UP:
-        problem = pick_precondition(belief, action, scene)
-        return iter([problem]) if problem else pick_motions(belief, action)
+        problem = pick_precondition(belief, action)
+        return iter([problem]) if problem else pick_motions(belief, action, rehearsed)
     if action.verb in PUTS:
         return put_motions(belief, action)
-    if scene.holding is not None:
-        text = f"the hand still holds {scene.holding}"
-        return iter([failed(CauseKind.PRECONDITION, [scene.holding], text)])
+    holding = belief.held()
+    if holding is not None:
+        text = f"the hand still holds {holding}"
+        return iter([failed(CauseKind.PRECONDITION, [holding], text)])
     return articulation_motions(belief, action)
 
 

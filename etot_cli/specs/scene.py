@@ -102,8 +102,19 @@ class Variation(Spec):
     """Relative."""
     mass: Share = 0.20
     """Relative."""
+    size: Share | None = None
+    """Relative, of movable things; as far as sizes are perceived wrongly when None."""
     keep: tuple[str, ...] = ()
     """Objects that get no pose of their own drawn; they still move with what carries them."""
+
+
+class Perception(Spec):
+    """How far what a robot sees is off: uniform in ± these bounds."""
+
+    position_m: Spread = 0.005
+    yaw_deg: OpeningDegrees = 3.0
+    size: Share = 0.02
+    """Relative: how far true sizes are from the believed ones."""
 
 
 class Scene(Spec):
@@ -118,6 +129,7 @@ class Scene(Spec):
         default_factory=dict
     )
     variation: Variation = Variation()
+    perception: Perception = Perception()
     viewpoint: Name = ROBOT_VIEWPOINT
     """Whose left, right, front and back are meant: the robot's, or those of one of ``cameras``."""
     directory: str = "."
@@ -156,6 +168,7 @@ __all__ = [
     "Name",
     "ObjectBase",
     "Pen",
+    "Perception",
     "Position",
     "Quaternion",
     "Scene",

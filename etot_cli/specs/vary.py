@@ -1,4 +1,4 @@
-"""Draws a varied scene: poses, friction and mass within the bounds of the scene's ``variation``.
+"""Draws a varied scene: poses, sizes, friction and mass within the scene's ``variation``.
 
 Every object has a random stream of its own, made from the seed, the attempt and its name, so
 adding or reordering objects leaves the draws of the others as they are.
@@ -15,6 +15,7 @@ from etot_cli.specs.footprint import turned
 from etot_cli.specs.objects import FURNITURE, Cup, ObjectBase
 from etot_cli.specs.placement import Placed, place_all
 from etot_cli.specs.references import DESK, support_of
+from etot_cli.specs.resize import resize
 from etot_cli.specs.scene import Scene
 
 TRIES = 50
@@ -77,8 +78,8 @@ def vary(scene: Scene, seed: int) -> Scene:
         draws = {name: _draw(seed, attempt, name) for name in scene.objects}
         varied = _varied(scene, draws, amplitude)
         if next(placement_problems(varied), None) is None:
-            return varied
-    return _varied(scene, {name: _draw(seed, 0, name) for name in scene.objects}, 0.0)
+            return resize(varied, seed)
+    return resize(_varied(scene, {name: _draw(seed, 0, name) for name in scene.objects}, 0.0), seed)
 
 
 def _draw(seed: int, attempt: int, name: str) -> _Draw:

@@ -34,6 +34,14 @@ class Trajectory:
     key_times: tuple[float, ...] = ()
     """Moments worth a picture, in seconds."""
 
+    def followed_by(self, other: Trajectory, after_s: float) -> Trajectory:
+        """This one and another that began ``after_s`` [s] later."""
+        return Trajectory(
+            np.concatenate([self.times, other.times]),
+            np.concatenate([self.qpos, other.qpos]),
+            (*self.key_times, *(moment + after_s for moment in other.key_times)),
+        )
+
 
 class Recorder:
     """Collects what happens during one action. Call :meth:`observe` at a fixed period."""

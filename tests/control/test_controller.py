@@ -83,7 +83,7 @@ def grasp(world: SimulatedWorld, start: Snapshot) -> Motion:
 def motion_of(world: SimulatedWorld, start: Snapshot, text: str) -> Motion:
     (action,) = parse_plan(text)
     belief = world.believe(start)
-    motion = next(plan_motions(belief, action, world.start()[1]))
+    motion = next(plan_motions(belief, action))
     assert isinstance(motion, Motion), motion
     return motion
 

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from etot_cli.control import simulated_world
-from etot_cli.control.simulated_world import ATTEMPTS, Performed
+from etot_cli.control import physics_world, simulated_world
+from etot_cli.control.physics_world import Performed
+from etot_cli.control.simulated_world import ATTEMPTS
 from etot_cli.skills.motion.motion import Motion, Trace
 from etot_cli.skills.outcome import DONE, SkillOutcome, failed
 from etot_cli.world.state import CauseKind
@@ -24,8 +25,8 @@ class Rehearsal:
         self.worked_out = 0
         self._outcomes = iter(outcomes)
         patch.setattr(simulated_world, "plan_motions", lambda *_: self._motions())
-        patch.setattr(simulated_world, "outcome_of", lambda *_: next(self._outcomes))
-        patch.setattr(simulated_world, "run_motion", lambda *_, **__: Trace(()))
+        patch.setattr(physics_world, "outcome_of", lambda *_: next(self._outcomes))
+        patch.setattr(physics_world, "run_motion", lambda *_, **__: Trace(()))
 
     def _motions(self) -> Iterator[Motion]:
         while True:

@@ -125,6 +125,10 @@ class ToySimulator:
             future.set_exception(error)
         return future
 
+    def fresh(self, worlds: int) -> ToySimulator:
+        """Another simulator by the same rule."""
+        return ToySimulator(self._rule, worlds=worlds)
+
     def close(self) -> None:
         self.closed = True
         if self._pool is not None:

@@ -13,11 +13,13 @@ from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.trials import CHOOSING_WORLDS
 from etot_cli.reporting.files import claim_folder, report_text, write_atomically, write_report
 from etot_cli.reporting.models import Report
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.schemas import REPORTS, schema_text
-from etot_cli.world.state import CauseKind
+from etot_cli.skills.action import Action
+from etot_cli.world.state import Cause, CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails, plan
 from tests.reporting.toy_rooms import ToyRooms
 
@@ -78,7 +80,24 @@ def test_plan_report_of_a_search_with_everything_in_it() -> None:
     statistics = document["statistics"]
     assert statistics["simulated_s"] == sum(node["simulated_s"] for node in nodes)  # type: ignore[index]
     assert set(document["versions"]) == {"etot", "python", "mujoco", "numpy"}  # type: ignore[call-overload]
-    assert set(document["timing"]["phases"]) == {"load", "world", "search"}  # type: ignore[index]
+    assert set(document["timing"]["phases"]) == {
+        "load", "world", "search", "trials",
+    }  # type: ignore[index]  # fmt: skip
+
+
+def test_odds_come_from_worlds_that_did_not_choose_the_plan() -> None:
+    """In every second world the plan's last action fails; the search's own worlds are spared."""
+
+    def rule(history: str, action: Action, world: int) -> Cause | None:
+        wrong = world >= CHOOSING_WORLDS and world % 2 and action.target == "b"
+        return Cause(CauseKind.SLIP, ("b",), "slipped") if wrong else None
+
+    simulator = ToySimulator(rule, worlds=CHOOSING_WORLDS)
+    options = PlanOptions(task=Path("toy.yaml"), worlds=20)
+    document = validate(planned(simulator, ToyReasoner(["a b"]), options))
+    survival = document["survival"]
+    # Of worlds 1 to 20 the odd ones from 5 to 19 fail.
+    assert survival["worlds"] == 20 and survival["alive"] == 12  # type: ignore[index,call-overload]
 
 
 @pytest.mark.parametrize(("asked", "opened"), [(None, 3), (2, 2)])
@@ -86,6 +105,7 @@ def test_worlds_are_the_tasks_unless_asked_for(asked: int | None, opened: int) -
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), worlds=3)
     report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=asked), rooms=rooms.rooms())
     assert rooms.worlds == opened
+    assert rooms.fresh_worlds == 1 + opened, "the nominal world is not counted"
     assert report.options.worlds == opened
 
 

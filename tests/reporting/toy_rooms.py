@@ -46,6 +46,7 @@ class ToyRooms:
         self.varied_with: int | None = None
         self.recorded: bool | None = None
         self.worlds: int | None = None
+        self.fresh_worlds: int | None = None
 
     def rooms(self) -> Rooms:
         return Rooms(
@@ -72,8 +73,21 @@ class ToyRooms:
         self.varied_with = seed
         return scene
 
-    def _open(self, scene: Scene, *, seed: int, jobs: int, worlds: int, record: bool) -> Simulator:
+    def _open(
+        self,
+        scene: Scene,
+        *,
+        seed: int,
+        jobs: int,
+        worlds: int,
+        record: bool,
+        fresh: bool = False,
+        truth: Scene | None = None,
+    ) -> Simulator:
         self._interrupt("open")
+        if fresh:
+            self.fresh_worlds = worlds
+            return self.simulator.fresh(worlds)
         self.recorded, self.worlds = record, worlds
         if self._interrupt_in == "search":
             return _Interrupting(self.simulator)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from etot_cli.control.physics_world import Performed
 from etot_cli.control.simulated_robot import SimulatedRobot
-from etot_cli.control.simulated_world import Performed, SimulatedWorld
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import parse_plan
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary

@@ -13,6 +13,7 @@ from etot_cli.specs.checks import check_scene
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.objects import Cup, Sphere
 from etot_cli.specs.placement import place_all
+from etot_cli.specs.resize import LENGTHS
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from tests.specs.helpers import objects, write
@@ -50,7 +51,12 @@ def test_draws_are_valid_bounded_and_reproducible(nominal: Scene, seed: int) -> 
                 assert abs(shift) <= bound.position_m + 1e-12
             turn = math.remainder(other.yaw_deg - item.yaw_deg, 360)
             assert abs(turn) <= bound.yaw_deg + 1e-9
-        same = {"at", "yaw_deg", "quaternion", "friction", "mass"}
+        lengths = LENGTHS.get(type(item), ())
+        for key in lengths:
+            one, two = getattr(item, key), getattr(other, key)
+            if one is not None:
+                assert two == pytest.approx(one, rel=nominal.perception.size + 1e-9)
+        same = {"at", "yaw_deg", "quaternion", "friction", "mass", *lengths}
         assert other.model_dump(exclude=same) == item.model_dump(exclude=same)
 
 
@@ -179,7 +185,7 @@ def test_crowded_scenes_are_drawn_with_less_amplitude(tmp_path: Path) -> None:
 def test_nothing_to_vary(tmp_path: Path) -> None:
     nominal = scene(
         tmp_path,
-        "variation: {position_m: 0, yaw_deg: 0, friction: 0, mass: 0}",
+        "variation: {position_m: 0, yaw_deg: 0, friction: 0, mass: 0, size: 0}",
         a="{kind: sphere, diameter: 0.05, at: [0.3, 0.1], mass: 0.1}",
     )
     assert vary(nominal, 4) == nominal

@@ -156,7 +156,8 @@ def _carried(
 def _supports(belief: Belief, name: str) -> set[str]:
     """Objects that touch it now, from below or the side, and so may do during the lift."""
     world, data = belief.world, belief.data
-    found: set[str] = set()
+    state = belief.scene.states[name]
+    found = {address.split(".")[0] for address in (*state.on, state.inside or name)} - {name}
     for one, two in data.contact.geom:
         first, second = world.geom_object[int(one)], world.geom_object[int(two)]
         if first == name:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 import numpy as np
 
@@ -33,14 +34,19 @@ TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
 
 
-def pick_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcome]:
-    """Motions that pick the target up, best first; the reason as the only item where none does."""
+def pick_motions(
+    belief: Belief, action: Action, rehearsed: Motion | None = None
+) -> Iterator[Motion | SkillOutcome]:
+    """Motions that pick the target up, best first; the reason as the only item where none does.
+
+    The grasp of a ``rehearsed`` motion comes first, where the object now is.
+    """
     name = action.target
     found = sample_grasps(belief.world, belief.solids, belief.data, name, action.pose)
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
-    for candidate in _variants(found):
+    for candidate in chain(_again(belief, name, rehearsed), _variants(found)):
         belief.checker.freeze(belief.data)
         result = prepare_grasp(belief, name, candidate, blockers)
         if result is None:
@@ -58,6 +64,17 @@ def pick_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutco
     if not prepared:
         opening = belief.world.robot.spec.gripper.opening
         yield _explain(name, opening, found, blockers.evidence(unreachable))
+
+
+def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Grasp]:
+    """The grasp of an earlier motion, at the object's present pose."""
+    if rehearsed is None or rehearsed.tool_at is None:
+        return
+    tool = belief.object_pose(name) @ rehearsed.tool_at.pose
+    level = abs(float(tool.rotation[2, 2])) < 0.5
+    pose = GraspPose.HORIZONTAL if level else GraspPose.VERTICAL
+    details = rehearsed.details
+    yield Grasp(tool, details["width"], details["opening"], pose, 0.0)
 
 
 def _motion(belief: Belief, action: Action, prepared: PreparedGrasp) -> Motion | None:
@@ -120,16 +137,15 @@ def pick_outcome(
     )
 
 
-def pick_precondition(belief: Belief, action: Action, scene: SceneState) -> SkillOutcome | None:
+def pick_precondition(belief: Belief, action: Action) -> SkillOutcome | None:
     """Why it makes no sense to pick the target up now, if so."""
-    name = action.target
-    if scene.holding is not None:
-        text = f"the hand already holds {scene.holding}"
-        return failed(CauseKind.PRECONDITION, [scene.holding], text)
+    name, holding = action.target, belief.held()
+    if holding is not None:
+        return failed(CauseKind.PRECONDITION, [holding], f"the hand already holds {holding}")
     entry = belief.world.entries.get(name)
     if entry is None or not entry.info.movable:
         return failed(CauseKind.PRECONDITION, [name], f"{name} cannot be picked up")
-    if scene.states[name].lost:
+    if belief.scene.states[name].lost:
         return failed(CauseKind.UNREACHABLE, [name], f"{name} is off the desk")
     return None
 

@@ -110,6 +110,13 @@ class FramedPose:
     position: tuple[float, float, float]
     quaternion: tuple[float, float, float, float]
 
+    @property
+    def pose(self) -> Pose:
+        """The same in the frame's own coordinates."""
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, np.array(self.quaternion))
+        return Pose(np.array(self.position), rotation.reshape(3, 3))
+
 
 def framed(frame: str, origin: Pose, pose: Pose) -> FramedPose:
     """A base-frame pose in the frame called so, which now is at ``origin``."""

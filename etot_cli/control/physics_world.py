@@ -1,0 +1,166 @@
+"""A scene's simulated world: its start, and motions carried out in it with an account of them."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from etot_cli.control.controller import run_motion
+from etot_cli.control.robot import Guards
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.skills.action import Action
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.deadline import Deadline
+from etot_cli.skills.motion.motion import Motion, Trace
+from etot_cli.skills.motion.timing import JointLimits
+from etot_cli.skills.motions import outcome_of
+from etot_cli.skills.outcome import SkillOutcome
+from etot_cli.specs.scene import Scene
+from etot_cli.world.model import World, build_world
+from etot_cli.world.placing import place_objects
+from etot_cli.world.recorder import Recorder, Trajectory
+from etot_cli.world.relations import initial_memory, read_scene
+from etot_cli.world.snapshot import Snapshot, restore, save
+from etot_cli.world.state import Cause, ContactEvent, RolloutRecord, SceneState
+
+SHOVED = 0.03
+"""A robot that strikes another object further than this chose its way badly [m]."""
+SETTLE_AT_START = 1.0
+"""Time for a new scene to come to rest [s]."""
+KEY_PHASES = frozenset({"approach", "grip", "hold", "lower", "along", "rest"})
+"""Phases whose end is worth a picture."""
+
+
+@dataclass(frozen=True)
+class Performed:
+    """An action's record, end state, the motion and what became of it; trajectory if it was kept.
+
+    ``motion`` and ``trace`` are None where nothing was tried.
+    """
+
+    record: RolloutRecord
+    end: Snapshot
+    trajectory: Trajectory | None
+    motion: Motion | None = None
+    trace: Trace | None = None
+
+
+class PhysicsWorld:
+    """A world that is stepped. What is planned for it is planned elsewhere, on a belief."""
+
+    def __init__(self, scene: Scene, seed: int = 0, *, keep_frames: bool = True) -> None:
+        self.world: World = build_world(scene)
+        self.data = mujoco.MjData(self.world.model)
+        self.deadline = Deadline()
+        robot = self.world.robot.spec
+        self.limits = JointLimits(robot.speed, robot.limits.acceleration, robot.limits.jerk)
+        self.seed = seed
+        self.keep_frames = keep_frames
+        self.total_steps = 0
+
+    def start(self) -> tuple[Snapshot, SceneState]:
+        """The settled initial state."""
+        world, data = self.world, self.data
+        mujoco.mj_resetData(world.model, data)
+        place_objects(world, data)
+        home = np.array(world.robot.spec.home)
+        data.qpos[world.robot.qpos] = home
+        data.ctrl[world.robot.ctrl] = home
+        gripper = world.robot.spec.gripper
+        data.qpos[world.robot.finger_qpos] = gripper.opening / 2
+        data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
+        mujoco.mj_forward(world.model, data)
+        robot = SimulatedRobot(world, data, deadline=self.deadline)
+        robot.wait(SETTLE_AT_START, Guards(), until_rest=True)
+        self.total_steps += robot.steps
+        mujoco.mj_forward(world.model, data)
+        scene, memory = read_scene(world, data, initial_memory(world, data))
+        return save(world, data, memory), scene
+
+    def look(self, snapshot: Snapshot) -> SceneState:
+        """Brings ``data`` into a stored state and reads the scene there."""
+        restore(self.world, self.data, snapshot)
+        return read_scene(self.world, self.data, snapshot.memory)[0]
+
+    def random(self, *salt: object) -> np.random.Generator:
+        """Random numbers that depend on the seed and ``salt`` alone."""
+        digest = hashlib.sha256("/".join(map(str, (self.seed, *salt))).encode()).digest()
+        return np.random.default_rng(int.from_bytes(digest[:8], "little"))
+
+    def run(
+        self, start: Snapshot, belief: Belief, action: Action, motion: Motion
+    ) -> tuple[Performed, bool]:
+        """Runs a motion from a stored state; its account, and whether another may do better."""
+        before = self.look(start)
+        world, data = self.world, self.data
+        recorder = Recorder(world, data, keep_frames=self.keep_frames)
+        robot = SimulatedRobot(world, data, recorder, self.deadline)
+        trace = run_motion(motion, robot, self.limits, keep_targets=self.keep_frames)
+        self.total_steps += robot.steps
+        mujoco.mj_forward(world.model, data)
+        after, memory = read_scene(world, data, start.memory)
+        outcome = outcome_of(belief, action, motion, trace, after)
+        displacement = recorder.displacement()
+        record = RolloutRecord(
+            before=before,
+            after=after,
+            effect=outcome.effect,
+            cause=outcome.cause,
+            contacts=recorder.contacts(),
+            displacement=displacement,
+            swept=recorder.swept(before.holding or after.holding),
+            simulated_s=round(robot.steps * world.model.opt.timestep, 4),
+            steps=robot.steps,
+        )
+        keys = [item.end_s for item in trace.phases if item.name in KEY_PHASES]
+        trajectory = recorder.trajectory(keys)
+        performed = Performed(record, save(world, data, memory), trajectory, motion, trace)
+        struck = outcome.effect and _struck(record, action) >= SHOVED
+        return performed, outcome.another_way or struck
+
+    def unperformed(self, start: Snapshot, cause: Cause) -> Performed:
+        """The record of an action of which nothing is known but why."""
+        scene = self.look(start)
+        return Performed(RolloutRecord(scene, scene, False, cause), start, None)
+
+    def not_tried(self, start: Snapshot, reason: SkillOutcome) -> Performed:
+        """The record of an action for which there is no motion."""
+        before = self.look(start)
+        recorder = Recorder(self.world, self.data, keep_frames=self.keep_frames)
+        record = RolloutRecord(
+            before=before,
+            after=before,
+            effect=False,
+            cause=reason.cause,
+            displacement=recorder.displacement(),
+        )
+        return Performed(record, start, recorder.trajectory(()))
+
+
+def _struck(record: RolloutRecord, action: Action) -> float:
+    """How far robot or held object struck an object that the action has no business with [m]."""
+    holding = record.before.holding
+    acted = {action.target, action.target.split(".")[0], holding} - {None}
+    carried = {
+        other
+        for other, state in record.before.states.items()
+        if state.inside in acted or acted & set(state.on) or other in acted
+    }
+    movers = {"robot", "gripper", holding, record.after.holding}
+    hit = {
+        other.split(".")[0]
+        for event in record.contacts
+        for one, other in _both_ways(event)
+        if one in movers
+    }
+    return max(
+        (moved for name, moved in record.displacement.items() if name in hit - carried),
+        default=0.0,
+    )
+
+
+def _both_ways(event: ContactEvent) -> tuple[tuple[str, str], tuple[str, str]]:
+    return (event.first, event.second), (event.second, event.first)
