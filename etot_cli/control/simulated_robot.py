@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +33,6 @@ REST_PERIODS = 15
 """... when they stay so for so many control periods."""
 TIME_LIMIT_S = 60.0
 """Bound on the simulated time of one action [s]; the longest one seen takes 21."""
-LEVEL_SLOPE = 0.7
-"""A contact normal that rises less than this (sine) presses sideways."""
 
 
 class SimulatedRobot:
@@ -139,14 +139,10 @@ class SimulatedRobot:
         for index, (one, two) in enumerate(data.contact.geom):
             row = int(data.contact.efc_address[index])
             if row >= 0:
-                presses.append(
-                    Press(
-                        world.geom_address[int(one)],
-                        world.geom_address[int(two)],
-                        float(data.efc_force[row]),
-                        abs(float(data.contact.frame[index][2])) < LEVEL_SLOPE,
-                    )
-                )
+                rise = float(data.contact.frame[index][2])
+                sideways = float(data.efc_force[row]) * math.sqrt(max(0.0, 1.0 - rise**2))
+                pair = world.geom_address[int(one)], world.geom_address[int(two)]
+                presses.append(Press(*pair, sideways))
         return Contacts(tuple(touched_by_robot(world, data)), tuple(presses))
 
     def _tick(self) -> None:

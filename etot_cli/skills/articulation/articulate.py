@@ -33,7 +33,7 @@ TOOL_SPEED = 0.16
 GRIP_TIME, RELEASE_TIME = 0.45, 0.35
 SETTLE_TIME = 1.2
 PRESSED = 0.3
-"""An object that the part presses on harder than this is in its way [N]."""
+"""An object that the part presses on sideways harder than this is in its way [N]."""
 EXIT_SPACING = 3
 """Ways out are worked out for every so many waypoints along the part's path."""
 
@@ -185,7 +185,7 @@ def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
         for first, second in ((press.first, press.second), (press.second, press.first)):
             name = second.split(".")[0]
             ours = first.split(".")[0] == part.info.owner
-            if press.level and ours and name in entries and entries[name].info.movable:
-                force[name] = force.get(name, 0.0) + press.force
+            if ours and name in entries and entries[name].info.movable:
+                force[name] = force.get(name, 0.0) + press.sideways
     ranked = sorted(force.items(), key=lambda item: (-item[1], item[0]))
     return [name for name, value in ranked if value > PRESSED]

@@ -151,14 +151,13 @@ class Motion:
 
 @dataclass(frozen=True)
 class Press:
-    """A contact at the moment when a phase was stopped: two addresses, the normal force [N], and
-    whether it acts sideways rather than up or down.
+    """A contact at the moment when a phase was stopped: two addresses, and the part of the normal
+    force that acts sideways rather than up or down [N].
     """
 
     first: str
     second: str
-    force: float
-    level: bool
+    sideways: float
 
 
 @dataclass(frozen=True)
