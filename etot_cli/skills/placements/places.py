@@ -73,9 +73,9 @@ TURN_COST = 0.02
 """Cost of each further turn that a hand may go through a front with [m]."""
 TOUCH = 0.001
 """What is this close below an object's underside bears it [m]."""
-STABLE = 0.006
+STABLE, STABLE_SHARE = 0.006, 0.35
 """The centre of mass must be this far inside of what bears a thing that does not stand on an even
-floor [m], more than a placement errs."""
+floor: more than a placement errs [m], and so much of the thing's own half width."""
 DIRECTIONS = 16
 """Sides from which that is looked at."""
 NEXT_ROOM = 1.1
@@ -254,6 +254,8 @@ class PlaceFinder:
             # Over an edge there is nothing beside it that the floor's free cells would show.
             kind[within & bearable & (lift > -FLAT)] = Quality.PILED
         usable = stands & clear & bearable
+        if not support.is_even:
+            return kind
         kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
         too_tall = ~within if not self._has_lid else lift + height > support.room
         kind[usable & too_tall] = -1 if support.from_front else Quality.STICKS_OUT
@@ -340,7 +342,8 @@ class PlaceFinder:
         angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
         sides = np.stack([np.cos(angles), np.sin(angles)])
         reach = (turned.object.cells[touching] * self.relief.cell @ sides).max(axis=0)
-        return bool((reach >= mass @ sides + STABLE).all())
+        half = float(np.ptp(turned.object.cells, axis=0).min()) * self.relief.cell / 2
+        return bool((reach >= mass @ sides + max(STABLE, STABLE_SHARE * half)).all())
 
     def _room_left(
         self, table: Sequence[_Turned], found: Sequence[tuple[float, int, int]]

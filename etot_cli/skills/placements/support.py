@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.world.index import Region, Surface
+from etot_cli.world.index import Region
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.state import DESK
 
@@ -40,6 +40,7 @@ class Support:
         is_container: it has walls, and what is let go in it falls no further than its floor.
         from_front: got at level, through the side that ``axes[0]`` points to.
         owner: the object that it belongs to; None for the desk.
+        is_even: a plane; else what lies on it lies on its highest points.
     """
 
     address: str
@@ -51,6 +52,7 @@ class Support:
     is_container: bool = False
     from_front: bool = False
     owner: str | None = None
+    is_even: bool = True
 
     def local(self, points: Vector) -> Vector:
         """Base-frame points (m, 2) in the floor's frame [m]."""
@@ -71,13 +73,14 @@ def surface_support(belief: Belief, address: str) -> Support | None:
         return Support(DESK, np.array([*desk.center, desk.top]), np.eye(2), half)
     surface = belief.world.surfaces.get(address)
     if surface is None:
-        return None
+        # A lid or a board lies on the rim of a vessel.
+        return _whatever_is_up(belief, address) if address in belief.world.regions else None
     if surface.space is not None:
         return _space(belief, address, surface.space, is_container=False)
     body = belief.data.body(surface.body)
     rotation = body.xmat.reshape(3, 3)
     if rotation[2, 2] < LEVEL:
-        return _whatever_is_up(belief, surface)
+        return _whatever_is_up(belief, address)
     center = body.xpos + rotation @ np.array(surface.center)
     return Support(
         address,
@@ -131,11 +134,11 @@ def _level_axes(rotation: Vector) -> Vector:
     return np.array([first, [-first[1], first[0]]])
 
 
-def _whatever_is_up(belief: Belief, surface: Surface) -> Support:
-    """The bounds of an object that does not stand as it was made to."""
-    name = surface.address.split(".")[0]
+def _whatever_is_up(belief: Belief, address: str) -> Support:
+    """The highest points of an object that has no even top as it stands, and the bounds of it."""
+    name = address.split(".")[0]
     low, high = object_bounds(belief.world, belief.data, name)
     center = (low + high) / 2
     center[2] = high[2]
     half = (high - low)[:2] / 2
-    return Support(surface.address, center, np.eye(2), half, owner=name)
+    return Support(address, center, np.eye(2), half, owner=name, is_even=False)
