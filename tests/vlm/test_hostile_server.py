@@ -20,6 +20,7 @@ from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.notes import Notebook
 from etot_cli.reasoning.vlm.player import Received, Reply
 from etot_cli.reasoning.vlm.prompts import Prompts
+from etot_cli.reasoning.vlm.reading.plans import read_plans, read_revision
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
 from tests.vlm.conftest import Make
 from tests.vlm.scenes import kitchen
@@ -155,3 +156,31 @@ def test_a_plan_that_does_not_do_the_task_is_no_plan(
     assert code == 1 and report["status"] == "infeasible" and report["plan"] == []
     shown = " ".join(capsys.readouterr().out.split())
     assert said in shown, shown
+
+
+@pytest.mark.parametrize(
+    "reply",
+    [
+        "1. [PICK UP, ball]\n[SPIN, ball]\n2. [PUT ON, chest]",
+        "1. [PICK UP, ball]\nput it on the chest\n2. [OPEN, chest]",
+        "[OPEN, chest]\n[WIPE, ball]\n[CLOSE, chest]",
+        "1. [PICK UP, ball]\n2. [PUT ON]\n3. [OPEN, chest]",
+        "- [OPEN, chest]\n- [CLOSE]\n- [OPEN, chest]",
+        "1. [PICK UP, ball]\n[PUT DOWN]\n2. [OPEN, chest]",
+    ],
+)
+def test_no_step_is_lost_in_silence(reply: str) -> None:
+    found = read_plans(reply)
+    assert found.plans and found.plans[0].problems, found
+
+
+@pytest.mark.parametrize(
+    "reply",
+    [
+        "1. [PICK UP, ball]\n2. [PUT ON, chest]\n… but that does not help. Answer: None",
+        "One could try [PICK UP, ball], [PUT ON, desk].\nThat would not work.\n\nNone.",
+    ],
+)
+def test_the_last_word_counts(reply: str) -> None:
+    found = read_revision(reply)
+    assert found.none and not found.plans

@@ -47,6 +47,13 @@ _NO_PLAN = re.compile(
     r"(?i)\b(?:no (?:feasible |valid |possible )?(?:correction|revision|corrective (?:task )?plan|"
     r"corrected (?:task )?plan)\b|cannot be corrected|none of the (?:corrections?|abilities) )"
 )
+_NONE_AT_LAST = re.compile(
+    r"(?is)\b(?:answer|output|result|correction|corrected (?:task )?plan|verdict)\s*[:=]\s*none"
+    r"[\s*_\"'`\])]*[.!]?\s*$"
+)
+_BRACKETED = re.compile(r"^[\s>*_`]*\[\s*[A-Za-z][A-Za-z _-]{1,30}\s*(?:,[^\[\]]{0,60})?\]")
+MOST_WORDS = 8
+"""Of a phrase that is an action and nothing else."""
 _TITLE_PREFIX = re.compile(r"^(?P<title>[^\[\](){}<>]{1,90}?[:：])\s*(?P<rest>[\[(（{<【「《⟨].*)$")
 
 
@@ -83,11 +90,15 @@ class _Block:
     """Number of its last step, in a numbered list."""
     pending: list[str] = field(default_factory=list)
     """List items since the last step that are no steps."""
+    doubtful: list[str] = field(default_factory=list)
+    """Lines since the last step that look like steps: an action lost in the middle of a plan
+    makes another plan of it."""
 
     def add(self, step: RawStep | Misread) -> None:
-        for text in self.pending:
+        for text in (*self.pending, *self.doubtful):
             self.problems.append(f"cannot read {text[:60]!r} as an action")
         self.pending.clear()
+        self.doubtful.clear()
         if isinstance(step, Misread):
             self.problems.append(step.text)
         elif len(self.steps) >= MAX_PLAN_ACTIONS:
@@ -127,6 +138,10 @@ def read_plans(reply: str) -> ReadPlans:
 def read_revision(reply: str) -> ReadPlans:
     """The one plan that a reply comes to, in ``plans``; its last, where it weighs several."""
     found = read_plans(reply)
+    lines = reply.strip().splitlines()
+    if found.plans and (_NONE_AT_LAST.search(reply) or (lines and _NONE.match(lines[-1]))):
+        # What it weighed before is not what it comes to.
+        return ReadPlans((), none=True)
     return ReadPlans(found.plans[-1:], found.none, found.goal_holds, found.problems)
 
 
@@ -171,6 +186,9 @@ def _blocks(lines: list[Line], *, loose: bool) -> list[_Block]:
             ):
                 block.pending.append(line.text)
                 continue
+            if block is not None and not loose and _looks_like_step(line):
+                block.doubtful.append(line.text)
+                continue
             if _BRANCH_TITLE.match(line.text) or not (line.indented or line.text.startswith("(")):
                 broken = True
                 title = line.text
@@ -186,6 +204,16 @@ def _blocks(lines: list[Line], *, loose: bool) -> list[_Block]:
         broken = False
         title = ""
     return [block for block in blocks if block.steps or block.problems]
+
+
+def _looks_like_step(line: Line) -> bool:
+    """Whether a line that is no step stands where one should, or in the words of one."""
+    if line.text.endswith(":") or _BRANCH_TITLE.match(line.text) or line.indented:
+        return False
+    if _BRACKETED.match(line.text):
+        return True
+    phrase = bare_step(line.text)
+    return phrase is not None and len(line.text.split()) <= MOST_WORDS
 
 
 def _follows(block: _Block, line: Line, title: str, broken: bool) -> bool:
