@@ -52,7 +52,7 @@ class Summary:
         if self._verbosity is Verbosity.QUIET:
             self._line(f"{report.status}: {_answer(report, failures)}")
             return
-        self._headline(report.status, report.task.instruction)
+        self._headline(report.status, report.task.instruction, _stopped_by(report))
         if report.understood.goal_holds:
             self._say("The goal already holds; there is nothing to do.", 2)
         by_id = {node.id: node for node in report.tree.nodes}
@@ -95,9 +95,9 @@ class Summary:
             self._say(report.cause, 2)
         self._files(path, report.files)
 
-    def _headline(self, status: str, instruction: str) -> None:
+    def _headline(self, status: str, instruction: str, instead: str = "") -> None:
         line = badge(status, self._unicode)
-        line.append(f" {HEADLINES[status]}", style=LOOKS[status].style)
+        line.append(f" {instead or HEADLINES[status]}", style=LOOKS[status].style)
         if instruction:
             line.append(f"  {instruction}", style="italic")
         self._console.print()
@@ -213,6 +213,15 @@ class Summary:
 def _name(action: str, safe: bool) -> Text:
     text = Text(action)
     return text.append(" safe place", style="dim") if safe else text
+
+
+def _stopped_by(report: PlanReport) -> str:
+    """What to say instead of "no plan" where it was not the search that came to that."""
+    if report.status == "limit" and report.statistics.limit == "service":
+        return "stopped: the model cannot be asked"
+    if report.status == "infeasible" and report.vlm is not None and report.stopped:
+        return "stopped: the model gave no plan that can be used"
+    return ""
 
 
 def _refused(doubt: DoubtModel) -> str:

@@ -119,7 +119,8 @@ class Asker:
         try:
             return self._client.ask(question)
         except ServiceError as error:
-            raise ReasonerStopped(StopReason.SERVICE, str(error)) from None
+            said = f"the question {question.role!r} got no answer: {error}"
+            raise ReasonerStopped(StopReason.SERVICE, said) from None
 
     def _question(
         self,

@@ -120,17 +120,20 @@ class ChatClient:
     def _ask_server(self, question: Question) -> Answer:
         give_up = time.monotonic() + self.settings.patience_s
         retries = adaptations = 0
+        rung = self._terms.rung
         while True:
-            rung = self._terms.rung
+            rung = max(rung, self._terms.rung)
             try:
                 answer = self._send(question, rung, give_up - time.monotonic())
+                self._terms.answered(rung)
             except Problem as problem:
                 self.accounts.failed(question.role)
-                if adaptations < MAX_ADAPTATIONS and self._terms.adapt(
-                    problem, question, rung, retries
-                ):
-                    adaptations += 1
-                    continue
+                if adaptations < MAX_ADAPTATIONS:
+                    looser = self._terms.trial(problem, question, rung, retries)
+                    if looser is not None or self._terms.adapt(problem, question, rung):
+                        rung = rung if looser is None else looser
+                        adaptations += 1
+                        continue
                 wait = self._wait_before(problem, retries)
                 left = give_up - time.monotonic()
                 if problem.remedy is not Remedy.RETRY or retries >= self.settings.retries:
@@ -158,7 +161,8 @@ class ChatClient:
                                                                      left_s)),
             )  # fmt: skip
         except WireError as error:
-            raise Problem(Remedy.RETRY, self.redact.excerpt(str(error)), 0) from None
+            remedy = Remedy.RETRY if error.passing else Remedy.NONE
+            raise Problem(remedy, self.redact.excerpt(str(error)), 0) from None
         return read_response(response, self.redact)
 
     def _open_wire(self) -> Wire:
@@ -166,7 +170,7 @@ class ChatClient:
             if self._wire is None:
                 settings = self.settings
                 headers = {"Content-Type": "application/json", "Accept": "application/json",
-                           "User-Agent": "etot"}  # fmt: skip
+                           "User-Agent": "etot", **settings.headers}  # fmt: skip
                 url = self.url
                 if settings.key is not None:
                     key = settings.key.get_secret_value()

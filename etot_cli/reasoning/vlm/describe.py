@@ -8,6 +8,8 @@ from etot_cli.skills.action import Action
 from etot_cli.world.state import DESK, ObjectInfo, RolloutRecord, SceneState
 
 MAX_EVENTS = 8
+MAX_LABEL = 80
+"""Of a label in a question; it is a noun with a few words [characters]."""
 NOTABLE_FORCE = 0.1
 """Contacts with less force tell nothing [N]."""
 AT_START_S = 0.05
@@ -35,8 +37,9 @@ def catalogue(scene: SceneState) -> str:
 def _entry(info: ObjectInfo) -> str:
     facts = []
     plain = info.name.replace("_", " ").lower()
-    if info.label != plain:
-        facts.append(info.label)
+    label = _one_line(info.label)
+    if label != plain:
+        facts.append(label)
     if info.color is not None and info.color not in plain and info.color not in info.label:
         facts.append(info.color)
     sides = " × ".join(f"{side * 100:.0f}" for side in info.size)
@@ -51,6 +54,12 @@ def _entry(info: ObjectInfo) -> str:
         what = "drawer" if part.joint_type == "slide" else "door"
         facts.append(f"has a {what} ({part.address})")
     return f"{info.name}: {', '.join(facts)}"
+
+
+def _one_line(text: str) -> str:
+    """A label as part of a line: what looks like another line of the list would forge one."""
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return line[:MAX_LABEL].replace("- ", "")
 
 
 def states(scene: SceneState, name: str) -> str:

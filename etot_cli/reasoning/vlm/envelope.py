@@ -26,6 +26,10 @@ _NO_VISION = re.compile(
     r"(?i)(image|vision|multimodal|mmproj)[^.]{0,60}(not support|unsupported|not available|cannot)"
     r"|(not support|unsupported)[^.]{0,60}(image|vision|multimodal)"
 )
+_FEWER = re.compile(
+    r"(?i)(at most|maximum of|up to|only|more than|limit of|too many)[^.]{0,20}"
+    r"\b(\d+|one|single)?\s*image"
+)
 _THOUGHTS = re.compile(r"(?is)<think(?:ing)?>.*?</think(?:ing)?>")
 EXCERPT = 240
 MAX_REPLY = 100_000
@@ -77,10 +81,13 @@ def read_response(response: Response, redact: Redactor) -> Answer:
             "--vlm-url",
             response.status,
         )
-    data = _json(response)
+    data = _streamed(response) if "event-stream" in response.content_type else _json(response)
+    if response.status == 400 and _filtered(data):
+        said = "the server's content filter refused the question"
+        return Answer("", Trouble.FILTERED, said, Usage())
     if response.status != 200 or (isinstance(data, dict) and data.get("error")):
         raise _problem(response, data, redact)
-    if "json" not in response.content_type:
+    if not re.search("json|event-stream", response.content_type):
         kind = response.content_type or "no content type"
         raise Problem(
             Remedy.NONE,
@@ -97,6 +104,33 @@ def _json(response: Response) -> object:
         return json.loads(response.body)
     except (ValueError, RecursionError):
         return None
+
+
+def _streamed(response: Response) -> object:
+    """A reply sent in pieces, put together as if it had come whole."""
+    text: list[str] = []
+    reason: object = None
+    usage: object = None
+    for line in response.body.decode("utf-8", "replace").splitlines():
+        if not line.startswith("data:") or line[5:].strip() == "[DONE]":
+            continue
+        try:
+            piece = json.loads(line[5:])
+        except (ValueError, RecursionError):
+            return None
+        if not isinstance(piece, dict):
+            return None
+        if piece.get("error"):
+            return piece
+        usage = piece.get("usage") or usage
+        choices = piece.get("choices")
+        choice = choices[0] if isinstance(choices, list) and choices else {}
+        if isinstance(choice, dict):
+            delta = choice.get("delta")
+            text.append(_content(delta.get("content")) if isinstance(delta, dict) else "")
+            reason = choice.get("finish_reason") or reason
+    message = {"role": "assistant", "content": "".join(text)}
+    return {"choices": [{"message": message, "finish_reason": reason}], "usage": usage}
 
 
 def _answer(data: dict[str, Any], redact: Redactor) -> Answer:
@@ -179,6 +213,12 @@ def _usage(data: object) -> Usage:
     return Usage(sent or 0, received or 0, float(str(cost)) if known else None, stated=True)
 
 
+def _filtered(data: object) -> bool:
+    """Whether an error is that of a filter in front of the model, as Azure has one."""
+    error = data.get("error") if isinstance(data, dict) else None
+    return isinstance(error, dict) and "content_filter" in (error.get("code"), error.get("type"))
+
+
 def _problem(response: Response, data: object, redact: Redactor) -> Problem:
     """Sorts an error by what can be done about it."""
     error = data.get("error", data) if isinstance(data, dict) else None
@@ -199,6 +239,11 @@ def _problem(response: Response, data: object, redact: Redactor) -> Problem:
         return Problem(
             Remedy.NONE, f"the model takes no images ({text}); choose another --model, or set "
             "ETOT_VLM_IMAGES=0 to plan without frames", status,
+        )  # fmt: skip
+    if status in (400, 422) and _FEWER.search(message):
+        return Problem(
+            Remedy.NONE, f"the server takes fewer pictures in one question ({text}); set "
+            "ETOT_VLM_IMAGES to what it takes, e.g. 1", status,
         )  # fmt: skip
     if status == 413 or (status == 400 and _TOO_LARGE.search(message)):
         return Problem(Remedy.SMALLER, f"the request is too large ({text})", status)

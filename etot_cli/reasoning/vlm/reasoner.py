@@ -6,7 +6,7 @@ simulation the world's exact state has the last word on success and harm unless 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.builtin.acceptance import doubts_of
 from etot_cli.reasoning.protocol import (
@@ -48,6 +48,8 @@ class VlmReasoner:
         judge: who decides whether an action succeeded.
         state: judges by the world's exact state; None where there is none, as on a real robot, and
             then the model judges alone.
+        nominal: tells records of the nominal world from those of varied ones, where there are no
+            pictures to tell by; None takes all for nominal.
         marks: number the objects in the first picture.
         probe: before the first question, find out whether the model sees pictures at all.
     """
@@ -59,6 +61,7 @@ class VlmReasoner:
         frames: FrameSource | None,
         judge: Judge = "both",
         state: Reasoner | None = None,
+        nominal: Callable[[RolloutRecord], bool] | None = None,
         marks: bool = False,
         probe: bool = False,
     ) -> None:
@@ -66,6 +69,7 @@ class VlmReasoner:
         self._frames = frames if asker.pictures else None
         self._judge: Judge = judge if state is not None else "vlm"
         self._state = state
+        self._nominal = nominal
         self._marks = marks
         self._probe = probe and self._frames is not None
         self._instruction = ""
@@ -130,6 +134,8 @@ class VlmReasoner:
         """
         by_state = None if self._state is None else self._state.judge(action, record)
         if self._judge == "state" and by_state is not None:
+            return by_state
+        if self._nominal is not None and by_state is not None and not self._nominal(record):
             return by_state
         pictures = [] if self._frames is None else list(self._frames.rollout(record, 2))
         if not pictures and self._frames is not None and by_state is not None:

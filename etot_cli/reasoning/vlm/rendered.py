@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from concurrent.futures import Future
+from typing import Protocol
 
 import mujoco
 import numpy as np
@@ -52,7 +53,7 @@ class RenderedFrames:
 
     def watch(self, simulator: Simulator) -> Simulator:
         """The same simulator; what it simulates can be looked at afterwards."""
-        return _Watched(simulator, self)
+        return Watched(simulator, self)
 
     def remember(self, outcome: WorldOutcome) -> None:
         """Makes an action of the nominal world available to :meth:`rollout`."""
@@ -119,12 +120,35 @@ class RenderedFrames:
         return np.array(data.qpos)
 
 
-class _Watched:
-    """A simulator that shows every nominal outcome to a renderer."""
+class Witness(Protocol):
+    """Is shown what happens in the nominal world."""
 
-    def __init__(self, simulator: Simulator, frames: RenderedFrames) -> None:
+    def remember(self, outcome: WorldOutcome) -> None:
+        """An action has been simulated there."""
+        ...
+
+
+class Unseen:
+    """Knows which records are those of the nominal world, where no pictures are taken of it."""
+
+    def __init__(self) -> None:
+        self._outcomes: dict[int, WorldOutcome] = {}
+
+    def remember(self, outcome: WorldOutcome) -> None:
+        """By identity, as the pictures do; the outcome is kept, so that its id stays its own."""
+        self._outcomes[id(outcome.record)] = outcome
+
+    def knows(self, record: RolloutRecord) -> bool:
+        """Whether a record is of the nominal world."""
+        return id(record) in self._outcomes
+
+
+class Watched:
+    """A simulator that shows every nominal outcome to a witness."""
+
+    def __init__(self, simulator: Simulator, witness: Witness) -> None:
         self._simulator = simulator
-        self._frames = frames
+        self._witness = witness
 
     @property
     def jobs(self) -> int:
@@ -158,7 +182,7 @@ class _Watched:
                 outer.set_exception(error)
                 return
             simulated = done.result()
-            self._frames.remember(simulated.outcomes[0])
+            self._witness.remember(simulated.outcomes[0])
             outer.set_result(simulated)
 
         def abandoned(done: Future[Simulated]) -> None:

@@ -35,13 +35,13 @@ _STATES = _list(_object(object=_TEXT, state=_TEXT))
 
 SCENE = _object(objects=_STATES, understanding=_TEXT)
 BRANCHES = _object(
-    goal_holds={"type": "boolean"}, branches=_list(_object(reason=_TEXT, steps=_list(_STEP)))
+    branches=_list(_object(reason=_TEXT, steps=_list(_STEP))), goal_holds={"type": "boolean"}
 )
 COMPARISON = _object(
     before=_STATES,
     after=_STATES,
-    outcome=_one_of("success", "failure", "unsafe", "unsure"),
     explanation=_TEXT,
+    outcome=_one_of("success", "failure", "unsafe", "unsure"),
 )
 REVISION = _object(diagnosis=_TEXT, steps=_list(_STEP))
-VERDICT = _object(verdict=_one_of("yes", "no"))
+VERDICT = _object(reason=_TEXT, verdict=_one_of("yes", "no"))

@@ -15,7 +15,7 @@ from etot_cli.reasoning.vlm.notes import Notebook
 from etot_cli.reasoning.vlm.prompts import Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
 from etot_cli.reasoning.vlm.redact import public_url
-from etot_cli.reasoning.vlm.rendered import RenderedFrames
+from etot_cli.reasoning.vlm.rendered import RenderedFrames, Unseen, Watched
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.specs.scene import Scene
 
@@ -48,11 +48,13 @@ class VlmSession:
         self._notes = Notebook()
         self._client = ChatClient(settings)
         self._frames = RenderedFrames(scene, settings.image_width) if settings.images else None
+        self._unseen = Unseen()
         self.reasoner: Reasoner = VlmReasoner(
             Asker(self._client, prompts, self._notes, seed),
             frames=self._frames,
             judge=settings.judge,
             state=state,
+            nominal=None if self._frames is not None else self._unseen.knows,
             marks=settings.marks,
             probe=settings.probe,
         )
@@ -64,7 +66,7 @@ class VlmSession:
 
     def watch(self, simulator: Simulator) -> Simulator:
         """The simulator to search with: what it does can be looked at."""
-        return simulator if self._frames is None else self._frames.watch(simulator)
+        return Watched(simulator, self._frames or self._unseen)
 
     def account(self) -> VlmAccount:
         """What has been asked so far."""

@@ -24,6 +24,10 @@ class Rung(IntEnum):
     TEXT = 2
 
 
+BELIEVED = 2
+"""Questions in a row that a looser format has to help with before it is used at once."""
+
+
 class Terms:
     """The terms on which a server answers. Safe to use from several threads.
 
@@ -35,6 +39,7 @@ class Terms:
         self._settings = settings
         self._without: set[str] = set()
         self._longest = settings.image_width
+        self._helped = 0
         self.rung = Rung.SCHEMA
 
     def payload(self, question: Question, model: str, rung: Rung) -> dict[str, Any]:
@@ -50,7 +55,10 @@ class Terms:
                 content = [{"type": "text", "text": text}]
                 for picture in turn.pictures:
                     content.append({"type": "text", "text": picture.caption})
-                    content.append({"type": "image_url", "image_url": {"url": self._url(picture)}})
+                    image = {"url": self._url(picture)}
+                    if self._settings.image_detail is not None:
+                        image["detail"] = self._settings.image_detail
+                    content.append({"type": "image_url", "image_url": image})
             messages.append({"role": turn.speaker, "content": content})
         payload: dict[str, Any] = {"model": model, "messages": messages}
         if "max_tokens" not in self._without:
@@ -63,16 +71,20 @@ class Terms:
             payload["seed"] = question.seed
         if question.schema is not None and rung is not Rung.TEXT:
             payload["response_format"] = response_format(question, rung)
-        return payload
+        if self._settings.reasoning_effort is not None:
+            payload["reasoning_effort"] = self._settings.reasoning_effort
+        if self._settings.stream:
+            payload |= {"stream": True, "stream_options": {"include_usage": True}}
+        payload |= self._settings.body
+        return {name: value for name, value in payload.items() if value is not None}
 
-    def adapt(self, problem: Problem, question: Question, rung: Rung, retries: int) -> bool:
+    def adapt(self, problem: Problem, question: Question, rung: Rung) -> bool:
         """Changes the terms so that the server may take the question.
 
         Args:
             problem: what the server said.
             question: what it was asked.
             rung: the format that was sent.
-            retries: how often the question has been repeated unchanged.
 
         Returns:
             whether anything was left to change.
@@ -88,8 +100,23 @@ class Terms:
             fresh = problem.parameter not in self._without
             self._without.add(problem.parameter)
             return fresh
-        # Some servers fail on a schema instead of refusing it: try without before giving up.
-        return problem.status == 500 and retries >= 1 and self._step_down(question, rung)
+        return False
+
+    def trial(self, problem: Problem, question: Question, rung: Rung, retries: int) -> Rung | None:
+        """A looser format to try this once; None where that is no help.
+
+        Some servers fail on a schema instead of refusing it. Others merely fail for a while.
+        """
+        failing = problem.status == 500 and retries >= 1
+        if not failing or question.schema is None or rung is Rung.TEXT:
+            return None
+        return Rung(rung + 1)
+
+    def answered(self, rung: Rung) -> None:
+        """A question was answered at ``rung``. What helped several times in a row is kept."""
+        self._helped = self._helped + 1 if rung > self.rung else 0
+        if self._helped >= BELIEVED:
+            self.rung, self._helped = rung, 0
 
     def _step_down(self, question: Question, rung: Rung) -> bool:
         if question.schema is None or rung is Rung.TEXT:

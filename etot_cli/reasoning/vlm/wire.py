@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import contextlib
+import re
 import threading
 import zlib
 from collections.abc import Coroutine, Mapping
@@ -41,11 +42,15 @@ class Response:
 
 
 class WireError(Exception):
-    """No complete response; ``str(error)`` says why. ``connected``: the server was reached."""
+    """No complete response; ``str(error)`` says why.
 
-    def __init__(self, text: str, *, connected: bool = True) -> None:
+    ``connected``: the server was reached. ``passing``: it may be otherwise next time.
+    """
+
+    def __init__(self, text: str, *, connected: bool = True, passing: bool = True) -> None:
         super().__init__(text)
         self.connected = connected
+        self.passing = passing
 
 
 class Wire:
@@ -146,7 +151,10 @@ class Wire:
         except httpx.ConnectTimeout:
             raise WireError("no connection within the time allowed", connected=False) from None
         except httpx.ConnectError as error:
-            raise WireError(f"no connection ({_reason(error)})", connected=False) from None
+            passing = not re.search(r"(?i)\bssl\b|certificate|tls", _reason(error))
+            raise WireError(
+                f"no connection ({_reason(error)})", connected=False, passing=passing
+            ) from None
         except httpx.TimeoutException:
             raise WireError("the server fell silent") from None
         except (httpx.HTTPError, httpx.InvalidURL, OSError) as error:

@@ -43,8 +43,13 @@ class Names:
     ) -> None:
         self._exact: dict[str, set[str]] = {}
         self._phrases: list[tuple[frozenset[str], str]] = []
-        for alias, name in aliases:
+        pairs = list(aliases)
+        # A thing's own name is its own, whatever somebody called another thing.
+        own = {" ".join(words(name)): name for alias, name in pairs if alias == name}
+        for alias, name in pairs:
             key = " ".join(words(alias))
+            if own.get(key, name) != name:
+                continue
             if key and name not in self._exact.setdefault(key, set()):
                 self._exact[key].add(name)
                 self._phrases.append((frozenset(key.split()), name))
