@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import INTERRUPTED, NO, OK
-from etot_cli.cli.options import Force, Json, Out, Quiet, Seed, Verbose
+from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, Verbose
 from etot_cli.cli.session import Session
 
 
@@ -59,6 +59,7 @@ def reconstruct(
         float,
         typer.Option("--server-timeout", metavar="S", min=0.1, help="Longest wait for a server."),
     ] = 120.0,
+    html: Html = True,
     out: Out = None,
     force: Force = False,
     seed: Seed = 0,
@@ -71,7 +72,7 @@ def reconstruct(
     Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
     unusable; 3: a server is not there.
     """
-    from etot_cli.commands.reconstruct import Options, run_reconstruct
+    from etot_cli.commands.reconstruct import Options, reconstruct_capture
     from etot_cli.reporting.files import report_text
 
     session = Session(
@@ -87,8 +88,13 @@ def reconstruct(
         articulation_url=articulation_url, deadline=server_timeout,
         seed=seed,
     )  # fmt: skip
-    report = run_reconstruct(options, folder)
+    reconstruction = reconstruct_capture(options, folder)
+    report = reconstruction.report
     session.save(report)
+    if html and not report.interrupted:
+        from etot_cli.commands.reconstruct_page import write_reconstruct_page
+
+        session.add_page(report, lambda told: write_reconstruct_page(reconstruction, folder))
     if json:
         sys.stdout.flush()
         sys.stdout.buffer.write(report_text(report).encode())

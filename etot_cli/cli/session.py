@@ -105,7 +105,9 @@ class Session:
                 answer = f"{report.status}; the report: {kept}"
                 raise ServiceError(f"{error}; the answer was: {answer}") from None
 
-    def add_page(self, report: Report, write: Callable[[Progress], Path]) -> None:
+    def add_page(
+        self, report: Report | ReconstructReport, write: Callable[[Progress], Path]
+    ) -> None:
         """Writes the page beside a saved report, and the report once more with its address.
 
         What was found stays the answer whatever becomes of the page: Ctrl-C ends the rendering

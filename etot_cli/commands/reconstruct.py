@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,20 @@ __all__ = ["Options", "run_reconstruct"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
+@dataclass(frozen=True, slots=True)
+class Reconstruction:
+    """A report, and what its page needs besides it; ``twin`` is None when interrupted early."""
+
+    report: ReconstructReport
+    twin: Twin | None
+
+
 def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
+    """The report of :func:`reconstruct_capture`."""
+    return reconstruct_capture(options, folder).report
+
+
+def reconstruct_capture(options: Options, folder: Path) -> Reconstruction:
     """Reconstructs a capture and writes everything but the report into ``folder``.
 
     Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
@@ -59,7 +73,8 @@ def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
                 raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
     except KeyboardInterrupt:
         interrupted = True
-    return _report(options, twin, files, pieces, watch, interrupted=interrupted)
+    report = _report(options, twin, files, pieces, watch, interrupted=interrupted)
+    return Reconstruction(report, twin)
 
 
 def _report(

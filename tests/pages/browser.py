@@ -72,7 +72,9 @@ class Browser:
 
     def complaints(self) -> list[str]:
         """What the page wrote to its console."""
-        return [entry["message"] for entry in self.driver.get_log("browser")]
+        entries = [entry["message"] for entry in self.driver.get_log("browser")]
+        # How the software renderer of a headless browser feels about screenshots.
+        return [entry for entry in entries if "GL Driver Message" not in entry]
 
     def fetched(self) -> list[str]:
         """Addresses outside the file that the page asked for."""

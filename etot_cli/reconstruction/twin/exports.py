@@ -8,6 +8,7 @@ from xml.sax.saxutils import quoteattr
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.free import FreeForm
@@ -56,6 +57,24 @@ def object_mesh(world: World, data: mujoco.MjData, name: str, color: Any) -> Any
         mesh.apply_transform(pose)
         parts.append(mesh)
     return _painted(trimesh.util.concatenate(parts), color)
+
+
+def placed_triangles(scene: Scene) -> dict[str, NDArray[np.float64]]:
+    """By object, the corners (3 t, 3) of its visible surface's t triangles, base frame [m].
+
+    Raises:
+        WorldError: the scene cannot be built.
+    """
+    world = build_world(scene)
+    data = mujoco.MjData(world.model)
+    place_objects(world, data)
+    mujoco.mj_kinematics(world.model, data)
+    found = {}
+    for name, entry in world.entries.items():
+        mesh, root = object_mesh(world, data, name, (0.0, 0.0, 0.0)), data.body(entry.body)
+        placed = np.asarray(mesh.vertices) @ root.xmat.reshape(3, 3).T + root.xpos
+        found[name] = placed[np.asarray(mesh.faces)].reshape(-1, 3)
+    return found
 
 
 def _painted(mesh: Any, color: tuple[float, float, float]) -> Any:
