@@ -195,8 +195,8 @@ REWORDED: dict[str, dict[str, list[str]]] = {
             "[PICK UP, apple_1] [PUT INTO, bowl_2] [PICK UP, apple_2] [PUT INTO, bowl_1]",
         ],
         "Pick up the mugs and stack them on the box": [
-            "[PICK UP, mug_a] [PUT ON, box] [PICK UP, mug_b] [PUT ON, box] "
-            "[PICK UP, mug_c] [PUT ON, box]"
+            "[PICK UP, mug_a] [PUT ON, box] [PICK UP, mug_c] [PUT INTO, mug_a] "
+            "[PICK UP, mug_b] [PUT INTO, mug_c]"
         ],
     },
 }

@@ -35,7 +35,7 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
     steps: list[Step] = []
     for index, step in enumerate(goal.steps):
         later = goal.steps[index + 1 :]
-        if isinstance(step, Pick) and any(_moves(other, step.what) for other in later):
+        if isinstance(step, Pick) and _is_moved(goal, step.what, later):
             continue
         if isinstance(step, Put) and step.removal:
             kept = tuple(i for i in step.what if not any(_moves(other, i) for other in later))
@@ -56,6 +56,22 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
                 text, "turning something is no skill of its own; say where it is to go", 2
             )
     return replace(goal, steps=tuple(steps))
+
+
+def _is_moved(goal: Goal, referent: int, later: Sequence[Step]) -> bool:
+    """Whether later steps put a referent somewhere, as it is or each of its things."""
+    if any(_moves(step, referent) for step in later):
+        return True
+    options = goal.referents[referent].options
+    moved = {
+        thing
+        for step in later
+        if isinstance(step, Put)
+        for index in step.what
+        if len(goal.referents[index].options) == 1
+        for thing in goal.referents[index].options[0]
+    }
+    return len(options) == 1 and set(options[0]) <= moved
 
 
 def _moves(step: Step, referent: int) -> bool:

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.syntax import (
     Avoid,
     AvoidClause,
     Clause,
+    Destination,
     EnsureClause,
     Modifier,
     MoveClause,
@@ -55,7 +56,6 @@ _KEEPS = {
     Avoid.MOVE: Keep.UNMOVED,
     Avoid.OPEN: Keep.CLOSED,
     Avoid.CLOSE: Keep.OPEN,
-    Avoid.PUT: Keep.AWAY,
 }
 
 
@@ -130,6 +130,20 @@ class Clauses:
                 self._condition(condition, themes, places_of)
             self._add_puts(places_of, grouping)
             self.discourse.last_places = places
+            if clause.ruled_out:
+                self._rule_out(themes, clause.ruled_out)
+
+    def _rule_out(self, themes: Sequence[int], destinations: Sequence[Destination]) -> None:
+        """Says where things must not be put."""
+        names = {thing.name: None for index in themes for thing in self.discourse.things(index)}
+        text = " and ".join(self.discourse.referents[index].text for index in themes)
+        places: list[tuple[Relation, str]] = []
+        for place in self.phrases.places(destinations, themes):
+            if place.beside or place.where is None:
+                raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
+            for thing in self.discourse.things(place.where):
+                places += [(place.relation, item) for item in self._addresses(thing, place)]
+        self.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
 
     def _in_said_order(self, group: PutGroup, first: Sequence[NounPhrase]) -> list[int]:
         """The things of a group, those that are to go first before the others."""
@@ -272,6 +286,7 @@ class Clauses:
                 discourse.put_into[theme] = where
             else:
                 discourse.put_into.pop(theme, None)
+        self.discourse.put |= {*themes}
         self._steps.append(Put(tuple(themes), places, grouping, removal=removal))
 
     def _remove(self, clause: RemoveClause) -> None:
@@ -302,6 +317,11 @@ class Clauses:
             self._put_back(themes, PutGroup(Things(state.subjects), state.destinations))
             return
         places = self.phrases.places(state.destinations, themes)
+        again = [index for index in themes if index in self.discourse.put]
+        if again and any(place.beside for place in places):
+            text = self.discourse.referents[again[0]].text
+            why = "say where it goes in one: 'on the tray, next to the cup'"
+            raise ReferenceProblem(text, why, 3)
         self._add_put(themes, places, Grouping.ANY)
         self.discourse.last_places = places
 
@@ -326,19 +346,29 @@ class Clauses:
             thing for index in themes for thing in self._only(index, "say which ones to stack")
         ]
         text = " and ".join(phrase.text for phrase in clause.things.phrases)
-        if len(things) < 2:
+        if len(things) < 2 and not clause.base:
             raise ReferenceProblem(text, "a stack needs at least two things", 2)
-        things = self._upward(things, clause, text, listed=len(themes) > 1)
+        if len(things) > 1:
+            things = self._upward(things, clause, text, listed=len(themes) > 1)
         indices = [self._single(thing, thing.name) for thing in things]
+        bottom = indices[0]
+        if clause.base:
+            places = self.phrases.places(clause.base, indices)
+            self._steps.append(Put((indices[0],), places))
+            under = places[0].where
+            if len(things) == 1 and len(places) == 1 and under is not None:
+                bottom = under
         for below, above in pairwise(indices):
-            thing = things[indices.index(below)]
-            inside = can_be(thing, Role.CONTAINER, self._scene)
-            on = can_be(thing, Role.SURFACE, self._scene)
-            if not inside and not on:
-                raise ReferenceProblem(text, f"nothing can stand on {thing.name}", 2)
-            relation = Relation.ON if on else Relation.INSIDE
-            self._steps.append(Put((above,), (Place(relation, below),)))
-        self.discourse.stacks[self.discourse.clause] = indices[0]
+            self._steps.append(Put((above,), (self._upon(things[indices.index(below)], below),)))
+        self.discourse.stacks[self.discourse.clause] = bottom
+
+    def _upon(self, thing: Thing, index: int) -> Place:
+        """On a thing, or into a vessel that has no flat top."""
+        if can_be(thing, Role.SURFACE, self._scene):
+            return Place(Relation.ON, index)
+        if can_be(thing, Role.CONTAINER, self._scene):
+            return Place(Relation.INSIDE, index)
+        raise ReferenceProblem(thing.name, "nothing can stand on it", 2)
 
     def _upward(
         self, things: list[Thing], clause: TowerClause, text: str, *, listed: bool
@@ -406,17 +436,13 @@ class Clauses:
         names = tuple(dict.fromkeys(self._address(thing, role) for thing in things))
         if DESK in names:
             raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-        places: list[tuple[Relation, str]] = []
         if clause.avoid is Avoid.PUT:
-            for place in self.phrases.places(clause.destinations, indices):
-                if place.beside or place.where is None:
-                    text = " ".join(phrase.text for phrase in clause.things.phrases)
-                    raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
-                for thing in self.discourse.things(place.where):
-                    places += [(place.relation, item) for item in self._addresses(thing, place)]
+            self._rule_out(indices, clause.destinations)
+            del self.discourse.mentions[before:]
+            return
         # What must not be done is not what "it" speaks of afterwards.
         del self.discourse.mentions[before:]
-        self.constraints.append(Constraint(_KEEPS[clause.avoid], names, tuple(places)))
+        self.constraints.append(Constraint(_KEEPS[clause.avoid], names))
 
     def _avoid_others(self, clause: AvoidClause) -> None:
         """Nothing but what was spoken of may be touched or moved."""

@@ -43,6 +43,10 @@ class Discourse:
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)
     """What words were taken for, where that was a choice."""
+    put: frozenset[int] = frozenset()
+    """Referents that have been given a place."""
+    last_landmark: tuple[int, int] = (-1, -1)
+    """Number of a clause and the referent that something is put beside there."""
     stacks: dict[int, int] = field(default_factory=dict)
     """Number of the clause that built a stack → the referent at its bottom."""
 
@@ -56,6 +60,8 @@ class Discourse:
             self.last_places,
             dict(self.put_into),
             list(self.notes),
+            self.put,
+            self.last_landmark,
             dict(self.stacks),
         )
 
@@ -148,11 +154,22 @@ class Discourse:
         acted_on = (Role.THEME, Role.PART)
         return sorted(
             self.mentions,
-            key=lambda m: (-m.clause, m.role not in acted_on, -self.mentions.index(m)),
+            key=lambda m: (
+                -m.clause,
+                m.role not in acted_on,
+                m.role is Role.ANY,
+                -self.mentions.index(m),
+            ),
         )
 
     def _fits(self, referent: int, role: Role) -> bool:
         return any(can_be(thing, role, self.scene) for thing in self.things(referent))
+
+    def _fits_or_holds(self, referent: int, role: Role) -> bool:
+        """Whether a vessel can play a role; things are put "on" one, too."""
+        return self._fits(referent, role) or (
+            role is Role.SURFACE and self._fits(referent, Role.CONTAINER)
+        )
 
     def _singular(self, role: Role, excluded: Sequence[int]) -> int | None:
         for mention in self._by_recency():
@@ -161,7 +178,7 @@ class Discourse:
             if not single or referent in excluded or not self._fits(referent, role):
                 continue
             around = self.put_into.get(referent)
-            if role is Role.THEME and around is not None and self._fits(around, role):
+            if around is not None and self._fits_or_holds(around, role):
                 # "Put the plum into the mug and it onto the tray" is about the mug: nobody asks
                 # for something and for its undoing in one breath.
                 return around

@@ -72,7 +72,7 @@ THE = silent(phrase("the"))
 EMPTY_WORDS = silent(some(phrase(say.WITHOUT_MEANING)))
 LISTED = either(AND, sequence(COMMA, optional(AND), build=lambda: ()))
 LIST = silent(LISTED)
-ALTERNATIVE = silent(either(COMMA, OR, sequence(COMMA, OR, build=lambda: ())))
+ALTERNATIVE = silent(either(COMMA, OR))
 
 
 def _is_noun(given: Input, text: str) -> bool:
@@ -84,11 +84,17 @@ def _is_noun(given: Input, text: str) -> bool:
 NOUN_WORD = word(_is_noun)
 noun_phrase = Rule()
 destination = Rule()
+exceptions = Rule()
 states = Rule()
 
 # -- noun phrases ----------------------------------------------------------------------------------
 
-DETERMINER = either(*(phrase(pattern) for pattern in say.DETERMINERS))
+_NUMBER = sequence(
+    word(lambda given, text: text.isdigit() and len(text) < 3),
+    silent(optional(phrase("of [the|these|those]"), None)),
+    build=lambda number: number,
+)
+DETERMINER = either(*(phrase(pattern) for pattern in say.DETERMINERS), _NUMBER)
 PRONOUN = phrase("it, them, they, this, that, these, those, its")
 RELATIVE = silent(phrase(say.RELATIVE))
 DENIED = silent(phrase(say.RELATIVE_NOT))
@@ -125,7 +131,9 @@ _plain_modifier = either(
         noun_phrase,
         silent(phrase("and")),
         noun_phrase,
-        build=lambda one, two: Modifier(Prep.BETWEEN, (one, two)),
+        build=lambda one, two: (
+            None if (pair := _coordinated(one, (two,))) is None else Modifier(Prep.BETWEEN, pair)
+        ),
     ),
     sequence(
         silent(phrase("[in] between")), noun_phrase, build=lambda np: Modifier(Prep.BETWEEN, (np,))
@@ -166,7 +174,7 @@ MODIFIER = either(
     sequence(
         silent(optional(phrase("~comma"), None)),
         silent(phrase(say.EXCEPT)),
-        separated(noun_phrase, LIST, most=4),
+        exceptions,
         build=lambda nps: Modifier(Prep.EXCEPT, nps),
     ),
 )
@@ -243,26 +251,36 @@ noun_phrase.define(
 )
 
 
-def _coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+def _coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     """Noun phrases of which all but the last may leave the noun to the next: "the red and the blue
-    mug".
+    mug". None where the last one leaves it out, too.
     """
     found = [first, *more]
-    for index in range(len(found) - 2, -1, -1):
-        phrase_, following = found[index], found[index + 1]
-        bare = phrase_.words and all(map(is_descriptive, phrase_.words))
-        if bare and len(following.words) > 1 and not phrase_.modifiers:
-            words = (*phrase_.words, following.words[-1])
-            found[index] = replace(phrase_, words=words)
+    for index in range(len(found) - 1, -1, -1):
+        item = found[index]
+        adjectives = bool(item.words) and all(map(is_descriptive, item.words))
+        if index and not item.determiner and item.words and first.determiner:
+            item = replace(item, loose=True)
+        following = found[index + 1] if index + 1 < len(found) else None
+        if adjectives and following is None and not item.determiner:
+            return None
+        if adjectives and following is not None and len(following.words) > 1:
+            item = replace(item, words=(*item.words, following.words[-1]))
+        found[index] = item
     return tuple(found)
 
 
-NP_LIST = sequence(
-    silent(optional(phrase("both"), None)),
+def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+    return None if nps is None or (both and len(nps) < 2) else nps
+
+
+_COORDINATION = sequence(
     noun_phrase,
     some(sequence(LIST, noun_phrase, build=lambda np: np), most=9),
     build=_coordinated,
 )
+exceptions.define(_COORDINATION)
+NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))
 THINGS = either(
     valued(NP_LIST, Things),
     sequence(
@@ -274,12 +292,29 @@ THINGS = either(
 
 # -- destinations ----------------------------------------------------------------------------------
 
-TARGETS = sequence(
-    optional(EITHER),
-    noun_phrase,
-    some(sequence(ALTERNATIVE, noun_phrase, build=lambda np: np), most=6),
-    build=lambda first, more: (first, *more),
-)
+
+def _alternatives(first: Any, listed: tuple[Any, ...], last: Any) -> tuple[Any, ...] | None:
+    """Alternatives; commas stand for "or" only where one follows."""
+    if last is None:
+        return None if listed else (first,)
+    return (first, *listed, last)
+
+
+def _either(parser: Parser, most: int) -> Parser:
+    """One or several with "or" before the last."""
+    return sequence(
+        optional(EITHER),
+        parser,
+        some(sequence(ALTERNATIVE, parser, build=lambda item: item), most=most),
+        optional(
+            sequence(optional(COMMA), OR, parser, build=lambda item: item),
+            None,
+        ),
+        build=_alternatives,
+    )
+
+
+TARGETS = _either(noun_phrase, 5)
 
 
 def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination]:
@@ -303,7 +338,9 @@ BESIDE = either(
         noun_phrase,
         silent(phrase("and")),
         noun_phrase,
-        build=lambda one, two: (Beside(Nearby.BETWEEN, (one, two)),),
+        build=lambda one, two: (
+            None if (pair := _coordinated(one, (two,))) is None else (Beside(Nearby.BETWEEN, pair),)
+        ),
     ),
     sequence(
         silent(phrase("[in] between")),
@@ -375,7 +412,7 @@ states.define(separated(STATE, LIST, most=6))
 POSE = either(
     phrase(say.HORIZONTAL, GraspPose.HORIZONTAL), phrase(say.VERTICAL, GraspPose.VERTICAL)
 )
-POSES = sequence(optional(EITHER), separated(POSE, ALTERNATIVE, most=2), build=lambda found: found)
+POSES = _either(POSE, 1)
 SOURCE = sequence(silent(phrase(say.SOURCE)), noun_phrase, build=lambda np: np)
 OPTIONAL_SOURCE = optional(SOURCE, None)
 OPTIONAL_COMMA = optional(COMMA)
@@ -423,6 +460,11 @@ EXTRA = sequence(
         GROUPING,
         CONDITION,
         silent(phrase(say.STANDING)),
+        sequence(
+            silent(phrase(say.BUT_NOT)),
+            separated(destination, OR, most=3),
+            build=lambda found: ("not", found),
+        ),
         valued(FIRST_OF_THEM, lambda nps: ("first", nps)),
         silent(phrase(say.IN_THIS_ORDER)),
     ),
@@ -433,11 +475,14 @@ EXTRA = sequence(
 def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     groupings = [item for item in extras if isinstance(item, Grouping)]
     conditions = tuple(item for item in extras if isinstance(item, State))
-    firsts = [item[1] for item in extras if isinstance(item, tuple) and item]
+    said = [item for item in extras if isinstance(item, tuple) and item]
+    firsts = [item[1] for item in said if item[0] == "first"]
+    ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
     if len(groupings) > 1 or len(firsts) > 1:
         return None
     grouping = groupings[0] if groupings else Grouping.ANY
-    return PutClause(groups, grouping, conditions, firsts[0] if firsts else ())
+    first = firsts[0] if firsts else ()
+    return PutClause(groups, grouping, conditions, first, ruled_out)
 
 
 def _group(directions: Parser, particle: str) -> Parser:
@@ -455,6 +500,11 @@ EXTRAS = some(EXTRA, most=3)
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
 PUT = either(
+    sequence(
+        silent(phrase(say.STACK)),
+        separated(PUT_GROUP, LIST, most=5),
+        build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
+    ),
     sequence(silent(phrase(say.PUT)), separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put),
     sequence(
         silent(phrase(say.BRING)),
@@ -549,6 +599,11 @@ EMPTY = either(
     sequence(silent(phrase(say.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
 )
 MOVE = either(
+    sequence(
+        silent(phrase("pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)")),
+        THINGS,
+        build=lambda things: MoveClause(things, opens=True),
+    ),
     sequence(silent(phrase(say.OPEN)), THINGS, build=lambda things: MoveClause(things, opens=True)),
     sequence(
         silent(phrase(say.PULL)),
@@ -558,6 +613,12 @@ MOVE = either(
     ),
     sequence(
         silent(phrase(say.CLOSE)), THINGS, build=lambda things: MoveClause(things, opens=False)
+    ),
+    sequence(
+        silent(phrase("push[ing], slid(e|ing)")),
+        THINGS,
+        silent(phrase("[back] in")),
+        build=lambda things: MoveClause(things, opens=False),
     ),
     sequence(
         silent(phrase(say.PULL)),
@@ -609,11 +670,13 @@ _ENDS = separated(
 )
 
 
-def _tower(things: Things, upward: bool | None, ends: Any) -> TowerClause | None:
+def _tower(
+    things: Things, upward: bool | None, ends: Any, base: tuple[Destination, ...] = ()
+) -> TowerClause | None:
     named = {end: np for np, end in ends or ()}
     if ends and len(named) < len(ends):
         return None
-    return TowerClause(things, upward, named.get("bottom"), named.get("top"))
+    return TowerClause(things, upward, named.get("bottom"), named.get("top"), base)
 
 
 _UPWARD = sequence(
@@ -630,6 +693,14 @@ TOWER = either(
         optional(_UPWARD, None),
         _TOWER_ENDS,
         build=_tower,
+    ),
+    sequence(
+        silent(phrase(say.STACK)),
+        THINGS,
+        optional(_UPWARD, None),
+        DESTINATIONS,
+        _TOWER_ENDS,
+        build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
     ),
     sequence(
         silent(phrase(say.PUT)),
@@ -651,6 +722,17 @@ TOWER = either(
             if before is not None and after is not None
             else _tower(things, before if after is None else after, ends)
         ),
+    ),
+)
+TOWER = either(
+    TOWER,
+    sequence(
+        silent(phrase(say.BUILD)),
+        silent(phrase("a tower, a stack, a pile")),
+        _UPWARD,
+        COMMA,
+        THINGS,
+        build=lambda upward, things: _tower(things, upward, None),
     ),
 )
 SWAP = either(
@@ -815,6 +897,13 @@ def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
 CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
 SENTENCE = either(
     CHAIN,
+    sequence(
+        LEAD,
+        located(WITHOUT, lambda at, clause: Spoken(clause, at)),
+        COMMA,
+        CHAIN,
+        build=lambda orders, avoided, rest: None if orders else (avoided, *rest),
+    ),
     sequence(
         LEAD,
         silent(phrase(say.AFTER)),

@@ -21,7 +21,9 @@ from etot_cli.reasoning.language.lexicon import (
     matches_any,
     singular,
 )
+from etot_cli.reasoning.language.phrases import REASONS
 from etot_cli.reasoning.language.vocabulary import (
+    EXACT,
     GENERIC,
     HEAD,
     PART_OF_NAME,
@@ -47,10 +49,17 @@ class Match:
     selectors: tuple[str, ...] = ()
     plural: bool = False
     notes: tuple[str, ...] = ()
+    dropped: tuple[str, ...] = ()
+    """Words of these notes that do not tell one thing from another."""
 
 
 def match_words(
-    words: Sequence[str], vocabulary: Vocabulary, phrase: str, noun: str | None = None
+    words: Sequence[str],
+    vocabulary: Vocabulary,
+    phrase: str,
+    noun: str | None = None,
+    *,
+    by_name: bool = True,
 ) -> Match:
     """Finds what a noun phrase's words fit; every word of them counts.
 
@@ -59,26 +68,28 @@ def match_words(
         vocabulary: the scene's.
         phrase: the whole phrase, for messages.
         noun: what "one" stands for, the noun of an earlier phrase.
+        by_name: a name that a word is means that thing alone ("the book"); else it is a noun like
+            any other ("the book that is not red").
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
     """
     everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
     for entry in everything:
-        if len(words) == 1 and words[0] in entry.exact:
+        if len(words) == 1 and words[0] in entry.exact and (by_name or not words[0].isalpha()):
             return Match((entry,))
     number = words[-1] if words[-1].isdigit() and len(words) > 1 else None
     if number is not None:
         words = words[:-1]
     adjectives, head = tuple(words[:-1]), words[-1]
     if matches_any(head, ("one",)) and noun is not None:
-        head = noun
+        head = noun if head == "ones" else singular(noun)
     if basic_color(head) and not any(entry.grade(head) == HEAD for entry in everything):
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found
     for pool in _pools(vocabulary, head, adjectives):
-        found = _match_in(pool, adjectives, head, number, vocabulary, phrase)
+        found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
             # "The drawers" of the only chest.
             parts = vocabulary.parts
@@ -139,6 +150,7 @@ class _Sifted:
     selectors: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    dropped: list[str] = field(default_factory=list)
 
 
 def _match_in(
@@ -148,6 +160,7 @@ def _match_in(
     number: str | None,
     vocabulary: Vocabulary,
     phrase: str,
+    by_name: bool = True,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
     sifted = _Sifted(_graded(pool, head, adjectives))
@@ -161,6 +174,8 @@ def _match_in(
         _sift(sifted, word, vocabulary)
     if not sifted.graded:
         return None
+    least = EXACT if by_name else HEAD
+    sifted.graded = [(entry, max(grade, least)) for entry, grade in sifted.graded]
     best = min(grade for _, grade in sifted.graded)
     entries = tuple(entry for entry, grade in sifted.graded if grade == best)
     if sifted.unknown:
@@ -172,9 +187,15 @@ def _match_in(
     loose = best in (PART_OF_NAME, REST_OF_NAME) or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
-    if loose and any(entry.info is not None and entry.thing.part is None for entry in entries):
+    if loose and any(_is_object(entry) for entry in entries):
         sifted.notes.append(f"read {head!r} as {_names(entries)}")
-    return Match(entries, tuple(sifted.selectors), plural, tuple(sifted.notes))
+    return Match(
+        entries, tuple(sifted.selectors), plural, tuple(sifted.notes), tuple(sifted.dropped)
+    )
+
+
+def _is_object(entry: Entry) -> bool:
+    return entry.info is not None and entry.thing.part is None and entry.thing.board is None
 
 
 def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
@@ -195,13 +216,26 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.graded = [item for item in graded if not _is_stacked(item[0])]
     elif word in SIDES or word in SIZES or word in ORDINALS or word in STATES:
         sifted.selectors.append(word)
-    elif any(matches_any(word, entry.context) for entry, _ in graded):
-        pass  # it names the owner: "the microwave door"
+    elif owned := _of_owner(word, graded):
+        sifted.graded = owned
     elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
-        names = _names([entry for entry, _ in graded])
+        # What is called a thing for something else is not for this.
+        apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
+        if not apt:
+            sifted.unknown.append(word)
+            return
+        sifted.graded = apt
+        names = _names([entry for entry, _ in apt])
         sifted.notes.append(f"took {word!r} for what {names} is for")
+        sifted.dropped.append(word)
     else:
         sifted.unknown.append(word)
+
+
+def _of_owner(word: str, graded: list[tuple[Entry, int]]) -> list[tuple[Entry, int]]:
+    """Parts of what a word names ("the microwave door"): by its own words before those by kind."""
+    own = [item for item in graded if matches_any(word, item[0].owner)]
+    return own or [item for item in graded if matches_any(word, item[0].context)]
 
 
 def _of_color(sifted: _Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
@@ -312,6 +346,9 @@ def _nothing(
             phrase, f"there is no {what!r}; what fits {head!r}: {names}", 1, word=what,
             candidates=tuple(dict.fromkeys(entry.exact[0] for entry in alike)),
         )  # fmt: skip
+    known = REASONS.get(head)
+    if known:
+        return ReferenceProblem(phrase, f"{head!r}: {known}", 3, word=head)
     near = vocabulary.nearest(head)
     return ReferenceProblem(
         phrase,

@@ -46,11 +46,14 @@ _RANKING = frozenset(
 )  # fmt: skip
 _GENERAL = {
     "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
-    "all else": "all other", "the rest": "all other", "the others": "all other",
-    "the other ones": "all other", "all others": "all other", "all the others": "all other",
-    "all the rest": "all other",
+    "all else": "all other",
 }  # fmt: skip
 """Determiners that nouns for anything stand for."""
+
+_OTHERS = frozenset(
+    {"the rest", "the others", "the other ones", "all others", "all the others", "all the rest"}
+)
+"""The others of what was spoken of before."""
 
 Pronoun = Callable[[NounPhrase], Sequence[Thing]]
 
@@ -120,6 +123,8 @@ class Resolver:
         phrase = _plain(phrase)
         if not phrase.words and phrase.determiner in _INCOMPLETE:
             raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
+        if not phrase.words and noun is None:
+            raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
         if quantity.unclear:
@@ -128,7 +133,17 @@ class Resolver:
                 word=quantity.unclear,
             )  # fmt: skip
         match = self._match(phrase, words, noun)
+        if quantity.every and not match.plural:
+            match = self._parts(match, words, phrase)
         things = [entry.thing for entry in match.entries]
+        first = phrase.determiner.split()[:1]
+        if match.plural and first == ["some"]:
+            why = "'some' is not supported: say how many"
+            raise ReferenceProblem(phrase.text, why, 3, word="some")
+        if match.plural and phrase.determiner == "any":
+            quantity = Quantity(every=True)
+        if quantity.other and noun is None and not excluded:
+            raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         if quantity.other:
             things = [thing for thing in things if thing not in excluded]
             if not things:
@@ -142,7 +157,17 @@ class Resolver:
             count = quantity.count
         things = self._modified(things, modifiers, quantity, count, phrase, pronoun)
         things = self._without(things, phrase, words, noun, pronoun)
+        if phrase.among not in (0, len(things)):
+            names = ", ".join(thing.name for thing in things)
+            raise ReferenceProblem(phrase.text, f"not {phrase.among}, but {names} fit", 2)
         things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
+        if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
+            names = ", ".join(thing.name for thing in things)
+            raise ReferenceProblem(phrase.text, f"say which of {names}", 2)
+        if match.dropped and quantity.definite and count == 1 and len(things) > 1:
+            names = ", ".join(thing.name for thing in things)
+            why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
+            raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
         things = self._exactly(things, match, phrase, words, quantity, count)
         options = _options(things, count, quantity, phrase)
         head = noun if matches_any(words[-1], THING_NOUNS) and noun else words[-1]
@@ -161,7 +186,15 @@ class Resolver:
         ]
         words = (*words[:-1], *extra, words[-1])
         if not phrase.joined:
-            return match_words(words, self._vocabulary, phrase.text, noun)
+            quantity = quantity_of(phrase.determiner)
+            plain = not phrase.modifiers and not phrase.without and not quantity.every
+            return match_words(
+                words,
+                self._vocabulary,
+                phrase.text,
+                noun,
+                by_name=plain and quantity.definite and not quantity.other,
+            )
         adjectives, head = words[:-1], words[-1]
         every = match_words((head,), self._vocabulary, phrase.text, noun)
         if every.plural:
@@ -180,6 +213,14 @@ class Resolver:
                 phrase.text, f"no {head} is called both {' and '.join(adjectives)}"
             )
         return Match(both)
+
+    def _parts(self, match: Match, words: tuple[str, ...], phrase: NounPhrase) -> Match:
+        """Of "every drawer" of the only chest the drawers, not the chest."""
+        only = match.entries[0]
+        several = only.info is not None and len(only.info.parts) > 1 and only.thing.part is None
+        if len(match.entries) > 1 or not several or matches_any(words[-1], only.heads):
+            return match
+        return match_words((*words[:-1], f"{words[-1]}s"), self._vocabulary, phrase.text)
 
     def _without(
         self,
@@ -201,6 +242,8 @@ class Resolver:
             if modifier.prep is Prep.EXCEPT:
                 for item in modifier.phrases:
                     out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))
+        if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
+            raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
         left = [thing for thing in things if thing not in out]
         if not left:
             raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
@@ -371,8 +414,14 @@ def _plain(phrase: NounPhrase) -> NounPhrase:
             determiner = "all"  # whatever is so
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
+    if last in _OTHERS and len(phrase.words) == 1:
+        return replace(phrase, determiner="all other", words=())
     if phrase.determiner.startswith("only "):
         phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
+    out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
+    if not last and out is not None and out.phrases[0].words:
+        head = out.phrases[0].words[-1]
+        return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
     of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
     if not last or of is None:
         return phrase
@@ -386,7 +435,10 @@ def _plain(phrase: NounPhrase) -> NounPhrase:
         if not several:
             raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
         noun = (*whole.words[:-1], singular(whole.words[-1]))
-        return replace(phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest))
+        among = quantity_of(whole.determiner).count or 0
+        return replace(
+            phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
+        )
     return phrase
 
 
@@ -405,6 +457,8 @@ def _options(
         raise ReferenceProblem(
             phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1
         )
+    if quantity.definite and count is not None and 1 < count < len(things):
+        raise ReferenceProblem(phrase.text, f"there are more than {count}: {names}", 1)
     if count is None or quantity.every:
         return (tuple(things),)
     if count > len(things):

@@ -54,7 +54,7 @@ PUT = """
     put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
     stow[ing] [away],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
-    tuck[ing], stack[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
+    tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], leav(e|ing), slid(e|ing), shift[ing],
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
     add[ing]
@@ -275,6 +275,7 @@ ANYHOW = """
 """
 TOGETHER = "[all|both] together"
 SEPARATELY = "separately, apart from each other, individually, apart"
+BUT_NOT = "but not, and not, not"
 STARTING_WITH = "starting with, beginning with"
 IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
@@ -303,7 +304,7 @@ DETERMINERS = (
     f"({_THE}|this|that|a|an|another|only the)",
     f"(the|my|your|this|that) (other|same|single|only|remaining|{_COUNT})",
     f"(the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT})",
-    "another one of the, a single, one single, only a, a different, the different",
+    "another one of the, a single, one single, only a",
     "(any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your]",
     "(any|each|every|either) (one|single) [of] [the|these|those]",
     f"(all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT})",
@@ -328,19 +329,20 @@ _FUNCTION = """
     after once when whenever as please don t do does did together separately respectively
     horizontally
     vertically upright ensure up down there here than instead two three four five six seven eight
-    nine ten i we us me you he she what why how whether himself aside away back everything anything
+    nine ten i we us me you he she what why how whether himself aside away everything anything
     something everyone nothing apart along plus via per using twice thrice times half halfway
-    backwards forwards sideways rather also too just simply can could would will may might i'd d ll
+    backwards forwards sideways rather also too just simply could would will may might i'd d ll
     ve re 's whichever upside goes go belong belongs want wants need needs like
     such only again now hey hi hello ok okay robot let lets alone untouched unmoved except
     during through across around toward towards against among anyone someone yet still even ever
     most more less few several many much enough half quite very really almost nearly maybe
-    perhaps otherwise else other remaining same single exactly
+    perhaps otherwise else other others remaining same single exactly
 """
 VERB_WORDS = words_of(
     (PICK, PUT, PUT_DOWN, REMOVE, OPEN, CLOSE, PULL, ENSURE, KEEP, REORIENT, TURN, STACK, BUILD,
      SWAP, TOUCH, DISTURB, TIDY, CLEAR, DO_NOT)
-) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of"}  # fmt: skip
+) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "back", "places",
+    "positions", "position"}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
     """
@@ -394,6 +396,16 @@ REASONS = {
     **dict.fromkeys(
         ("hand", "arm", "tong"), "the robot has one gripper and no other tool",
     ),
+    **dict.fromkeys(
+        ("cm", "mm", "centimeters", "centimetres", "inches", "meters", "metres", "degrees"),
+        "distances and angles cannot be asked for; say beside what it is to be",
+    ),
+    **dict.fromkeys(("row", "line", "circle"), "patterns of several things are not supported"),
+    **dict.fromkeys(("same", "likewise", "ditto"), "say again what is to be done"),
+    **dict.fromkeys(
+        ("under", "underneath", "below", "beneath", "above", "through", "around"),
+        "things can be put on, into and beside others, no other way",
+    ),
     "rather": "say only what is to be done",
     "instead": "say only what is to be done",
     "upside": "how a thing is to lie cannot be asked for",
@@ -401,8 +413,10 @@ REASONS = {
     "never": "say first what is to be done",
 }  # fmt: skip
 """Why words are not understood, wherever they stand."""
-PUSHES = frozenset({"push", "pull", "slide", "swing"})
-"""Verbs that are understood with "open" or "shut" only."""
+BLAMED = frozenset(
+    {"push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
+)
+"""Words that are understood in some places only, and where they are not are what is wrong."""
 ALL_WORDS = GRAMMAR_WORDS | words_of(
     (
         WITHOUT_MEANING, FRAMES, LEADING_FIRST, LEADING_BEFORE, LEADING_LAST, LEADING_THEN,

@@ -93,13 +93,14 @@ def read(text: str, vocabulary: frozenset[str]) -> Read:
             ". ".join(parts[:3]),
             f"it has more than {MAX_SENTENCES} sentences",
         )
+    spelled = vocabulary | {f"{word}s" for word in vocabulary}
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
         before = ". ".join(parts[: len(sentences)])
         words = []
         for word in words_in(part):
-            meant = None if _is_known(word, vocabulary) else corrected(word, vocabulary)
+            meant = None if _is_known(word, vocabulary) else corrected(word, spelled)
             if meant is not None:
                 corrections[Correction(word, meant)] = None
             words.append(meant or word)
@@ -148,11 +149,15 @@ def _stopped(given: Input, before: str) -> UnreadableError:
             why = "" if word in phrases.ALL_WORDS else "how something is done cannot be asked for"
         if not why and word not in given.nouns and word in phrases.OTHER_VERBS:
             why = "no skill does that; things can be picked up, put somewhere, opened and closed"
-        blamed = word in phrases.PUSHES or word not in phrases.ALL_WORDS
+        blamed = word in phrases.BLAMED or word not in phrases.ALL_WORDS
         if why and (index >= stop - 1 or blamed):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(_some(words[index:]), understood, why, without)
+    strange = words[0] not in phrases.ALL_WORDS and words[0] not in given.nouns
+    if strange and stop <= 1 < len(words):
+        why = f"{words[0]!r} is no verb that is known"
+        return UnreadableError(_some(words), before, why)
     understood = _joined(before, spaced(words[:stop]))
     if stop >= len(words):
         why = "something is missing, such as into or onto what"

@@ -98,13 +98,38 @@ class Phrases:
             owner = Modifier(Prep.OF, (NounPhrase(pronoun="it", text="its"),))
             phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
         noun_before = discourse.last_noun(role)
-        return self._resolver.resolve(
+        resolved = self._resolver.resolve(
             phrase,
             role,
             noun=noun_before,
             excluded=discourse.mentioned_like(noun_before),
             pronoun=self._pronoun_things,
         )
+        if resolved.other and resolved.every:
+            return self._others(resolved)
+        return self._of_spoken_owner(resolved)
+
+    def _of_spoken_owner(self, resolved: Resolved) -> Resolved:
+        """Of several pieces' doors "the door" is that of the piece that was spoken of last."""
+        parts = all(len(option) == 1 and option[0].part for option in resolved.options)
+        if not (resolved.definite and parts and len(resolved.options) > 1):
+            return resolved
+        for mention in reversed(self.discourse.mentions):
+            named = {thing.name for thing in self.discourse.things(mention.referent)}
+            own = tuple(option for option in resolved.options if {option[0].name} == named)
+            if own:
+                return replace(resolved, options=own)
+        return resolved
+
+    def _others(self, resolved: Resolved) -> Resolved:
+        """All others of a choice made before: which they are depends on it."""
+        things = resolved.options[0]
+        for referent in reversed(self.discourse.referents):
+            chosen = [set(option) for option in referent.options]
+            if len(chosen) > 1 and all(option <= set(things) for option in chosen):
+                left = (tuple(t for t in things if t not in option) for option in chosen)
+                return replace(resolved, options=tuple(option for option in left if option))
+        return resolved
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
@@ -144,7 +169,7 @@ class Phrases:
         for index in self.refer(phrase, role, themes):
             options = self.discourse.referents[index].options
             if quantity_of(phrase.determiner).every and any(len(option) > 1 for option in options):
-                raise ReferenceProblem(phrase.text, "say what is to go into or on which", 2)
+                raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             things = self.discourse.things(index)
@@ -154,6 +179,9 @@ class Phrases:
                 found.append(Place(Relation.INSIDE, index))
             if fits_on and toward is not Toward.INSIDE:
                 found.append(Place(Relation.ON, index))
+            if toward is Toward.ON and fits_in and not fits_on:
+                names = " or ".join(dict.fromkeys(thing.name for thing in things))
+                self.discourse.notes.append(f"read 'on' as into {names}")
         return found
 
     def _narrowed(
@@ -210,7 +238,14 @@ class Phrases:
     def _landmark(self, phrase: NounPhrase, themes: Sequence[int]) -> list[int]:
         """Referents of a landmark, each a single thing; "the two bowls" gives two."""
         found = []
+        discourse = self.discourse
         for index in self.refer(phrase, Role.ANY, themes):
+            if phrase.pronoun and discourse.last_landmark[0] == discourse.clause:
+                # "Put the can left of the jar and the tin right of it": of the jar.
+                index = discourse.last_landmark[1]
+            elif phrase.pronoun and index in discourse.put_into:
+                index = discourse.put_into[index]  # beside what is in a bowl is beside it
+            discourse.last_landmark = (discourse.clause, index)
             referent = self.discourse.referents[index]
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)

@@ -64,7 +64,7 @@ def select(
             word = (*ordinals[1:], *others, "the side")[0]
             why = f"{word!r} does not go together with {ordinals[0]!r}"
             raise ReferenceProblem(phrase, why, 2, word=word)
-        return [_nth(ordinals[0], sides[0] if sides else "left", things, scene, phrase)]
+        return [_nth(ordinals[0], sides[0] if sides else None, things, scene, phrase)]
     for word in words:
         if word in SIZES:
             things = _by_size(word, things, count, scene, phrase)
@@ -105,6 +105,9 @@ def _nth(
     if all(thing.part is not None or thing.board is not None for thing in things):
         ordered = things
     else:
+        if origin is None and space.is_deep(things, scene):
+            why = "they stand one behind the other; say 'front', 'middle' or 'back'"
+            raise ReferenceProblem(phrase, why, 2, word=ordinal)
         ordered = space.by_side(SIDES[origin or "left"], things, scene)
     index = ORDINALS[ordinal]
     if index >= len(ordered):

@@ -23,6 +23,8 @@ OFFSET = 0.01
 """An object is on one side of another when it is off by more than this [m]."""
 OFF_THE_LINE = 0.5
 """What stands between two things is off the line between them by at most this share of it."""
+DEEP = 2.0
+"""Things spread so many times more away from the viewer than sideways have no first from the left."""
 
 Test = Callable[[Thing], bool]
 Cost = Callable[[Thing], float]
@@ -171,13 +173,23 @@ def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing
     return sorted(things, key=keys[side])
 
 
+def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether things stand one behind the other rather than side by side."""
+    width, depth = _spread(things, scene)
+    return depth > DEEP * width
+
+
 def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     """Things in order along the axis in which they spread most, sideways or away."""
-    sideways = by_side("left", things, scene)
-    away = by_side("front", things, scene)
-    width = to_the_left(sideways[0], scene) - to_the_left(sideways[-1], scene)
-    depth = to_the_back(away[-1], scene) - to_the_back(away[0], scene)
-    return sideways if width >= depth else away
+    width, depth = _spread(things, scene)
+    return by_side("left" if width >= depth else "front", things, scene)
+
+
+def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
+    """How far things are spread sideways and away from the viewer [m]."""
+    aside = [to_the_left(thing, scene) for thing in things]
+    away = [to_the_back(thing, scene) for thing in things]
+    return max(aside) - min(aside), max(away) - min(away)
 
 
 def _is_between(thing: Thing, landmarks: Sequence[Thing], scene: SceneState) -> bool:

@@ -65,6 +65,10 @@ class NounPhrase:
     text: str = ""
     without: tuple[str, ...] = ()
     joined: bool = False
+    loose: bool = False
+    """It follows another by "and" without an article of its own ("the yellow and white mug")."""
+    among: int = 0
+    """Of so many ("the left of the two bowls")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +152,8 @@ class PutClause:
     conditions: tuple[State, ...] = ()
     first: tuple[NounPhrase, ...] = ()
     """Those of the things that go first ("the blue one first")."""
+    ruled_out: tuple[Destination, ...] = ()
+    """Where they must not go ("in a cup, but not in the red one")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,6 +196,8 @@ class TowerClause:
     upward: bool | None = None
     bottom: NounPhrase | None = None
     top: NounPhrase | None = None
+    base: tuple[Destination, ...] = ()
+    """What the bottom one goes on, where it is not to stay."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,7 +262,7 @@ class Spoken:
 def reading_cost(node: object) -> int:
     """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
     if isinstance(node, NounPhrase):
-        own = len(node.modifiers)
+        own = len(node.modifiers) + node.loose
         return own + sum(reading_cost(item) for item in (*node.modifiers, node.owner))
     if isinstance(node, tuple):
         return sum(reading_cost(item) for item in node)

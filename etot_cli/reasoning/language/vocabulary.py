@@ -46,6 +46,7 @@ class Entry:
         color: its basic colour.
         info: the object (or the part's owner); None for the desk.
         called: the words of its label and of its name.
+        owner: the own words of what it is a part of.
     """
 
     thing: Thing
@@ -58,6 +59,7 @@ class Entry:
     color: str | None = None
     info: ObjectInfo | None = None
     called: tuple[tuple[str, ...], ...] = ()
+    owner: tuple[str, ...] = ()
 
     def is_called(self, words: Sequence[str]) -> bool:
         """Whether words are its whole name or label."""
@@ -242,6 +244,7 @@ def _part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
                 exact=(f"{info.name}.{part.name}".casefold(),),
                 color=info.color,
                 info=info,
+                owner=owner.own,
             )
         )
     return entries
@@ -258,6 +261,7 @@ def _board_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
             exact=(f"{info.name}.{board}".casefold(),),
             color=info.color,
             info=info,
+            owner=owner.own,
         )
         for board in info.boards
     ]

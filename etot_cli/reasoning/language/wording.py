@@ -31,7 +31,8 @@ def formal(goal: Goal) -> str:
             kept.append(f"never {where}: {names}")
         else:
             kept.append(f"{item.keep.value}: {names}")
-    return "; ".join([*(step for step in steps if step), *kept]) or "nothing to do"
+    said = dict.fromkeys(item for item in (*steps, *kept) if item)
+    return "; ".join(said) or "nothing to do"
 
 
 def _step(step: Step, goal: Goal) -> str:
@@ -39,7 +40,8 @@ def _step(step: Step, goal: Goal) -> str:
         if step.aside:
             return ""
         what = " and ".join(_choice(index, goal) for index in step.what)
-        said = "" if step.grouping is Grouping.ANY or len(step.what) < 2 else f" {step.grouping}"
+        things = sum(len(goal.referents[index].options[0]) for index in step.what)
+        said = "" if step.grouping is Grouping.ANY or things < 2 else f" {step.grouping.value}"
         keys = dict.fromkeys(_key(place) for place in step.places)
         if len(keys) == 1:
             where = " or ".join(dict.fromkeys(_place(place, goal) for place in step.places))
@@ -63,7 +65,7 @@ def _key(place: Place) -> str:
 
 
 def _place(place: Place, goal: Goal) -> str:
-    surface = "" if place.where is None else _choice(place.where, goal)
+    surface = "" if place.where is None else _choice(place.where, goal, " or ")
     near = ", ".join(_near(item, goal) for item in place.beside)
     if not near:
         return surface
@@ -77,13 +79,13 @@ def _near(near: Near, goal: Goal) -> str:
     return f"{near.relation.value} {marks}".strip()
 
 
-def _choice(index: int, goal: Goal) -> str:
-    options = (_things(option) for option in goal.referents[index].options)
+def _choice(index: int, goal: Goal, joint: str = " and ") -> str:
+    options = (_things(option, joint) for option in goal.referents[index].options)
     return " or ".join(dict.fromkeys(options))
 
 
-def _things(things: Iterable[Thing]) -> str:
-    return " and ".join(
+def _things(things: Iterable[Thing], joint: str) -> str:
+    return joint.join(
         ".".join(item for item in (thing.name, thing.part or thing.board) if item)
         for thing in things
     )

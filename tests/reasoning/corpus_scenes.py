@@ -1,0 +1,188 @@
+"""The scenes of the corpus: desks with everyday things, none of them a task's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.world.state import PartInfo, SceneState
+from tests.reasoning.scenes import ball, cabinet, cup, drawers, item, scene
+
+FLAT = (0.16, 0.16, 0.015)
+CUBE = (0.04, 0.04, 0.04)
+BOWL = (0.14, 0.14, 0.05)
+
+
+def breakfast() -> SceneState:
+    """A plate, a bowl on the right, two cups in different colours, an apple, a banana, a vase."""
+    return scene(
+        item("plate", "box", (0.42, 0.10), size=FLAT, color="white"),
+        item("bowl", "bowl", (0.40, -0.25), size=BOWL, color="blue"),
+        cup("red_cup", (0.30, 0.30), color="red"),
+        cup("yellow_cup", (0.32, -0.05), color="yellow"),
+        ball("apple", (0.55, 0.35), color="red"),
+        item("banana", "capsule", (0.58, -0.10), size=(0.15, 0.035, 0.035), color="yellow"),
+        item("vase", "cup", (0.60, 0.10), size=(0.08, 0.08, 0.20), color="green"),
+    )
+
+
+def black_bowls() -> SceneState:
+    """Three black bowls one behind the other, a plate, a ramekin, a wooden cabinet of drawers."""
+    return scene(
+        item("bowl_1", "bowl", (0.28, 0.00), size=BOWL, color="black", label="black bowl"),
+        item("bowl_2", "bowl", (0.44, 0.02), size=BOWL, color="black", label="black bowl"),
+        item("bowl_3", "bowl", (0.60, -0.02), size=BOWL, color="black", label="black bowl"),
+        item("plate", "box", (0.40, -0.30), size=FLAT, color="white"),
+        item("ramekin", "bowl", (0.42, 0.24), size=(0.08, 0.08, 0.04), color="white"),
+        drawers(
+            "cabinet", (0.60, 0.45), {"top": 0.0, "middle": 0.0, "bottom": 0.0},
+            label="wooden cabinet", color="brown",
+        ),
+    )  # fmt: skip
+
+
+def mugs() -> SceneState:
+    """A mug that is yellow and white, a white one, a red one, two plates, a microwave."""
+    return scene(
+        cup("yw_mug", (0.35, 0.00), label="yellow and white mug", color="yellow"),
+        cup("white_mug", (0.35, 0.20), color="white"),
+        cup("red_mug", (0.35, -0.20), color="red"),
+        item("plate_1", "box", (0.50, 0.25), size=FLAT, label="plate", color="white"),
+        item("plate_2", "box", (0.50, -0.25), size=FLAT, label="plate", color="white"),
+        cabinet("microwave", (0.65, 0.45), 0.0, color="gray"),
+    )
+
+
+def blocks() -> SceneState:
+    """Blocks in five colours, cyan and blue among them, and a crate."""
+    return scene(
+        item("red_block", "box", (0.30, 0.20), size=CUBE, color="red"),
+        item("green_block", "box", (0.35, 0.10), size=CUBE, color="green"),
+        item("blue_block", "box", (0.40, 0.00), size=CUBE, color="blue"),
+        item("cyan_block", "box", (0.45, -0.10), size=CUBE, color="blue"),
+        item("yellow_block", "box", (0.50, -0.20), size=(0.06, 0.06, 0.04), color="yellow"),
+        item("crate", "bowl", (0.45, 0.35), size=(0.20, 0.20, 0.08), color="brown"),
+    )
+
+
+def cups_and_balls() -> SceneState:
+    """Three cups side by side, balls in three colours, an orange ball, no orange."""
+    return scene(
+        cup("cup_1", (0.40, 0.25), label="cup", color="blue"),
+        cup("cup_2", (0.40, 0.00), label="cup", color="white"),
+        cup("cup_3", (0.40, -0.25), label="cup", color="white"),
+        ball("orange_ball", (0.55, 0.12), color="orange"),
+        ball("blue_ball", (0.55, -0.12), color="blue"),
+        ball("golf_ball", (0.28, 0.12), color="white"),
+        item("tray", "box", (0.60, 0.40), size=(0.25, 0.18, 0.02), color="gray"),
+    )
+
+
+def drawers_and_desk() -> SceneState:
+    """A chest with an open lower drawer that holds a pen, a toy before it, a box, a sponge."""
+    return scene(
+        drawers("chest", (0.60, 0.20), {"upper": 0.0, "lower": 0.9}, color="brown"),
+        item("pen", "pen", (0.58, 0.05), size=(0.15, 0.012, 0.012), on="chest",
+             inside="chest.lower", color="black"),
+        item("toy", "box", (0.35, 0.10), size=(0.05, 0.05, 0.08), color="yellow"),
+        item("box", "box", (0.40, -0.20), size=(0.12, 0.12, 0.08), color="brown"),
+        item("sponge", "box", (0.30, -0.35), size=(0.08, 0.05, 0.03), color="green"),
+        cup("mug", (0.30, 0.30), color="white"),
+    )  # fmt: skip
+
+
+def pantry() -> SceneState:
+    """Soup, sauce, milk, a carton of juice and a basket; a shelf of three boards."""
+    return scene(
+        item("soup", "cylinder", (0.30, 0.10), size=(0.06, 0.06, 0.09), label="alphabet soup"),
+        item("sauce", "cylinder", (0.30, -0.05), size=(0.06, 0.06, 0.09), label="tomato sauce",
+             color="red"),
+        item("milk", "box", (0.35, -0.20), size=(0.06, 0.06, 0.14), label="milk", color="white"),
+        item("juice", "box", (0.45, 0.00), size=(0.06, 0.06, 0.14), label="carton of juice",
+             color="orange"),
+        item("basket", "bowl", (0.45, 0.30), size=(0.22, 0.22, 0.10), color="brown"),
+        item("shelf", "shelf", (0.65, -0.30), size=(0.25, 0.30, 0.4),
+             boards=("low", "mid", "high")),
+    )  # fmt: skip
+
+
+def stacked() -> SceneState:
+    """A cup on a book, a coin in that cup, a lid on a pot, another book, a tray."""
+    return scene(
+        item("book", "box", (0.40, 0.20), size=(0.20, 0.14, 0.03), label="red book", color="red"),
+        cup("cup", (0.40, 0.20), on="book", z=0.2, color="white"),
+        item("coin", "cylinder", (0.40, 0.20), size=(0.02, 0.02, 0.003), on="cup", inside="cup",
+             z=0.17, color="yellow"),
+        item("pot", "cup", (0.40, -0.20), size=(0.16, 0.16, 0.10), color="gray"),
+        item("lid", "cylinder", (0.30, -0.35), size=(0.16, 0.16, 0.02), color="gray"),
+        item("atlas", "box", (0.60, 0.00), size=(0.25, 0.20, 0.04), label="blue book",
+             color="blue"),
+        item("tray", "box", (0.55, 0.35), size=(0.25, 0.20, 0.02), color="black"),
+    )  # fmt: skip
+
+
+def sorting() -> SceneState:
+    """Red, green and blue bowls, and for each a cube of the colour; two more red things."""
+    return scene(
+        item("red_bowl", "bowl", (0.50, 0.30), size=BOWL, color="red"),
+        item("green_bowl", "bowl", (0.50, 0.00), size=BOWL, color="green"),
+        item("blue_bowl", "bowl", (0.50, -0.30), size=BOWL, color="blue"),
+        item("red_cube", "box", (0.30, 0.20), size=CUBE, color="red"),
+        item("green_cube", "box", (0.30, 0.00), size=CUBE, color="green"),
+        item("blue_cube", "box", (0.30, -0.20), size=CUBE, color="blue"),
+        ball("red_ball", (0.25, 0.30), color="red"),
+        item("star", "box", (0.25, -0.30), size=CUBE, color="red", label="star"),
+    )
+
+
+def office() -> SceneState:
+    """Two pens, a stapler, an eraser, a pen cup, a filing cabinet of two drawers, a caddy."""
+    return scene(
+        item("pen_1", "pen", (0.30, 0.20), size=(0.15, 0.01, 0.01), label="blue pen",
+             color="blue"),
+        item("pen_2", "pen", (0.30, -0.20), size=(0.15, 0.01, 0.01), label="black pen",
+             color="black"),
+        item("stapler", "box", (0.40, 0.05), size=(0.12, 0.04, 0.05), color="red"),
+        item("eraser", "box", (0.35, -0.05), size=(0.04, 0.02, 0.015), color="white"),
+        cup("pen_cup", (0.50, -0.30), label="pen cup", color="gray"),
+        drawers("filing_cabinet", (0.60, 0.25), {"top": 0.0, "bottom": 0.0}, color="gray"),
+        item("caddy", "bowl", (0.45, -0.05), size=(0.18, 0.18, 0.1), color="brown"),
+    )  # fmt: skip
+
+
+def cupboard() -> SceneState:
+    """A closed cupboard with a jar in it, an open cabinet, a bottle, a glass, a can."""
+    return scene(
+        cabinet("cupboard", (0.60, 0.35), 0.0, color="white"),
+        cabinet("locker", (0.60, -0.35), 0.95, color="blue"),
+        item("jar", "cylinder", (0.60, 0.35), size=(0.06, 0.06, 0.1), inside="cupboard",
+             on="cupboard", z=0.25),
+        item("bottle", "cylinder", (0.35, 0.10), size=(0.06, 0.06, 0.2), color="green"),
+        item("glass", "cup", (0.35, -0.10), size=(0.06, 0.06, 0.12), color=None),
+        item("can", "cylinder", (0.30, 0.00), size=(0.06, 0.06, 0.1), color="red"),
+    )  # fmt: skip
+
+
+def numbered() -> SceneState:
+    """Four cubes that differ in number and size, two boxes with numbers."""
+    return scene(
+        item("cube_1", "box", (0.30, 0.30), size=(0.03, 0.03, 0.03), color="gray"),
+        item("cube_2", "box", (0.30, 0.10), size=(0.04, 0.04, 0.04), color="gray"),
+        item("cube_3", "box", (0.30, -0.10), size=(0.05, 0.05, 0.05), color="gray"),
+        item("cube_4", "box", (0.30, -0.30), size=(0.06, 0.06, 0.06), color="gray"),
+        item("bin_1", "bowl", (0.50, 0.20), size=BOWL, color="gray"),
+        item("bin_2", "bowl", (0.50, -0.20), size=BOWL, color="gray"),
+    )
+
+
+def lidded() -> SceneState:
+    """A chest with a lid and, beside it, a mug and a plum; seen by a camera from the far side."""
+    parts = (PartInfo("chest", "lid", "chest", "hinge", 1.5, True),)
+    seen = scene(
+        item("chest", "cabinet", (0.60, 0.00), size=(0.3, 0.2, 0.2), parts=parts,
+             openness={"lid": 0.0}, color="brown"),
+        cup("mug_1", (0.35, 0.25), label="mug", color="white"),
+        cup("mug_2", (0.35, -0.25), label="mug", color="white"),
+        ball("plum", (0.30, 0.00), color="purple"),
+        item("mat", "box", (0.45, 0.02), size=FLAT, color="green"),
+    )  # fmt: skip
+    return replace(seen, forward=(-1.0, 0.0))
