@@ -20,7 +20,7 @@ from etot_cli.planning.result import (
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import PlanTree
 from etot_cli.planning.trials import CHOOSING_WORLDS, try_plan
-from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reasoning.protocol import Assignment, Explains, Reasoner, Understanding
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reporting.models import TaskModel
 from etot_cli.reporting.plan_report import (
@@ -106,6 +106,7 @@ def plan_task(
     scene: Scene | None = None
     result: SearchResult | None = None
     session: doors.ModelSession | None = None
+    reasoner: Reasoner | None = None
     interrupted = False
     try:
         rooms = rooms or doors.default_rooms()
@@ -146,7 +147,8 @@ def plan_task(
             session.close()
     account = session.account() if session is not None else None
     found = result or _nothing()
-    report = _report(options, task, found, interrupted, watch, account)
+    understanding = _understanding(reasoner)
+    report = _report(options, task, found, interrupted, watch, account, understanding)
     return Planning(report, scene, found)
 
 
@@ -178,6 +180,11 @@ def _tried(
     return replace(result, survival=survival)
 
 
+def _understanding(reasoner: object) -> Understanding | None:
+    """What a reasoner says that it understood, if it is one that says so."""
+    return reasoner.understanding if isinstance(reasoner, Explains) else None
+
+
 def _nothing() -> SearchResult:
     """Stands for a search that was interrupted before it began."""
     return SearchResult(
@@ -196,6 +203,7 @@ def _report(
     interrupted: bool,
     watch: Stopwatch,
     account: VlmAccount | None,
+    understanding: Understanding | None,
 ) -> PlanReport:
     status = SearchStatus.INTERRUPTED if interrupted else result.status
     return PlanReport(
@@ -220,7 +228,7 @@ def _report(
         survival=survival_model(result.survival),
         success=None if task is None else success_model(task.success, result.final),
         prefix=prefix_model(result.prefix),
-        understood=understood_model(result.goal_holds, result.branches),
+        understood=understood_model(result.goal_holds, result.branches, understanding),
         tree=tree_model(result),
         statistics=statistics_model(result),
         doubts=doubt_models(result),

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from etot_cli.errors import EtotError
 from etot_cli.skills.action import Action
@@ -32,6 +32,27 @@ class Branch:
 
     actions: tuple[Action, ...]
     reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What a reasoner took its assignment for, in formal terms, for people.
+
+    ``choices``: what words were taken for where they could have meant something else.
+    """
+
+    goal: str = ""
+    choices: tuple[str, ...] = ()
+
+
+@runtime_checkable
+class Explains(Protocol):
+    """A reasoner that says what it understood by the assignment of its last proposal."""
+
+    @property
+    def understanding(self) -> Understanding:
+        """Empty before the first proposal."""
+        ...
 
 
 class Outcome(StrEnum):

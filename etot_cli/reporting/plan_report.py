@@ -13,7 +13,7 @@ from etot_cli.planning.conditions import holds
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.survival import Survival
 from etot_cli.planning.tree import PlanNode
-from etot_cli.reasoning.protocol import Branch
+from etot_cli.reasoning.protocol import Branch, Understanding
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reasoning.vlm.notes import NoteKind
 from etot_cli.reporting.evidence import (
@@ -65,6 +65,10 @@ class UnderstoodModel(Model):
     """The goal already held at the start: nothing is to be done."""
     branches: list[BranchModel]
     """The candidate branches, best first."""
+    goal: str
+    """The goal as read, in the terms of a task's conditions; empty when a model reasoned."""
+    choices: list[str]
+    """What words were taken for where they could have meant something else."""
 
 
 class SurvivalModel(Model):
@@ -254,9 +258,14 @@ class PlanReport(Report):
     """Null unless a vision-language model reasoned."""
 
 
-def understood_model(goal_holds: bool, branches: tuple[Branch, ...]) -> UnderstoodModel:
-    """What the reasoner proposed, as it stands in reports."""
+def understood_model(
+    goal_holds: bool, branches: tuple[Branch, ...], understanding: Understanding | None = None
+) -> UnderstoodModel:
+    """What the reasoner understood and proposed, as it stands in reports."""
+    understanding = understanding or Understanding()
     return UnderstoodModel(
+        goal=understanding.goal,
+        choices=list(understanding.choices),
         goal_holds=goal_holds,
         branches=[
             BranchModel(actions=[str(action) for action in branch.actions], reason=branch.reason)

@@ -53,6 +53,9 @@ class Summary:
             self._line(f"{report.status}: {_answer(report, failures)}")
             return
         self._headline(report.status, report.task.instruction, _stopped_by(report))
+        if report.understood.goal:
+            choices = "".join(f"; {choice}" for choice in report.understood.choices)
+            self._say(f"understood as: {report.understood.goal}{choices}", 2)
         if report.understood.goal_holds:
             self._say("The goal already holds; there is nothing to do.", 2)
         by_id = {node.id: node for node in report.tree.nodes}

@@ -1,4 +1,4 @@
-"""Many sentences about many scenes: read as they are meant, or refused by the word, never misread."""
+"""Many sentences about many scenes: read as they are meant, or refused by the word."""
 
 from __future__ import annotations
 

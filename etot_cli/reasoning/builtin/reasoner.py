@@ -12,7 +12,15 @@ from etot_cli.reasoning.builtin.constraints import broken_constraint, cause_of_b
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
+from etot_cli.reasoning.language.wording import formal
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    FailedStep,
+    Outcome,
+    Understanding,
+    Verdict,
+)
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
 
@@ -42,6 +50,14 @@ class BuiltinReasoner:
 
             self._goals = (goal_of(assignment.instruction, scene),)
         return branches_of(self._goals, scene)
+
+    @property
+    def understanding(self) -> Understanding:
+        """The goal that branches were proposed for last."""
+        notes = (note for goal in self._goals for note in goal.notes)
+        return Understanding(
+            " | ".join(dict.fromkeys(map(formal, self._goals))), tuple(dict.fromkeys(notes))
+        )
 
     def judge(self, action: Action, record: RolloutRecord) -> Verdict:
         """Compares all objects before and after the action, and holds it to the constraints."""

@@ -24,7 +24,7 @@ OFFSET = 0.01
 OFF_THE_LINE = 0.5
 """What stands between two things is off the line between them by at most this share of it."""
 DEEP = 2.0
-"""Things spread so many times more away from the viewer than sideways have no first from the left."""
+"""Things spread so many times more away than sideways have no first from the left."""
 
 Test = Callable[[Thing], bool]
 Cost = Callable[[Thing], float]
