@@ -60,6 +60,11 @@ class ObjectInfo:
     """Names of further surfaces below its top (a shelf's boards), from bottom to top; an action
     calls one ``object.board``."""
 
+    @property
+    def bears(self) -> bool:
+        """Things can be put on it: on its top, or across its open mouth as a lid is."""
+        return self.surface or self.container
+
 
 @dataclass(frozen=True, slots=True)
 class ObjectState:

@@ -249,3 +249,14 @@ def test_a_full_box_takes_another_on_top() -> None:
     below = {"kind": "cylinder", "diameter": 0.078, "height": 0.03, "mass": 0.1, "inside": "tray"}
     first = Hand(tray=tray, below=below).places("tray", into=True)[0]
     assert first.quality is Quality.PILED and first.bearers == {"below"}
+
+
+def test_a_lid_lies_across_the_mouth_of_a_cup_and_nothing_smaller_does() -> None:
+    cup = {"kind": "cup", "diameter": 0.064, "height": 0.08, "mass": 0.2, "at": [0.42, -0.2]}
+    lid = {"kind": "cylinder", "diameter": 0.070, "height": 0.016, "mass": 0.04}
+    best = Hand(lid, cup=cup).places("cup")[0]
+    rim = 0.13 + 0.08
+    assert np.allclose(best.pose.position, [0.42, -0.2, rim + 0.008], atol=0.004)
+    assert best.bearers == {"cup"}
+    marble = {"kind": "sphere", "diameter": 0.03, "mass": 0.02}
+    assert not Hand(marble, cup=cup).places("cup")

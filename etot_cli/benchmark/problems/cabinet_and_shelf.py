@@ -41,7 +41,7 @@ def _put_in(desk: Desk, seed: int) -> Problem:
 
 def _take_out(desk: Desk, seed: int) -> Problem:
     """Out of a cupboard that stands open."""
-    unit = cupboard(desk, _facing(seed + 7), open_deg=100.0)
+    unit = cupboard(desk, "robot", open_deg=100.0)
     noun, item = _upright(desk)
     thing = desk.put(noun, item, inside=unit.name, at=[*unit.inside])
     desk.stand("ball", ball(desk.rng))
@@ -52,7 +52,7 @@ def _take_out(desk: Desk, seed: int) -> Problem:
 
 def _open_inside(desk: Desk, seed: int) -> Problem:
     """Into a cupboard that stands open, and stays open."""
-    unit = cupboard(desk, _facing(seed), open_deg=100.0)
+    unit = cupboard(desk, "robot", open_deg=100.0)
     thing = desk.stand(*_upright(desk), gap=LEVEL_ROOM, nearest=0.32, farthest=0.48)
     goal = [{"inside": [thing, unit.name]}]
     plan = into(thing, unit.name, "horizontal")
@@ -62,7 +62,8 @@ def _open_inside(desk: Desk, seed: int) -> Problem:
 def _open_or_close(desk: Desk, seed: int) -> Problem:
     """The door alone."""
     closing = seed // 7 % 2 == 1
-    unit = cupboard(desk, _facing(seed), open_deg=95.0 if closing else 0.0)
+    facing = "robot" if closing else "side"
+    unit = cupboard(desk, facing, open_deg=95.0 if closing else 0.0)
     desk.stand("block", block(desk.rng))
     verb, state = ("close", "closed") if closing else ("open", "open")
     return desk.problem(

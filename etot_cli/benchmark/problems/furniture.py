@@ -30,6 +30,10 @@ BESIDE = 0.03
 SIDEWAYS_DEG = 100.0
 """A hand that comes from the front, level or tilted, finds its wrist on the robot's side of the
 front when this turns away from the robot by no more."""
+PUSH_AT = 0.6
+"""Where a door is pushed, as a share of its width from the hinge."""
+PUSH_NEAREST = 0.22
+"""Least distance from the base axis at which closed fingers that point down push [m]."""
 LEVEL_NEAREST = 0.42
 """Least distance from the base of what a level hand takes when it points outward: the wrist is
 0.27 m behind the tool point, and the base 0.08 m thick."""
@@ -201,6 +205,23 @@ def _panel(
     return rectangle(cx, cy, yaw + side * open_deg + 90, wide, 2 * HANDLE)
 
 
+def _closable(x: float, y: float, yaw: float, depth: float, wide: float, hinge: str) -> bool:
+    """Whether a hand that points down gets to the door's outer face wherever it stands open."""
+    side = -1.0 if hinge == "left" else 1.0
+    for angle in (math.radians(degrees) for degrees in (5, 55, 105)):
+        along, out = (
+            (math.sin(angle), -side * math.cos(angle)),
+            (math.cos(angle), side * math.sin(angle)),
+        )
+        point = (
+            depth / 2 + PUSH_AT * wide * along[0] + FINGER_GAP * out[0],
+            side * wide / 2 + PUSH_AT * wide * along[1] + FINGER_GAP * out[1],
+        )
+        if not PUSH_NEAREST <= math.hypot(*shifted(x, y, turned(point, yaw))) <= FARTHEST:
+            return False
+    return True
+
+
 @dataclass(frozen=True)
 class Cupboard:
     """A cabinet with one door; the name is its address."""
@@ -238,7 +259,8 @@ def cupboard(desk: Desk, facing: str, *, open_deg: float = 0.0, handle: bool = T
         body = rectangle(x, y, yaw, depth, wide)
         zone = _before(x, y, yaw, depth, wide + 0.03, wide + 0.12)
         panel = _panel(x, y, yaw, depth, wide, hinge, open_deg)
-        if desk.fits(body, height=height) and desk.fits(panel, height=height):
+        clear = desk.fits(body, height=height) and desk.fits(panel, height=height)
+        if clear and _closable(x, y, yaw, depth, wide, hinge):
             break
     else:
         raise FullDeskError("no place for a cabinet")

@@ -172,7 +172,7 @@ def _filled_by_fixed(desk: Desk, seed: int) -> Problem:
 
 def _too_long_for_cupboard(desk: Desk, seed: int) -> Problem:
     """A bar longer than the cupboard's diagonal, with the door to be closed behind it."""
-    unit = cupboard(desk, "side", open_deg=100.0)
+    unit = cupboard(desk, "robot", open_deg=100.0)
     depth, width, height = desk.objects[unit.name]["size"]
     length = mm(math.hypot(depth, width, height) + FITS_NOT)
     item = bottle(desk.rng) | {"kind": "pen", "length": length, "diameter": 0.03, "mass": 0.15}

@@ -58,7 +58,7 @@ def can_be(thing: Thing, role: Role, scene: SceneState) -> bool:
         case Role.THEME:
             return info.movable and thing.part is None and thing.board is None
         case Role.SURFACE:
-            return (info.surface and thing.part is None) or thing.board is not None
+            return (info.bears and thing.part is None) or thing.board is not None
         case Role.CONTAINER:
             if thing.part is not None:
                 return any(part.name == thing.part for part in container_parts(info))

@@ -132,7 +132,7 @@ class _Checker:
             self._say(index, 1, f"the scene has no surface {target!r}")
         elif board and board not in info.boards:
             self._say(index, 6, f"{target} is no surface; the top of {owner} is called {owner}")
-        elif not info.surface and not board:
+        elif not info.bears and not board:
             self._say(index, 6, f"{target} has no flat top to put something on")
 
     def _container(self, index: int, target: str) -> None:
