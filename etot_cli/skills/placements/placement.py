@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.placements.places import Place, PlaceFinder, Quality, Request
+from etot_cli.skills.placements.places import Place, PlaceFinder, Quality, Request, Stamps
 from etot_cli.world.model import World
 
 Vector = NDArray[np.float64]
@@ -36,8 +36,8 @@ side are clear of what leans over; 1.5 mm a side still let go."""
 CLEARANCE = 0.001
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
 """Higher up the hand may be able to open where it cannot at the bottom [m]."""
-MAX_TRIES = 40
-"""Places of one action that are looked at exactly."""
+MAX_TRIES, TRIES_AGAIN = 40, 8
+"""Places of one action that are looked at exactly, and when somebody is thought away."""
 SAME_PLACE = 0.012
 """Where something is in the way, it is so for the same turn this far around [m]."""
 APART = 0.02
@@ -85,7 +85,7 @@ class Tally:
 
 
 def placements(
-    belief: Belief, request: Request, tally: Tally, tries: int = MAX_TRIES
+    belief: Belief, request: Request, tally: Tally, stamps: Stamps | None = None
 ) -> Iterator[Placement]:
     """Prepared placements, the best first; worked out as they are asked for.
 
@@ -93,12 +93,14 @@ def placements(
         belief: the scene, with the object in the hand.
         request: what goes where.
         tally: takes note of what becomes of the places.
-        tries: bound on the places looked at exactly.
+        stamps: undersides known from looking at the same floor before. Whoever has them looks
+            again, and more briefly.
     """
-    finder = PlaceFinder(belief, request)
+    finder = PlaceFinder(belief, request, stamps)
+    tries = MAX_TRIES if stamps is None else TRIES_AGAIN
     done: list[_Mark] = []
     found, far = 0, np.inf
-    for place in finder.places():
+    for place in finder.places(as_held=stamps is not None):
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return

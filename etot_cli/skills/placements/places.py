@@ -76,6 +76,8 @@ TOUCH = 0.001
 STABLE, STABLE_SHARE = 0.006, 0.35
 """The centre of mass must be this far inside of what bears a thing that does not stand on an even
 floor: more than a placement errs [m], and so much of the thing's own half width."""
+MAX_PILED = 150
+"""Places on top of others whose stability is looked at, the most promising."""
 DIRECTIONS = 16
 """Sides from which that is looked at."""
 NEXT_ROOM = 1.1
@@ -168,11 +170,18 @@ class _Turned:
     cost: Vector
 
 
+Stamps = dict[bytes, tuple[Stamp, Stamp]]
+"""Undersides of an object and of the hand by orientation, on one floor; what else stands there does
+not change them.
+"""
+
+
 class PlaceFinder:
     """Looks for places on one floor as the scene stands now."""
 
-    def __init__(self, belief: Belief, request: Request) -> None:
+    def __init__(self, belief: Belief, request: Request, stamps: Stamps | None = None) -> None:
         self._belief, self._request = belief, request
+        self._stamps: Stamps = {} if stamps is None else stamps
         support, name = request.support, request.attached.name
         self._support = support
         self._entry = belief.world.entries[name]
@@ -181,9 +190,15 @@ class PlaceFinder:
         self._cells = self._grid()
         self._points = self.relief.points(self._cells)
 
-    def places(self) -> Iterator[Place]:
-        """The places, the best first; worked out as they are asked for."""
+    def places(self, *, as_held: bool = False) -> Iterator[Place]:
+        """The places, the best first; worked out as they are asked for.
+
+        Args:
+            as_held: only those where the object is not laid down.
+        """
         groups = orientations(self._belief, self._request.attached, self._support)
+        if as_held:
+            groups = [group for group in groups if not group.laid]
         tables: list[list[_Turned]] = []
         for quality in Quality:
             for index, group in enumerate(groups):
@@ -216,16 +231,13 @@ class PlaceFinder:
         return np.asarray(offsets + relief.middle)
 
     def _judge(self, rotation: Vector) -> _Turned:
-        relief, support, request = self.relief, self._support, self._request
-        cell, solids = relief.cell, self._belief.solids
+        relief, request = self.relief, self._request
+        cell = relief.cell
         low, high = self._belief.checker.extent(request.attached.name, rotation)
-        turn = rotation @ self._belief.object_pose(request.attached.name).rotation.T
-        shapes = [_turned(shape, turn) for shape in self._object_shapes]
-        hand = [_turned(shape, turn) for shape in self._hand_shapes]
-        underside = stamp(solids, shapes, support.axes, cell)
+        underside, whole_hand = self._undersides(rotation)
         rest = resting_heights(relief, underside, self._cells)
         highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
-        open_hand = stamp(solids, hand, support.axes, cell, HAND_MARGIN).below(highest)
+        open_hand = whole_hand.below(highest)
         drop = resting_heights(relief, open_hand, self._cells) - rest
         drop = np.where(drop < 2 * HAND_MARGIN, 0.0, drop)
         lift = rest + low[2] - relief.floor
@@ -234,6 +246,20 @@ class PlaceFinder:
         cost = self._costs(lift, drop, gap, kind, rotation)
         kind = self._forbid(kind, cost, underside)
         return _Turned(rotation, underside, float(high[2] - low[2]), rest, drop, kind, cost)
+
+    def _undersides(self, rotation: Vector) -> tuple[Stamp, Stamp]:
+        """Of the object at an orientation of its body, and of the hand, opened to let go."""
+        key = rotation.tobytes()
+        if key not in self._stamps:
+            axes, cell, solids = self._support.axes, self.relief.cell, self._belief.solids
+            turn = rotation @ self._belief.object_pose(self._request.attached.name).rotation.T
+            shapes = [_turned(shape, turn) for shape in self._object_shapes]
+            hand = [_turned(shape, turn) for shape in self._hand_shapes]
+            self._stamps[key] = (
+                stamp(solids, shapes, axes, cell),
+                stamp(solids, hand, axes, cell, HAND_MARGIN),
+            )
+        return self._stamps[key]
 
     def _kinds(
         self, rest: Vector, lift: Vector, drop: Vector, gap: Vector, underside: Stamp, height: float
@@ -252,7 +278,9 @@ class PlaceFinder:
         bearable = (drop <= SHORT_DROP) | support.is_container
         if not self._on_desk:
             # Over an edge there is nothing beside it that the floor's free cells would show.
-            kind[within & bearable & (lift > -FLAT)] = Quality.PILED
+            # On a surface what rests higher up rests on something else than was asked for.
+            highest = np.inf if support.is_container else FLAT
+            kind[within & bearable & (lift > -FLAT) & (lift <= highest)] = Quality.PILED
         usable = stands & clear & bearable
         if not support.is_even:
             return kind
@@ -315,7 +343,8 @@ class PlaceFinder:
             found = [(cost + room[index], turn, index) for cost, turn, index in found]
         if self._support.from_front:
             found = [(cost + TURN_COST * turn, turn, index) for cost, turn, index in found]
-        for _, turn, index in sorted(found):
+        found.sort()
+        for _, turn, index in found[:MAX_PILED] if quality is Quality.PILED else found:
             turned, cell = table[turn], self._cells[index]
             rest = float(turned.rest[index])
             seen = under(self.relief.heights, -np.inf, turned.object, cell)

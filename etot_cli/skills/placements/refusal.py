@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.placement import Tally, placements
-from etot_cli.skills.placements.places import PlaceFinder, Request
+from etot_cli.skills.placements.places import PlaceFinder, Request, Stamps
 from etot_cli.world.state import CauseKind
 
 MAX_SUSPECTS = 5
 """Objects that are taken away one at a time to see whether that helps."""
-TRIES = 8
-"""Places that are looked at each time."""
 
 
 def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome:
@@ -35,9 +33,16 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"the arm does not reach {address} with {name} held as it is",
         )
     suspects = _suspects(belief, request, tally)
-    guilty = [one for one in suspects[:MAX_SUSPECTS] if _helps(belief, request, [one])]
-    if not guilty and len(suspects) > 1 and _helps(belief, request, suspects):
-        guilty = _least(belief, request, suspects)
+    stamps: Stamps = {}
+
+    def helps(absent: Iterable[str]) -> bool:
+        """Whether there is a place once some objects are taken away."""
+        without = replace(request, absent=frozenset(absent))
+        return next(placements(belief, without, Tally(belief.world), stamps), None) is not None
+
+    guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
+    if not guilty and len(suspects) > 1 and helps(suspects):
+        guilty = _least(suspects, helps)
     if guilty:
         return failed(
             CauseKind.NO_ROOM,
@@ -76,19 +81,12 @@ def _suspects(belief: Belief, request: Request, tally: Tally) -> list[str]:
     ]
 
 
-def _helps(belief: Belief, request: Request, absent: Iterable[str]) -> bool:
-    """Whether there is a place once some objects are taken away."""
-    without = replace(request, absent=frozenset(absent))
-    tally = Tally(belief.world)
-    return next(placements(belief, without, tally, TRIES), None) is not None
-
-
-def _least(belief: Belief, request: Request, suspects: list[str]) -> list[str]:
+def _least(suspects: list[str], helps: Callable[[Iterable[str]], bool]) -> list[str]:
     """Of objects that help together those that are needed for it."""
     needed = list(suspects)
     for other in suspects[::-1][:MAX_SUSPECTS]:
         fewer = [one for one in needed if one != other]
-        if fewer and _helps(belief, request, fewer):
+        if fewer and helps(fewer):
             needed = fewer
     return needed
 
