@@ -15,6 +15,7 @@ from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.motion import Motion, Trace
+from etot_cli.skills.motion.ready import ready_pose
 from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.skills.motions import outcome_of
 from etot_cli.skills.outcome import SkillOutcome
@@ -66,11 +67,10 @@ class PhysicsWorld:
         world, data = self.world, self.data
         mujoco.mj_resetData(world.model, data)
         place_objects(world, data)
-        home = np.array(world.robot.spec.home)
-        data.qpos[world.robot.qpos] = home
-        data.ctrl[world.robot.ctrl] = home
         gripper = world.robot.spec.gripper
         data.qpos[world.robot.finger_qpos] = gripper.opening / 2
+        ready = ready_pose(world, data)
+        data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
         data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
         mujoco.mj_forward(world.model, data)
         robot = SimulatedRobot(world, data, deadline=self.deadline)

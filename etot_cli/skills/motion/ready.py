@@ -1,0 +1,39 @@
+"""Where the arm waits before its first action."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.motion.collision import CollisionChecker
+from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.world.model import World
+
+Vector = NDArray[np.float64]
+
+RISES = tuple(0.04 * step for step in range(1, 8))
+"""Heights above the home pose at which the hand may wait [m], the lowest that is free first."""
+WAITING_CLEARANCE = 0.01
+"""Distance that a waiting robot keeps from everything [m]."""
+
+
+def ready_pose(world: World, data: mujoco.MjData) -> Vector:
+    """Joint values (n,) [rad] of the home pose, or straight above it where something stands.
+
+    ``data`` has the scene and the fingers as they will be. Where nothing above is free, home.
+    """
+    arm, checker = Arm(world.robot.spec), CollisionChecker(world)
+    checker.freeze(data)
+    home = arm.forward(arm.home)
+    joints = arm.home
+    for rise in (0.0, *RISES):
+        if rise:
+            pose = Pose(home.position + np.array([0.0, 0.0, rise]), home.rotation)
+            result = arm.solve(pose, joints)
+            if not result.reached:
+                break
+            joints = result.joints
+        if not checker.hits(joints, clearance=WAITING_CLEARANCE):
+            return joints
+    return arm.home
