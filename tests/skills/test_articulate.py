@@ -141,3 +141,44 @@ def test_furniture_may_stand_on_either_side(mirror: bool) -> None:
     after = run.must("[OPEN, unit]", "[CLOSE, unit]")
     assert after.states["ball"].on == ("desk",)
     assert run.done[0].record.displacement["ball"] < 0.01
+
+
+@pytest.mark.parametrize("height", [0.04, 0.055, 0.09, 0.12])
+@pytest.mark.parametrize(("yaw", "at"), [(180, [0.52, 0.1]), (-90, [0.42, 0.25])])
+def test_handle_at_any_height_above_the_desk(yaw: float, at: list[float], height: float) -> None:
+    unit = UNIT | {"size": [0.22, 0.20, 2 * height], "at": at, "yaw_deg": yaw}
+    run = episode(unit=unit | {"drawers": [{"name": "top", "travel": 0.14, "handle": {}}]})
+    run.must("[OPEN, unit]", "[CLOSE, unit]")
+
+
+VASE = {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "mass": 0.2}
+GRIPPED = UNIT | {"at": [0.42, 0.22], "yaw_deg": -90, "drawers": drawers(handle={})}
+
+
+def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -> None:
+    vase, aside = VASE | {"at": [0.42, 0.045]}, VASE | {"at": [0.42, -0.35]}
+    record = episode(unit=GRIPPED, vase=vase, other=aside).do("[OPEN, unit]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.BLOCKED
+    assert record.cause.objects == ("vase", "unit")
+    assert record.steps == 0, "seen before anything is struck"
+    episode(unit=GRIPPED, other=aside).must("[OPEN, unit]")
+
+
+def test_what_lies_in_a_closed_drawer_is_not_in_the_way() -> None:
+    ball = BALL | {"diameter": 0.05, "inside": "unit", "at": [0.42, 0.22]}
+    run = episode(unit=GRIPPED, ball=ball)
+    assert run.must("[OPEN, unit]").states["ball"].inside == "unit"
+
+
+@pytest.mark.parametrize("hinge", ["left", "right"])
+def test_two_before_a_door_are_named_until_none_is_left(hinge: str) -> None:
+    door = {"hinge": hinge, "handle": {}}
+    oven = OVEN | {"at": [0.45, 0.25], "yaw_deg": -90, "door": door}
+    things = {"urn": VASE | {"at": [0.39, 0.05]}, "vase": VASE | {"at": [0.51, 0.05]}}
+    for _ in range(2):
+        record = episode(oven=oven, **things).do("[OPEN, oven]").record
+        if record.effect:
+            break
+        assert record.cause is not None and record.cause.objects[0] in things, record.cause
+        del things[record.cause.objects[0]]
+    episode(oven=oven, **things).must("[OPEN, oven]")

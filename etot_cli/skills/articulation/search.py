@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -34,10 +35,12 @@ AJAR = 0.05
 """Way of a handle that leaves room for a finger behind the part [m]."""
 MAX_FOLLOWED = 60
 """Grips, and pushes, whose kinematics are looked at; where the hand has no room costs little."""
-MAX_BETTER = 16
-"""Holds that are looked at for a better one once one gets the part far enough."""
+MAX_BETTER = 8
+"""Holds that are looked at for a better one once one gets the part far enough, or ajar."""
 MAX_HINDERED = 24
 """... and of those that something is in the way of, once nothing else is left."""
+MAX_SINGLE = 3
+"""Things that the search is repeated without, one at a time."""
 MAX_FIRST_STEPS = 3
 """Moves that leave a part ajar which a second move is looked for from."""
 
@@ -73,14 +76,16 @@ class PartSearch:
         self.has_hold = False
         """Something to hold or to push was found that the hand has room at."""
         self._belief = belief
+        self._seen: Counter[str] = Counter()
         self._travel = PartTravel(belief, part, part.upper if opening else part.lower)
 
-    def moves(self, *, in_two: bool = True) -> Iterator[PreparedMove]:
+    def moves(self, *, in_two: bool = True, explain: bool = True) -> Iterator[PreparedMove]:
         """Moves that follow the part to its end at once; then those that at least get far enough,
-        the farthest first; then those in two steps. Once there is none, ``hindrances`` knows why.
+        the farthest first; then those in two steps.
 
         Args:
             in_two: whether moves in two steps are looked for.
+            explain: where there is none, find out for ``hindrances`` what is in the way.
         """
         self._belief.checker.freeze(self._belief.data)
         left = {True: MAX_FOLLOWED, False: MAX_FOLLOWED}
@@ -102,7 +107,7 @@ class PartSearch:
                     self._belief.checker.freeze(self._belief.data)
                 else:
                     partial.append(item)
-                    if self._suffices(item.move.reached):
+                    if self._suffices(item.move.reached) or self._is_ajar(item.move):
                         left = {kind: min(count, MAX_BETTER) for kind, count in left.items()}
         partial.sort(key=lambda item: round(item.missing, 2))
         for item in partial:
@@ -113,11 +118,37 @@ class PartSearch:
             for move in self._in_two(partial):
                 found = True
                 yield move
-        if not found:
+        if not found and explain:
             self._belief.checker.freeze(self._belief.data)
             for hold in hindered[:MAX_HINDERED]:
                 for _ in self._followed(hold):
                     pass
+            if not self.hindrances.blamed():
+                self._look_without(self._met(hindered))
+
+    def _met(self, hindered: Iterable[_Hold]) -> list[str]:
+        """Movable things that hands or arm met, the most frequent first."""
+        for hold in hindered:
+            self._seen.update(hold.met.others)
+        entries = self._belief.world.entries
+        return [name for name, _ in self._seen.most_common() if entries[name].info.movable]
+
+    def _look_without(self, names: Sequence[str]) -> None:
+        """Looks again without what was met, all together and then one by one: a way of two moves
+        shows only so.
+        """
+        if not names or not self._works_without(names):
+            return
+        sufficient = [name for name in names[:MAX_SINGLE] if self._works_without([name])]
+        for name in sufficient:
+            self.hindrances.note(frozenset({name}))
+        if not sufficient:
+            self.hindrances.note(frozenset(names))
+
+    def _works_without(self, names: Iterable[str]) -> bool:
+        with self._belief.checker.ignoring(names):
+            search = PartSearch(self._belief, self.part, self.opening)
+            return next(search.moves(explain=False), None) is not None
 
     def _suffices(self, value: float) -> bool:
         fraction = fraction_open(self.part, value)
@@ -171,9 +202,12 @@ class PartSearch:
             contacts.append(spun(hold.contact))
         best: _Partial | None = None
         for contact in contacts:
+            reachable = False
             for approach, passage in islice(approaches(travel, contact, hold.met), 2):
+                reachable = True
                 clear = passage.free
                 way = follow(travel, contact, approach[-1], passage)
+                self._seen.update(passage.others)
                 if not way.rows:
                     continue
                 steps = way.clear if clear else 0
@@ -188,17 +222,23 @@ class PartSearch:
                 if best.missing < (NEARLY_OPEN if self.opening else NEARLY_CLOSED):
                     yield best
                     return
+            if not reachable or best is not None:
+                break  # half a turn of the wrist moves no other joint
         if best is not None:
             yield best
+
+    def _is_ajar(self, move: PreparedMove) -> bool:
+        """Whether an opening move leaves room for a second one."""
+        return self.opening and move.grip and move.length >= AJAR
 
     def _in_two(self, partial: list[_Partial]) -> Iterator[PreparedMove]:
         """Grips that bring the part far enough for a finger to get behind it, each with the move
         that goes on from there. The hand often cannot stay on a handle all the way.
         """
-        ajar = [item.move for item in partial if item.move.grip and item.move.length >= AJAR]
-        for move in ajar[:MAX_FIRST_STEPS]:
+        ajar = (item.move for item in partial if self._is_ajar(item.move))
+        for move in islice(ajar, MAX_FIRST_STEPS):
             after = PartSearch(belief_after(self._belief, self.part, move), self.part, True)
-            second = next(after.moves(in_two=False), None)
+            second = next(after.moves(in_two=False, explain=False), None)
             if second is not None:
                 yield replace(move, then=second)
 

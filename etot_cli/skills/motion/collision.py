@@ -66,10 +66,21 @@ class CollisionChecker:
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, world.robot.finger_bodies)
         self._finger = fingers & (self._owner == -2)
+        self._ignored: frozenset[int] = frozenset()
         self.checks = 0
         self._ignored: frozenset[int] = frozenset()
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
+
+    @contextmanager
+    def ignoring(self, names: Iterable[str]) -> Iterator[None]:
+        """Takes objects to be away for as long as the context lasts, to see what they hinder."""
+        before = self._ignored
+        self._ignored = before | {self._object_names.index(name) for name in names}
+        try:
+            yield
+        finally:
+            self._ignored = before
 
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
@@ -147,8 +158,8 @@ class CollisionChecker:
             allow: objects that the gripper (not the arm) may touch.
             allow_attached: addresses that the attached object may touch.
             hand_only: look at gripper and attached object alone.
-            worked: an object that the robot works on, and the distance required of it [m]
-                (negative: it is pressed on).
+            worked: an object that the fingers work on, and the distance that they keep from it
+                [m] (negative: it is pressed on).
 
         Returns:
             Addresses as in ``World.geom_address``; ``robot`` for a self-collision. Empty: free.
@@ -178,7 +189,7 @@ class CollisionChecker:
         owners = self._owner[geoms]
         held = -9 if carried is None else carried
         moving = (owners < -1) | (owners == held)
-        close = data.contact.dist < self._required(owners, clearance, worked)
+        close = data.contact.dist < self._required(geoms, clearance, worked)
         candidates = np.nonzero(close & moving.any(axis=1))[0]
         if len(candidates) == 0:
             return []
@@ -220,13 +231,19 @@ class CollisionChecker:
         return list(found)
 
     def _required(
-        self, owners: Vector, clearance: float, worked: tuple[str, float] | None
+        self, pairs: Vector, clearance: float, worked: tuple[str, float] | None
     ) -> Vector | float:
-        """The distance that each contact of owners (k, 2) has to keep (k,) [m]."""
-        if worked is None:
+        """The distance that each contact of geoms (k, 2) has to keep (k,) [m]."""
+        if worked is None and not self._ignored:
             return clearance
-        touched = (owners == self._object_names.index(worked[0])).any(axis=1)
-        return np.where(touched, worked[1], clearance)
+        owners = self._owner[pairs]
+        required = np.full(len(pairs), clearance)
+        if worked is not None:
+            touched = (owners == self._object_names.index(worked[0])).any(axis=1)
+            required[touched & self._finger[pairs].any(axis=1)] = worked[1]
+        if self._ignored:
+            required[np.isin(owners, list(self._ignored)).any(axis=1)] = -np.inf
+        return required
 
     def hand_hits(
         self,
@@ -262,7 +279,7 @@ class CollisionChecker:
             return []
         pairs = data.contact.geom
         owners = self._owner[pairs]
-        near = data.contact.dist < self._required(owners, clearance, worked)
+        near = data.contact.dist < self._required(pairs, clearance, worked)
         hand = owners == -2
         if fingers_only:
             hand &= self._finger[pairs]
