@@ -151,12 +151,15 @@ def test_handle_at_any_height_above_the_desk(yaw: float, at: list[float], height
     run.must("[OPEN, unit]", "[CLOSE, unit]")
 
 
-VASE = {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "mass": 0.2}
-GRIPPED = UNIT | {"at": [0.42, 0.22], "yaw_deg": -90, "drawers": drawers(handle={})}
+VASE = {"kind": "cylinder", "diameter": 0.05, "height": 0.20, "mass": 0.2}
+GRIPPED = UNIT | {
+    "size": [0.22, 0.20, 0.14], "at": [0.42, 0.22], "yaw_deg": -90,
+    "drawers": [{"name": "top", "travel": 0.14, "handle": {}}],
+}  # fmt: skip
 
 
 def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -> None:
-    vase, aside = VASE | {"at": [0.42, 0.045]}, VASE | {"at": [0.42, -0.35]}
+    vase, aside = VASE | {"at": [0.42, -0.015]}, VASE | {"at": [0.42, -0.35]}
     record = episode(unit=GRIPPED, vase=vase, other=aside).do("[OPEN, unit]").record
     assert record.cause is not None and record.cause.kind is CauseKind.BLOCKED
     assert record.cause.objects == ("vase", "unit")

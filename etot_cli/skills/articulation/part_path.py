@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Passage
-from etot_cli.skills.motion.kinematics import Pose, straight
+from etot_cli.skills.motion.kinematics import JUMP, Pose, straight
 from etot_cli.world.index import Part
 
 Vector = NDArray[np.float64]
@@ -21,8 +21,8 @@ STANDOFF = 0.09
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 BEND = 0.15
-"""Largest joint change from one pose of the path to the next [rad]. The joints are interpolated
-between them: with more the hand strays by millimetres from the part that it grips, and loses it."""
+"""Largest joint change of a gripping arm from one pose of the path to the next [rad]. The joints are
+interpolated between them: with more the hand strays by millimetres from the part that it grips."""
 BACK_OUT_STEPS = 2
 """Where a folded arm cannot back out, it lets go so many steps earlier."""
 SHORT_RETREAT = 2
@@ -239,9 +239,10 @@ def _next(
     pose = travel.at(value)
     travel.place(value)
     second: tuple[Vector, float, Passage] | None = None
+    largest = BEND if contact.grip else JUMP
     for tool, leaning in contact.moving(pose, lean):
         result = belief.arm.solve(tool, joints, free_spin=not contact.grip)
-        if not result.reached or np.abs(result.joints - joints).max() > BEND:
+        if not result.reached or np.abs(result.joints - joints).max() > largest:
             continue
         tried = passage.copy()
         hits = belief.checker.hits(

@@ -146,7 +146,7 @@ class PartSearch:
             self.hindrances.note(frozenset(names))
 
     def _works_without(self, names: Iterable[str]) -> bool:
-        with self._belief.checker.ignoring(names):
+        with self._belief.checker.without(names):
             search = PartSearch(self._belief, self.part, self.opening)
             return next(search.moves(explain=False), None) is not None
 

@@ -68,19 +68,8 @@ class CollisionChecker:
         self._finger = fingers & (self._owner == -2)
         self._ignored: frozenset[int] = frozenset()
         self.checks = 0
-        self._ignored: frozenset[int] = frozenset()
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
-
-    @contextmanager
-    def ignoring(self, names: Iterable[str]) -> Iterator[None]:
-        """Takes objects to be away for as long as the context lasts, to see what they hinder."""
-        before = self._ignored
-        self._ignored = before | {self._object_names.index(name) for name in names}
-        try:
-            yield
-        finally:
-            self._ignored = before
 
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
@@ -204,8 +193,6 @@ class CollisionChecker:
                 # MuJoCo leaves out pairs of neighbouring links, which the model excludes.
                 if data.contact.dist[index] < SELF_CLEARANCE and not hand_only:
                     found["robot"] = None
-                continue
-            if first in self._ignored or second in self._ignored:
                 continue
             if not (first < -1 or first == held):
                 first, second, one, two = second, first, two, one
