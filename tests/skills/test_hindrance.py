@@ -75,14 +75,12 @@ def test_hand_alone_meets_what_the_arm_with_it_meets() -> None:
 
 def test_arm_waits_above_what_stands_at_its_home() -> None:
     tall = UNIT_CLOSED | {"at": [0.34, 0.09], "yaw_deg": -97, "size": [0.24, 0.2, 0.2]}
-    run = episode(unit=tall)
-    belief = run.simulated.believe(run.snapshot)
-    belief.checker.freeze(belief.data)
-    assert belief.checker.hits(belief.arm.home)
-    waiting = ready_pose(belief.arm, belief.checker)
-    assert not belief.checker.hits(waiting, clearance=WAITING_CLEARANCE)
-    np.testing.assert_allclose(belief.joints, waiting, atol=0.01)
-    run = episode(ball=BALL)
-    np.testing.assert_array_equal(
-        ready_pose(run.simulated.twin.arm, run.simulated.twin.checker), run.simulated.twin.arm.home
-    )
+    for things, free in (({"unit": tall}, False), ({"ball": BALL}, True)):
+        run = episode(**things)
+        belief = run.simulated.believe(run.snapshot)
+        belief.checker.freeze(belief.data)
+        assert bool(belief.checker.hits(belief.arm.home)) is not free
+        waiting = ready_pose(belief.world, belief.data)
+        assert not belief.checker.hits(waiting, clearance=WAITING_CLEARANCE)
+        np.testing.assert_allclose(belief.joints, waiting, atol=0.01)
+        assert np.array_equal(waiting, belief.arm.home) is free

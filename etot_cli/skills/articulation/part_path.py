@@ -21,8 +21,8 @@ STANDOFF = 0.09
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 BEND = 0.15
-"""Largest joint change of a gripping arm from one pose of the path to the next [rad]. The joints are
-interpolated between them: with more the hand strays by millimetres from the part that it grips."""
+"""Largest joint change of a gripping arm from one pose of the path to the next [rad]. In between
+joints are interpolated: with more the hand strays by millimetres from the part that it grips."""
 BACK_OUT_STEPS = 2
 """Where a folded arm cannot back out, it lets go so many steps earlier."""
 SHORT_RETREAT = 2
