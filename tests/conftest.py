@@ -6,6 +6,7 @@ import os
 import sys
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from etot_cli.world.engine import import_mujoco
 from tests.opengl import need_opengl
@@ -16,6 +17,12 @@ os.environ.setdefault("ETOT_HTML", "0")
 # Hundreds of processes would otherwise compile the whole package, each for itself.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# How long an example takes says more about the machine's other work than about what is tested.
+settings.register_profile(
+    "shared machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("shared machine")
 
 # Before any test module does it: a MUJOCO_GL that cannot be used would make that fail.
 import_mujoco()
