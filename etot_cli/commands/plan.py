@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from etot_cli.commands import rooms as doors
+from etot_cli.commands.timed import TimedReasoner
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.result import (
     SearchObserver,
@@ -22,7 +23,7 @@ from etot_cli.planning.tree import PlanTree
 from etot_cli.planning.trials import CHOOSING_WORLDS, try_plan
 from etot_cli.reasoning.protocol import Assignment, Explains, Reasoner, Understanding
 from etot_cli.reasoning.vlm.accounts import VlmAccount
-from etot_cli.reporting.models import TaskModel
+from etot_cli.reporting.models import TaskModel, seconds
 from etot_cli.reporting.plan_report import (
     PlanOptionsModel,
     PlanReport,
@@ -106,7 +107,7 @@ def plan_task(
     scene: Scene | None = None
     result: SearchResult | None = None
     session: doors.ModelSession | None = None
-    reasoner: Reasoner | None = None
+    reasoner: TimedReasoner | None = None
     interrupted = False
     try:
         rooms = rooms or doors.default_rooms()
@@ -118,7 +119,9 @@ def plan_task(
                 session = rooms.open_model(
                     options.vlm, scene, seed=options.seed, state=rooms.reasoners["builtin"]()
                 )
-            reasoner = session.reasoner if session else rooms.reasoners[options.reasoner]()
+            reasoner = TimedReasoner(
+                session.reasoner if session else rooms.reasoners[options.reasoner]()
+            )
             simulator = rooms.open_simulator(
                 scene,
                 seed=options.seed,
@@ -130,7 +133,7 @@ def plan_task(
             result = search(
                 Assignment(task.instruction, task.goal),
                 session.watch(simulator) if session else simulator,
-                reasoner,
+                cast(Reasoner, reasoner),
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
@@ -147,8 +150,10 @@ def plan_task(
             session.close()
     account = session.account() if session is not None else None
     found = result or _nothing()
-    understanding = _understanding(reasoner)
+    understanding = _understanding(None if reasoner is None else reasoner.inner)
     report = _report(options, task, found, interrupted, watch, account, understanding)
+    if reasoner is not None:
+        report.statistics.reasoning_s = seconds(reasoner.spent_s)
     return Planning(report, scene, found)
 
 

@@ -166,6 +166,8 @@ class StatisticsModel(Model):
     reflections: Count
     simulated_s: Seconds
     wall_s: Seconds
+    reasoning_s: Seconds = 0.0
+    """Of wall_s, what the reasoner took; the rest is kinematics and physics."""
     steps: Count
     """Physics steps, all worlds together."""
     limit: (

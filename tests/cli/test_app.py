@@ -250,3 +250,55 @@ def test_a_limit_shows_how_far_the_search_came(etot: Etot) -> None:
         "nodes": [1],
         "missing": ["[PICK UP, b]", "[PICK UP, c]"],
     }
+
+
+def test_page_is_written_beside_the_report(
+    etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ETOT_HTML", "1")
+    assert etot("plan", "toy.yaml", "--out", "x").code == 0
+    report = json.loads((tmp_path / "x" / "report.json").read_text())
+    assert report["files"]["page"] == "report.html"
+    assert "[PICK UP, a]" in (tmp_path / "x" / "report.html").read_text()
+    assert report["timing"]["phases"]["render"] >= 0
+    assert etot(*SIMULATE, "--out", "y").code == 0
+    assert (tmp_path / "y" / "report.html").is_file()
+    assert etot("plan", "toy.yaml", "--out", "z", "--no-html").code == 0
+    assert not (tmp_path / "z" / "report.html").exists()
+
+
+def test_page_that_cannot_be_written_changes_no_answer(
+    etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*given: object) -> None:
+        raise ZeroDivisionError("oh")
+
+    monkeypatch.setattr("etot_cli.commands.pages.write_plan_page", fail)
+    answer = etot("plan", "toy.yaml", "--html", "--out", "x", "--json")
+    assert answer.code == 0 and answer.report["status"] == "feasible"
+    assert "warning: no page was written: ZeroDivisionError: oh" in answer.err
+
+
+def test_interrupted_rendering_keeps_the_plan(
+    etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(*given: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("etot_cli.commands.pages.write_plan_page", stop)
+    answer = etot("plan", "toy.yaml", "--html", "--out", "x", "--json")
+    assert answer.code == 130
+    assert answer.report["plan"] and answer.report["interrupted"] is True
+
+
+def test_export_needs_a_known_ending(etot: Etot, tmp_path: Path) -> None:
+    answer = etot("plan", "toy.yaml", "--export", "plan.doc")
+    assert answer.code == 2 and ".pddl.txt" in answer.err
+    answer = etot("plan", "toy.yaml", "--export", "bt.xml", "--export", "plan.pddl.txt", "-q")
+    assert answer.code == 0
+    assert (tmp_path / "bt.xml").is_file() and (tmp_path / "plan.pddl.txt").is_file()
+
+
+def test_report_tells_how_long_the_reasoner_took(etot: Etot) -> None:
+    cost = etot("plan", "toy.yaml", "--json").report["statistics"]
+    assert isinstance(cost, dict) and 0 <= cost["reasoning_s"] <= cost["wall_s"] + 0.01

@@ -14,13 +14,8 @@ PHASE_WORDS = {
     "render": "rendering",
     "reconstruct": "reconstructing",
     "write": "writing files",
+    "trials": "trying the plan in varied worlds",
 }
-SHARES = (
-    ("physics_s", "physics"),
-    ("motion_s", "grasps, paths and inverse kinematics"),
-    ("reasoning_s", "reasoning"),
-)
-"""Parts of the search where the statistics tell them apart."""
 SMALLEST_S = 0.005
 """Shorter parts are not worth a line [s]."""
 
@@ -30,14 +25,13 @@ def time_parts(timing: TimingModel, statistics: object = None) -> dict[str, Any]
     phases = dict(timing.phases)
     parts: list[dict[str, Any]] = []
     search = phases.get("search")
-    shares = [(word, getattr(statistics, field, None)) for field, word in SHARES]
-    known = [(word, float(value)) for word, value in shares if value is not None]
-    if search is not None and known:
+    reasoning = getattr(statistics, "reasoning_s", None)
+    if search is not None and reasoning is not None:
         del phases["search"]
-        spent = sum(value for _, value in known)
-        parts += [{"name": word, "seconds": value, "note": ""} for word, value in known]
+        parts.append({"name": "reasoning", "seconds": reasoning, "note": ""})
+        simulating = max(0.0, search - reasoning)
         parts.append(
-            {"name": "searching, waiting", "seconds": max(0.0, search - spent), "note": ""}
+            {"name": "simulating", "seconds": simulating, "note": "kinematics, paths and physics"}
         )
     for name, seconds in phases.items():
         parts.append({"name": PHASE_WORDS.get(name, name), "seconds": seconds, "note": ""})

@@ -19,7 +19,7 @@
     const outline = host.clientWidth < 560;
     const count = data.nodes.filter(visible).length;
     const thumbs = !outline && count <= THUMBS_UP_TO && Object.keys(pictures).length > 0;
-    const width = outline ? 0 : thumbs ? 176 : 208, height = thumbs ? 156 : 50;
+    const width = outline ? 0 : thumbs ? 176 : 208, height = thumbs ? 172 : 50;
     const across = outline ? 18 : width + 40, down = outline ? 58 : height + 16;
     let row = 0;
     const place = new Map(), stack = [];
@@ -70,13 +70,13 @@
         : (node.status === "unsafe" ? "! " : "✗ ") + (node.kind || node.status).replace("_", " ");
       const box = make("button", {
         type: "button", role: "treeitem", tabindex: "-1", "aria-selected": "false", "aria-level": String(place.get(node.id)[0] + 1),
-        class: ["box", node.status, node.origin, inPlan.has(node.id) ? "plan" : ""].join(" "), title: node.action + (node.cause ? ": " + node.cause : ""),
+        class: ["box", thumbs ? "tall" : "", node.status, node.origin, inPlan.has(node.id) ? "plan" : ""].join(" "), title: node.action + (node.cause ? ": " + node.cause : ""),
         style: `left:${x}px;top:${y}px;height:${outline ? 46 : height}px;width:${outline ? Math.max(150, wide - x - 12) : width}px`,
         onclick: () => choose(node.id, true),
       });
       if (thumbs) {
         const frame = node.frames[node.frames.length - 1];
-        if (frame && frame.key in pictures) box.append(make("img", { alt: "", loading: "lazy", decoding: "async", src: pictures[frame.key] }));
+        if (frame && frame.key in pictures) box.append(make("img", { alt: "", decoding: "async", src: pictures[frame.key] }));
         else box.append(make("div", { style: "height:86px" }));
       }
       box.append(make("b", {}, node.action + (node.safe ? " (safe place)" : "")), make("span", {}, note));
