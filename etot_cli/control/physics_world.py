@@ -68,7 +68,7 @@ class PhysicsWorld:
         mujoco.mj_resetData(world.model, data)
         place_objects(world, data)
         gripper = world.robot.spec.gripper
-        data.qpos[world.robot.finger_qpos] = gripper.opening / 2
+        world.robot.set_opening(data, gripper.opening)
         ready = ready_pose(world, data)
         data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
         data.ctrl[world.robot.gripper_ctrl] = gripper.command_open

@@ -162,7 +162,7 @@ class SimulatedRobot:
                 raise WorldError("the simulation diverged (NaN)")
 
     def _opening(self) -> float:
-        return float(self._data.qpos[self._world.robot.finger_qpos].sum())
+        return self._world.robot.opening(self._data)
 
     def _slipped(self, guards: Guards) -> bool:
         return guards.holding is not None and self._opening() < guards.holding

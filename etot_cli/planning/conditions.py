@@ -8,10 +8,7 @@ from etot_cli.errors import SpecError
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Whereabouts, whereabouts
-from etot_cli.world.state import CLOSED_AT, DESK, ObjectState, PartInfo, SceneState
-
-HALF_OPEN = 0.5
-"""An open part is open at least this far, of 0…1."""
+from etot_cli.world.state import CLOSED_AT, DESK, STAYS_OPEN_AT, ObjectState, PartInfo, SceneState
 
 
 def holds(condition: Condition, scene: SceneState) -> bool:
@@ -37,7 +34,7 @@ def holds(condition: Condition, scene: SceneState) -> bool:
     if condition.in_hand is not None:
         return _object(condition.in_hand, scene).in_hand
     if condition.open is not None:
-        return scene.openness(_part(condition.open, scene)) >= HALF_OPEN
+        return scene.openness(_part(condition.open, scene)) >= STAYS_OPEN_AT
     if condition.closed is not None:
         return scene.openness(_part(condition.closed, scene)) <= CLOSED_AT
     if condition.upright is not None:

@@ -84,7 +84,7 @@ class Belief:
     @property
     def opening(self) -> float:
         """Distance between the pads [m]."""
-        return float(self.data.qpos[self.world.robot.finger_qpos].sum())
+        return self.world.robot.opening(self.data)
 
     def tool(self) -> Pose:
         """Tool pose, base frame."""

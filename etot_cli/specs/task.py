@@ -31,10 +31,10 @@ class Condition(Spec):
     """One statement about the world; exactly one key is given.
 
     ``on: [a, b]`` a rests on b (the desk is ``desk``); ``inside: [a, b]``; ``in_hand: a``;
-    ``open: part`` at least half way; ``closed: part``; ``upright: a``; ``present: a`` still on the
-    desk or on something; ``left_of: [a, b]`` and the like: a stands so with respect to b, seen from
-    the scene's viewpoint; ``between: [a, b, c]``; ``at: [a, region or [x, y]]``; ``any`` / ``all``:
-    lists of conditions; ``not``: one condition.
+    ``open: part`` at least 65 % of its travel; ``closed: part``; ``upright: a``; ``present: a``
+    still on the desk or on something; ``left_of: [a, b]`` and the like: a stands so with respect
+    to b, seen from the scene's viewpoint; ``between: [a, b, c]``; ``at: [a, region or [x, y]]``;
+    ``any`` / ``all``: lists of conditions; ``not``: one condition.
     """
 
     on: Pair | None = None

@@ -99,7 +99,8 @@ def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
             size = _extents(model, name)
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         entries[name] = _with_mass(entry, model)
-    return World(scene, model, robot_index(model, robot), entries, _addresses(model, entries))
+    index = robot_index(model, robot)
+    return World(scene, model, index, entries, _addresses(model, entries, index))
 
 
 def scene_spec(scene: specs.Scene) -> mujoco.MjSpec:
@@ -168,7 +169,9 @@ def _extents(model: mujoco.MjModel, name: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _addresses(model: mujoco.MjModel, entries: dict[str, ObjectEntry]) -> tuple[str, ...]:
+def _addresses(
+    model: mujoco.MjModel, entries: dict[str, ObjectEntry], robot: RobotIndex
+) -> tuple[str, ...]:
     part_bodies = {
         part.body: f"{part.info.owner}.{part.info.name}"
         for entry in entries.values()
@@ -176,7 +179,7 @@ def _addresses(model: mujoco.MjModel, entries: dict[str, ObjectEntry]) -> tuple[
     }
     boards = {f"{name}.{board}" for name, e in entries.items() for board in e.info.boards}
     addresses: list[str] = []
-    hand = _hand_bodies(model)
+    hand = _hand_bodies(model) | set(robot.finger_side)
     for geom in range(model.ngeom):
         body = int(model.geom_bodyid[geom])
         root = model.body(int(model.body_rootid[body])).name

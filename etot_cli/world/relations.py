@@ -13,12 +13,11 @@ from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import Memory
-from etot_cli.world.state import CLOSED_AT, OPEN_AT, ObjectState, SceneState
+from etot_cli.world.state import CLOSED_AT, OPEN_AT, STAYS_OPEN_AT, ObjectState, SceneState
 from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does."""
-OPEN_HYSTERESIS = 0.1
 INSIDE_MARGIN = 0.010
 """How far an object that was inside may stick out and still be inside [m]."""
 END_DEPTH = 0.5
@@ -105,9 +104,9 @@ def held_object(world: World, data: mujoco.MjData) -> str | None:
     """The movable object that both fingers touch, if any."""
     touched: dict[str, set[int]] = {}
     for hand, other in _robot_contacts(world, data):
-        body = int(world.model.geom_bodyid[hand])
-        if body in world.robot.finger_bodies and world.entries[other].info.movable:
-            touched.setdefault(other, set()).add(body)
+        side = world.robot.finger_side.get(int(world.model.geom_bodyid[hand]))
+        if side is not None and world.entries[other].info.movable:
+            touched.setdefault(other, set()).add(side)
     return next((name for name, bodies in touched.items() if len(bodies) == 2), None)
 
 
@@ -130,7 +129,7 @@ def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], l
     supports: dict[str, set[str]] = {}
     touched: dict[str, set[int]] = {}
     address, owner = world.geom_address, world.geom_object
-    fingers = world.robot.finger_bodies
+    sides = world.robot.finger_side
     geoms, distances, frames = data.contact.geom, data.contact.dist, data.contact.frame
     for i in range(data.ncon):
         if distances[i] > CONTACT_DISTANCE:
@@ -139,9 +138,9 @@ def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], l
         if "gripper" in (owner[first], owner[second]):
             hand, other = (first, second) if owner[first] == "gripper" else (second, first)
             if owner[other] in world.entries:
-                body = int(world.model.geom_bodyid[hand])
-                if body in fingers:
-                    touched.setdefault(owner[other], set()).add(body)
+                side = sides.get(int(world.model.geom_bodyid[hand]))
+                if side is not None:
+                    touched.setdefault(owner[other], set()).add(side)
             continue
         if owner[first] == owner[second]:
             continue
@@ -152,8 +151,8 @@ def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], l
             supports.setdefault(owner[first], set()).add(address[second])
     held = [
         name
-        for name, bodies in touched.items()
-        if len(bodies) == 2 and world.entries[name].info.movable
+        for name, touching in touched.items()
+        if len(touching) == 2 and world.entries[name].info.movable
     ]
     return supports, held
 
@@ -230,7 +229,7 @@ def _openness(
         fraction = (value - part.lower) / (part.upper - part.lower)
         openness[part.info.name] = round(min(max(fraction, 0.0), 1.0), 6)
         was_open = f"{entry.info.name}.{part.info.name}" in memory.opened
-        threshold = OPEN_AT - OPEN_HYSTERESIS if was_open else OPEN_AT
+        threshold = STAYS_OPEN_AT if was_open else OPEN_AT
         opened[part.info.name] = fraction >= threshold
     return openness, opened
 

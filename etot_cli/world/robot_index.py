@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.world.build.mjcf_check import check_mjcf
+from etot_cli.world.fingers import Fingers, fingers_of
 from etot_cli.world.robot import RobotSpec
 
 ROBOT_PREFIX = "robot/"
@@ -30,9 +31,10 @@ class RobotIndex:
     """Arm actuators in ctrl, (n,)."""
     gripper_ctrl: int
     finger_qpos: NDArray[np.int64]
+    """Joint positions of the gripper in qpos, (m,)."""
+    fingers: Fingers
     tool_site: int
     pads: tuple[int, int]
-    finger_bodies: tuple[int, int]
     lower: NDArray[np.float64]
     """Joint limits [rad], (n,)."""
     upper: NDArray[np.float64]
@@ -40,6 +42,16 @@ class RobotIndex:
     """How far the fingertips reach beyond the tool point [m]."""
     finger_half: float
     """Half thickness of the closed fingers, across the approach [m]."""
+    finger_side: dict[int, int]
+    """Bodies of the two fingers, those that hang on them too, and whether left (0) or right (1)."""
+
+    def opening(self, data: mujoco.MjData) -> float:
+        """Distance between the pads [m]."""
+        return self.fingers.opening(data.qpos[self.finger_qpos])
+
+    def set_opening(self, data: mujoco.MjData, opening: float) -> None:
+        """Puts the fingers where they stand at an opening [m]."""
+        data.qpos[self.finger_qpos] = self.fingers.posture(opening)
 
 
 def add_robot(mj: mujoco.MjSpec, robot: RobotSpec) -> None:
@@ -69,9 +81,12 @@ def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         raise WorldError(
             f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
         ) from error
-    finger_joints = [
-        int(model.jnt_qposadr[int(body.jntadr[0])]) for body in fingers if body.jntnum[0]
-    ]
+    measured = fingers_of(spec)
+    finger_joints = [int(model.joint(name(item)).qposadr[0]) for item in measured.joints]
+    sides = _sides(model, [int(body.id) for body in fingers])
+    for pad, item in zip(pads, spec.gripper.pads, strict=True):
+        if int(model.geom_bodyid[pad]) not in sides:
+            raise WorldError(f"robot {spec.name}: the pad {item} is on neither finger nor below it")
     lower, upper = np.array([joint.range for joint in joints]).T
     tip, finger_half = _fingertips(model, int(site), [int(pad) for pad in pads])
     return RobotIndex(
@@ -81,14 +96,27 @@ def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         ctrl=np.array([int(actuator.id) for actuator in actuators]),
         gripper_ctrl=int(gripper),
         finger_qpos=np.array(finger_joints),
+        fingers=measured,
+        finger_side=sides,
         tool_site=int(site),
         pads=(int(pads[0]), int(pads[1])),
-        finger_bodies=(int(fingers[0].id), int(fingers[1].id)),
         lower=lower,
         upper=upper,
         tip=tip,
         finger_half=finger_half,
     )
+
+
+def _sides(model: mujoco.MjModel, fingers: list[int]) -> dict[int, int]:
+    """For every body that is a finger or hangs on one, which of the two."""
+    sides: dict[int, int] = {}
+    for body in range(model.nbody):
+        parent = body
+        while parent and parent not in fingers:
+            parent = int(model.body_parentid[parent])
+        if parent:
+            sides[body] = fingers.index(parent)
+    return sides
 
 
 def _fingertips(model: mujoco.MjModel, site: int, pads: list[int]) -> tuple[float, float]:

@@ -10,6 +10,9 @@ DESK = "desk"
 """Name of the table top as a surface."""
 OPEN_AT = 0.75
 """A part counts as open from this share of its travel."""
+STAYS_OPEN_AT = 0.65
+"""An open part is still open, and things can be put in, down to this share: putting something in
+may push it back a little (hysteresis)."""
 CLOSED_AT = 0.06
 """A part counts as closed up to this share of its travel."""
 

@@ -11,7 +11,7 @@ from etot_cli.errors import SpecError
 from etot_cli.planning.conditions import holds
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
-from etot_cli.world.state import CLOSED_AT, SceneState
+from etot_cli.world.state import CLOSED_AT, STAYS_OPEN_AT, SceneState
 from tests.planning.fakes import scene
 
 
@@ -60,7 +60,13 @@ def test_inside_what_is_inside() -> None:
 
 @pytest.mark.parametrize(
     ("openness", "is_open", "is_closed"),
-    [(0.0, False, True), (CLOSED_AT, False, True), (0.3, False, False), (0.5, True, False)],
+    [
+        (0.0, False, True),
+        (CLOSED_AT, False, True),
+        (0.3, False, False),
+        (0.5, False, False),
+        (STAYS_OPEN_AT, True, False),
+    ],
 )
 def test_open_and_closed(openness: float, is_open: bool, is_closed: bool) -> None:
     state = lid(openness)

@@ -100,7 +100,7 @@ def test_arm_starts_where_its_home_is() -> None:
     shop.start()
     robot = shop.world.robot
     assert shop.data.qpos[robot.qpos] == pytest.approx(robot.spec.home, abs=0.01)
-    tool = shop.arm.forward(shop.data.qpos[robot.qpos])
+    tool = shop.twin.arm.forward(shop.data.qpos[robot.qpos])
     assert tool.rotation[2, 2] < -0.99
     assert shop.world.model.njnt == 7 + 2 + 3
 

@@ -165,7 +165,7 @@ def test_nothing_is_welded(any_world: World) -> None:
     """The only equality couples the two fingers of the gripper."""
     model = any_world.model
     fingers = set()
-    for body in any_world.robot.finger_bodies:
+    for body in any_world.robot.finger_side:
         fingers.add(int(model.body_jntadr[body]))
     for index in range(model.neq):
         assert model.eq_type[index] == mujoco.mjtEq.mjEQ_JOINT

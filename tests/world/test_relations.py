@@ -189,7 +189,8 @@ def test_in_hand_needs_both_fingers() -> None:
     stage.move("ball", tool + 0.0022 * across)
     mujoco.mj_forward(world.model, data)
     touched = {world.model.geom_bodyid[g] for pair in data.contact.geom for g in pair}
-    assert len(touched & set(world.robot.finger_bodies)) == 1
+    sides = world.robot.finger_side
+    assert len({sides[body] for body in touched & set(sides)}) == 1
     assert stage.look().holding is None, "one finger alone does not hold"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
@@ -139,7 +140,7 @@ def test_gripper_never_opens_beyond_its_stops() -> None:
     stage = set_up(make_scene())
     robot = stage.world.robot
     stage.data.qfrc_applied[:] = 0.0
-    for body in robot.finger_bodies:
+    for body in robot.finger_side:
         stage.data.joint(int(stage.world.model.body_jntadr[body])).qfrc_applied[0] = 20.0
     stage.step(0.5)
     assert stage.data.qpos[robot.finger_qpos].sum() < robot.spec.gripper.opening + 0.002
@@ -168,11 +169,12 @@ MODEL = """<mujoco><worldbody><body name="b"><joint name="a"/><geom size="0.01"/
 <body name="c"><joint name="d"/><geom size="0.01"/><body name="e"><joint name="f"/>
 <geom size="0.01"/><site name="tip"/>
 <body name="l"><joint name="l" type="slide" axis="0 1 0" range="0 0.02"/>
-<geom name="lp" size="0.005"/></body>
+<geom name="lp" size="0.005" pos="0 0.005 0"/></body>
 <body name="r"><joint name="r" type="slide" axis="0 -1 0" range="0 0.02"/>
-<geom name="rp" size="0.005"/></body></body></body></body></worldbody>
+<geom name="rp" size="0.005" pos="0 -0.005 0"/></body></body></body></body></worldbody>
+<equality><joint joint1="l" joint2="r" polycoef="0 1 0 0 0"/></equality>
 <actuator><position name="a" joint="a"/><position name="d" joint="d"/><position name="f" joint="f"/>
-<position name="g" joint="l"/></actuator></mujoco>"""
+<position name="g" joint="l" kp="50" dampratio="1"/></actuator></mujoco>"""
 YAML = """name: tiny
 model: tiny.xml
 joints: [a, d, f]
@@ -261,3 +263,114 @@ def test_every_built_in_robot_builds(folder: Path) -> None:
     world = build_world(Scene.model_validate({"robot": folder.name}))
     spec = world.robot.spec
     assert np.all(world.robot.lower <= spec.home) and np.all(spec.home <= world.robot.upper)
+
+
+# -- grippers of other makes -----------------------------------------------------------------------
+
+XARM = BUILTIN_ROBOTS / "xarm6"
+PAD = '<geom name="finger_{0}_pad" class="pad" size="0.011 0.005 0.0205" pos="0 {1}0.005 0.0825"/>'
+JOINTS = {"left": ("", "0 1 0"), "right": ("-", "0 -1 0")}
+
+
+def gripper(
+    tmp_path: Path, change: Callable[[str], str], yaml: Callable[[str], str] = str
+) -> Scene:
+    """A scene with an xArm6 whose model is changed."""
+    model = change((XARM / "xarm6.xml").read_text())
+    (tmp_path / "xarm6.xml").write_text(model)
+    (tmp_path / "arm.yaml").write_text(yaml((XARM / "robot.yaml").read_text()))
+    return Scene.model_validate({"robot": "arm.yaml", "directory": str(tmp_path)})
+
+
+def pads_on_bodies_of_their_own(model: str) -> str:
+    for side, (sign, _) in JOINTS.items():
+        pad = PAD.format(side, sign)
+        assert pad in model
+        model = model.replace(pad, f'<body name="tip_{side}" gravcomp="1">{pad}</body>')
+    return model
+
+
+def swinging_fingers(model: str) -> str:
+    """Each finger turns about a hinge behind it, the right one as the left one does."""
+    for side, (sign, axis) in JOINTS.items():
+        model = model.replace(
+            f'<joint name="finger_{side}" axis="{axis}"/>',
+            f'<joint name="finger_{side}" type="hinge" axis="{"-" if not sign else ""}1 0 0" '
+            'range="0 0.6" armature="0.01" damping="0.5"/>',
+        )
+    drive = '<position name="gripper" tendon="opening" kp="2000" kv="100"'
+    assert drive in model
+    model = model.replace(drive, '<position name="gripper" joint="finger_left" kp="50" kv="2"')
+    return model.replace('ctrlrange="0 0.085"', 'ctrlrange="0 0.5"')
+
+
+def tool_site_beside_the_fingers(model: str) -> str:
+    site = '<site name="tool" pos="0 0 0.172" size="0.004" rgba="1 0.3 0.1 0.6" group="4"/>'
+    assert site in model
+    return model.replace(site, f'<body name="flange">{site}</body>')
+
+
+@pytest.mark.parametrize(
+    ("change", "yaml"),
+    [
+        (pads_on_bodies_of_their_own, str),
+        (tool_site_beside_the_fingers, str),
+        (
+            swinging_fingers,
+            lambda text: text.replace("opening: 0.085 ", "opening: 0.056 ").replace(
+                "command_open: 0.085", "command_open: 0.47"
+            ),
+        ),
+    ],
+    ids=["pads on child bodies", "tool site elsewhere", "hinged and mimicked"],
+)
+def test_fingers_stand_at_the_opening_that_is_asked_for(
+    tmp_path: Path, change: Callable[[str], str], yaml: Callable[[str], str]
+) -> None:
+    world = build_world(gripper(tmp_path, change, yaml))
+    robot, data = world.robot, mujoco.MjData(world.model)
+    for opening in (0.01, 0.03, 0.05):
+        robot.set_opening(data, opening)
+        mujoco.mj_kinematics(world.model, data)
+        gap = mujoco.mj_geomDistance(world.model, data, *robot.pads, 1.0, None)
+        assert gap == pytest.approx(opening, abs=1e-3)
+        assert robot.opening(data) == pytest.approx(opening, abs=1e-3)
+    assert {world.geom_address[pad] for pad in robot.pads} == {"gripper"}
+    assert [robot.finger_side[int(world.model.geom_bodyid[pad])] for pad in robot.pads] == [0, 1]
+
+
+def shortened(model: str) -> str:
+    for side, (sign, _) in JOINTS.items():
+        pad = PAD.format(side, sign)
+        short = pad.replace("0.0205", "0.0155").replace("0.0825", "0.0775")
+        link = f'<geom name="nail_{side}" size="0.002 0.002 0.005" pos="0 {sign}0.011 0.098"/>'
+        model = model.replace(pad, short + link)
+    return model
+
+
+@pytest.mark.parametrize(
+    ("change", "yaml", "message"),
+    [
+        (shortened, str, "the pads end 10 mm above the fingertips"),
+        (
+            lambda m: m.replace('pos="0 0 0.172"', 'pos="0 0 0.22"'),
+            str,
+            "before the tool point tool",
+        ),
+        (str, lambda y: y.replace("opening: 0.085 ", "opening: 0.14 "), "an opening of 140 mm"),
+        (
+            lambda m: m.replace('<site name="tool"', '<site name="tool" euler="0 0 1.5708"'),
+            str,
+            "do not close along the y axis of tool",
+        ),
+    ],
+    ids=["short pads", "tool point too far", "wrong opening", "wrong axis"],
+)
+def test_what_can_never_grasp_is_said_when_a_scene_is_built(
+    tmp_path: Path,
+    change: Callable[[str], str],
+    yaml: Callable[[str], str],
+    message: str,
+) -> None:
+    with pytest.raises(WorldError, match=message):
+        build_world(gripper(tmp_path, change, yaml))

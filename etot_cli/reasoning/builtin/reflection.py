@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
-    OPEN_ENOUGH,
     contents,
     distance,
     has_front,
@@ -43,7 +42,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb
-from etot_cli.world.state import DESK, Cause, CauseKind, PartInfo
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, Cause, CauseKind, PartInfo
 
 REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""
@@ -303,7 +302,7 @@ class _Case:
                 put_there = self.actions[placed + 1].target == part.address
                 if not (within or put_there):
                     yield from self._earlier(placed, name)
-            elif not within or before.openness(part) >= OPEN_ENOUGH:
+            elif not within or before.openness(part) >= STAYS_OPEN_AT:
                 yield from self._out_of_the_way(name, index)
                 yield from shut_meanwhile(self.failed, name)
         yield from shut_meanwhile(self.failed, part.owner)

@@ -14,8 +14,6 @@ from etot_cli.world.state import (
     SceneState,
 )
 
-OPEN_ENOUGH = 0.6
-"""Openness from which things can be put in; less ("ajar") needs an OPEN first."""
 NOT_OBJECTS = frozenset({"robot", "gripper", "floor", DESK})
 """Names in contacts that no action can move."""
 ROLLING_KINDS = frozenset({"sphere", "capsule", "pen"})

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.builtin.relations import OPEN_ENOUGH, container_address, owner_of
+from etot_cli.reasoning.builtin.relations import container_address, owner_of
 from etot_cli.skills.action import MAX_PLAN_ACTIONS, Action, Verb
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, SceneState
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class _Checker:
         self._left_open = left_open
         self._held = scene.holding
         self._open = {
-            part.address: scene.openness(part) >= OPEN_ENOUGH
+            part.address: scene.openness(part) >= STAYS_OPEN_AT
             for info in scene.infos.values()
             for part in info.parts
         }

@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterable
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import (
-    OPEN_ENOUGH,
     container_address,
     is_closed,
     is_on,
@@ -16,7 +15,7 @@ from etot_cli.reasoning.builtin.relations import (
 from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import DESK, PartInfo, SceneState
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, PartInfo, SceneState
 
 PUT_DOWN = Action(Verb.PUT_ON, DESK, safe=True)
 """Frees the hand without any purpose of its own."""
@@ -37,7 +36,7 @@ class Sketch:
         self._moved: dict[str, tuple[Relation, str]] = {}
         self._placed: dict[str, tuple[str, tuple[Whereabouts, ...]]] = {}
         parts = [part for info in scene.infos.values() for part in info.parts]
-        self._accessible = {part.address: scene.openness(part) >= OPEN_ENOUGH for part in parts}
+        self._accessible = {part.address: scene.openness(part) >= STAYS_OPEN_AT for part in parts}
         self._open = {part.address: is_open(scene, part) for part in parts}
         self._closed = {part.address: is_closed(scene, part) for part in parts}
         for action in actions:

@@ -109,7 +109,7 @@ class RenderedFrames:
         world = self._world
         data = mujoco.MjData(world.model)
         data.qpos[world.robot.qpos] = world.robot.spec.home
-        data.qpos[world.robot.finger_qpos] = world.robot.spec.gripper.opening / 2
+        world.robot.set_opening(data, world.robot.spec.gripper.opening)
         for name, state in scene.states.items():
             entry = world.entries[name]
             if entry.free:

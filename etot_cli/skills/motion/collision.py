@@ -64,7 +64,7 @@ class CollisionChecker:
         self._tool = world.robot.tool_site
         self._hand = np.nonzero(self._owner == -2)[0]
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
-        fingers = np.isin(self._model.geom_bodyid, world.robot.finger_bodies)
+        fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
         self._ignored: frozenset[int] = frozenset()
         self.checks = 0
@@ -125,7 +125,7 @@ class CollisionChecker:
 
     def set_fingers(self, opening: float) -> None:
         """Sets the distance between the pads [m] of the frozen scene's hand."""
-        self._data.qpos[self.world.robot.finger_qpos] = opening / 2
+        self.world.robot.set_opening(self._data, opening)
 
     def hits(
         self,

@@ -436,7 +436,7 @@ class PlaceFinder:
         """The hand's solids, opened to let go, around the object's origin as it is held now."""
         belief, world, data = self._belief, self._belief.world, self._belief.scratch
         data.qpos[:] = belief.data.qpos
-        data.qpos[world.robot.finger_qpos] = (belief.opening + SNUG_RELEASE) / 2
+        world.robot.set_opening(data, belief.opening + SNUG_RELEASE)
         mujoco.mj_kinematics(world.model, data)
         return shapes_of(data, world.geoms_of("gripper"), self._origin(data))
 
