@@ -7,6 +7,7 @@ Run with ``make check-random``; a single problem with
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import signal
 import sys
@@ -14,7 +15,7 @@ import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -217,12 +218,21 @@ def _cell(text: str) -> str:
     return text.replace("|", "/").replace("\n", " ")[:300]
 
 
+def kept(path: Path | None) -> dict[str, Tried]:
+    """Outcomes of a run that was stopped, by problem."""
+    if path is None or not path.exists():
+        return {}
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return {tried.id: tried for tried in (Tried(**json.loads(line)) for line in lines)}
+
+
 def main() -> int:
     """Runs the checks; 0 when every demand is met."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", default="", help="family, family:seed, or several with commas")
     parser.add_argument("--time-limit", type=float, default=60.0)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--resume", type=Path, help="keep outcomes there, and skip what it has")
     parser.add_argument("--no-plan", action="store_true", help="simulate the given plans alone")
     parser.add_argument("--write-tasks", type=Path, help="write the task files there and stop")
     parser.add_argument("--no-write", action="store_true")
@@ -235,11 +245,19 @@ def main() -> int:
             print(problem(name, seed).write(options.write_tasks))
         return 0
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    work = [(name, seed, options.time_limit, not options.no_plan) for name, seed in wanted]
-    results: list[Tried] = []
+    known = kept(options.resume)
+    work = [
+        (name, seed, options.time_limit, not options.no_plan)
+        for name, seed in wanted
+        if f"{name}:{seed}" not in known
+    ]
+    results = [known[f"{name}:{seed}"] for name, seed in wanted if f"{name}:{seed}" in known]
     with ProcessPoolExecutor(options.jobs) as pool:
         for tried in pool.map(try_problem, work):
             results.append(tried)
+            if options.resume:
+                with options.resume.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(asdict(tried)) + "\n")
             times = ", ".join(f"{wall:.1f} s" for wall in tried.walls_s)
             bad = {tried.simulated, tried.planned} - {"", "ok"}
             print(
@@ -250,6 +268,8 @@ def main() -> int:
                 print(
                     f"      found:     {tried.plan}\n      planned:   {tried.planned}", flush=True
                 )
+    order = {f"{name}:{seed}": index for index, (name, seed) in enumerate(wanted)}
+    results.sort(key=lambda tried: order[tried.id])
     text, good = report(results)
     rest = left(results)
     print(f"\n{text}\n\n{rest}")
