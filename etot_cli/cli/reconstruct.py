@@ -108,9 +108,11 @@ def reconstruct(
 
 def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
     from etot_cli.reporting.reconstruct_report import ReconstructReport
+    from etot_cli.reporting.style import counted
 
     assert isinstance(report, ReconstructReport)  # imported late: --help stays quick
-    print(f"{report.status}: {len(report.objects)} objects, {folder / (report.scene or '')}")
+    found = counted(len(report.objects), "object")
+    print(f"{report.status}: {found}, {folder / (report.scene or '')}")
     if quiet:
         return
     for item in report.objects:
@@ -122,5 +124,7 @@ def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
             print(f"    note: {warning}")
     for warning in report.warnings:
         print(f"  note: {warning}")
+    if "page" in report.files:
+        print(f"  page: {folder / report.files['page']}")
     if report.task:
         print(f"  etot plan {folder / report.task}")

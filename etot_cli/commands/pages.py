@@ -35,13 +35,13 @@ from etot_cli.world.studio import Progress, Shot, Studio, take
 PAGE_NAME = "report.html"
 PAGE_PICTURES_BYTES = 6_500_000
 """All pictures of a page; in base64, with the rest of the page, they stay below 10 MB."""
-WIDEST_PX, NARROWEST_PX = 960, 320
-"""Widths of a page's pictures: enough for a whole screen, and enough to see a cup."""
+WIDEST_PX, NARROWEST_PX = 800, 320
+"""Widths of a page's pictures: enough to enlarge one, and enough to see a cup."""
 BYTES_PER_PIXEL = 0.06
 """Of a rendered desk as WebP of this quality, measured; a little above the mean."""
 QUALITY = 72
 RATIO = 16 / 10
-SAMPLES = ((40, 8), (120, 4), (10**9, 2))
+SAMPLES = ((40, 5), (120, 3), (10**9, 2))
 """Renders per picture for so many pictures: fewer pictures may each take longer."""
 RENDER_SECONDS = 120.0
 """Longest time for a page's pictures; what is left over is drawn from above."""

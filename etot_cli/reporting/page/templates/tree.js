@@ -128,7 +128,7 @@
     if (facts.length) parts.push(make("p", { class: "facts" }, facts.join(" · ")));
     panel.replaceChildren(...parts);
     panel.scrollTop = 0;
-    if (byHand && host.parentElement.clientWidth < 900) panel.scrollIntoView({ block: "start" });
+    if (byHand && host.closest(".explore").clientWidth < 900) panel.scrollIntoView({ block: "start" });
   }
 
   host.addEventListener("keydown", event => {
