@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-reconstruct clean
+.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-reconstruct soak clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -49,6 +49,9 @@ check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
 
 check-reconstruct: $(VENV)/.dev  ## measure reconstruction against known scenes
 	$(BIN)/python -m tests.measure.check_reconstruct
+
+soak: $(VENV)/.dev  ## kill 200 runs at random moments and look at what is left
+	$(BIN)/python -m tests.measure.soak
 
 clean:  ## remove the environment and caches, keep results
 	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis
