@@ -7,10 +7,11 @@ end otherwise, and even that shows its traceback on request alone.
 from __future__ import annotations
 
 import errno
+import functools
 import sys
 import traceback
-from collections.abc import Sequence
-from typing import Annotated
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
 
 import typer
 
@@ -23,6 +24,21 @@ from etot_cli.cli.simulate import simulate
 from etot_cli.cli.streams import lost, protect, visible
 from etot_cli.errors import EtotError
 
+
+def interruptible(command: Callable[..., int]) -> Callable[..., int]:
+    """A command that says so when it is stopped before it has anything to report."""
+
+    @functools.wraps(command)
+    def wrapped(*given: Any, **named: Any) -> int:
+        try:
+            return command(*given, **named)
+        except KeyboardInterrupt:
+            _complain("interrupted before there was anything to report")
+            return INTERRUPTED
+
+    return wrapped
+
+
 app = typer.Typer(
     name="etot",
     help="Plan robot manipulation by a tree search in a physics simulator.",
@@ -31,11 +47,11 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command()(plan)
-app.command()(simulate)
-app.command()(reconstruct)
-app.command()(new)
-app.command()(tasks)
+app.command()(interruptible(plan))
+app.command()(interruptible(simulate))
+app.command()(interruptible(reconstruct))
+app.command()(interruptible(new))
+app.command()(interruptible(tasks))
 
 
 BAD_NAMES = frozenset({errno.ENAMETOOLONG, errno.ELOOP, errno.ENOENT, errno.ENOTDIR, errno.EISDIR,
@@ -103,9 +119,14 @@ def run(arguments: Sequence[str]) -> int:
 def main() -> None:
     """Entry point of the script ``etot``."""
     output, _ = protect()
-    listen()
-    code = run(sys.argv[1:])
-    finish()
+    try:
+        listen()
+        code = run(sys.argv[1:])
+        finish()
+    except KeyboardInterrupt:  # in the moments around a command
+        finish()
+        _complain("interrupted")
+        code = INTERRUPTED
     reason = lost(output)
     if reason and code in (OK, NO):
         _complain(f"standard output took only a part of the answer: {reason}; see the report file")
