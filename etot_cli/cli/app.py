@@ -16,7 +16,7 @@ from typing import Annotated, Any
 import typer
 
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
-from etot_cli.cli.interrupts import finish, listen
+from etot_cli.cli.interrupts import asked_to_stop, finish, listen
 from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
@@ -25,16 +25,16 @@ from etot_cli.cli.streams import lost, protect, visible
 from etot_cli.errors import EtotError
 
 
+class _Answer(int):
+    """An exit code that a command has chosen, and said why; Typer has codes of its own."""
+
+
 def interruptible(command: Callable[..., int]) -> Callable[..., int]:
-    """A command that says so when it is stopped before it has anything to report."""
+    """A command whose exit code can be told from those of the machinery around it."""
 
     @functools.wraps(command)
     def wrapped(*given: Any, **named: Any) -> int:
-        try:
-            return command(*given, **named)
-        except KeyboardInterrupt:
-            _complain("interrupted before there was anything to report")
-            return INTERRUPTED
+        return _Answer(command(*given, **named))
 
     return wrapped
 
@@ -97,13 +97,12 @@ def run(arguments: Sequence[str]) -> int:
         code = app(list(arguments), prog_name="etot", standalone_mode=False)
     except EtotError as error:
         _complain(str(error))
-        return error.exit_code
+        return _interrupted() if asked_to_stop() else error.exit_code
     except typer.TyperException as error:  # a flag or argument that cannot be used
         _complain(error.format_message())
         return error.exit_code
     except (KeyboardInterrupt, typer.Abort):
-        _complain("interrupted")
-        return INTERRUPTED
+        return _interrupted()
     except MemoryError:
         _complain("there is not enough memory for this; --jobs 1 and --worlds 1 need least")
         return MISSING
@@ -111,9 +110,14 @@ def run(arguments: Sequence[str]) -> int:
         # Files that belong to the input are read with messages of their own.
         _complain(f"the system refuses: {error}")
         return UNUSABLE if error.errno in BAD_NAMES else MISSING
-    except Exception as error:  # a defect: whatever it is, a person gets a sentence
+    except Exception as error:
+        if asked_to_stop():  # an interrupt while a library was loaded, in that library's words
+            return _interrupted()
+        # a defect: whatever it is, a person gets a sentence
         return _confess(error, detailed="-v" in arguments or "--verbose" in arguments)
-    return code if isinstance(code, int) else OK
+    if code == INTERRUPTED and not isinstance(code, _Answer):
+        return _interrupted()
+    return int(code) if isinstance(code, int) else OK
 
 
 def main() -> None:
@@ -125,8 +129,7 @@ def main() -> None:
         finish()
     except KeyboardInterrupt:  # in the moments around a command
         finish()
-        _complain("interrupted")
-        code = INTERRUPTED
+        code = _interrupted()
     reason = lost(output)
     if reason and code in (OK, NO):
         _complain(f"standard output took only a part of the answer: {reason}; see the report file")
@@ -137,6 +140,11 @@ def main() -> None:
 def _complain(message: str) -> None:
     # What is quoted of files and replies must not speak to the terminal.
     print(f"error: {visible(message)}", file=sys.stderr)
+
+
+def _interrupted() -> int:
+    _complain("interrupted before there was anything to report")
+    return INTERRUPTED
 
 
 def _confess(error: Exception, *, detailed: bool) -> int:

@@ -20,16 +20,33 @@ SIGNALS = tuple(
 )
 
 
+class Stopped(KeyboardInterrupt):
+    """Somebody asked the program to stop.
+
+    A class of its own, because the interpreter remembers a plain KeyboardInterrupt that passes
+    through any ``exec``, and ends by signal for it whatever the program answered.
+    """
+
+
+_signals: list[float] = []
+"""When the first signal came, for libraries that turn the interrupt into an error of theirs."""
+
+
+def asked_to_stop() -> bool:
+    """Whether one of the signals has come."""
+    return bool(_signals)
+
+
 def listen() -> None:
     """Answers the signals from now on. To be called from the main thread."""
-    first: list[float] = []
+    first = _signals
 
     def stop(number: int, frame: object) -> None:
         now = time.monotonic()
         if first and now - first[0] < STOPPING_S:
             return
         first[:] = [now]
-        raise KeyboardInterrupt
+        raise Stopped
 
     for number in SIGNALS:
         # Also where a shell has them ignored, as SIGINT in background jobs: who sends one to a
