@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from etot_cli.specs.look import Look
+
 TaskFile = Annotated[Path, typer.Argument(metavar="TASK.yaml", help="The task file.")]
 Out = Annotated[
     Path | None,
@@ -42,6 +44,14 @@ Vary = Annotated[
     bool,
     typer.Option(
         "--vary", help="Draw poses and parameters from the scene's variation by the seed."
+    ),
+]
+WhenToLook = Annotated[
+    Look,
+    typer.Option(
+        "--look",
+        help="When the robot looks at a varied world: before each action, or once at the start, "
+        "running the twin's motions as they are.",
     ),
 ]
 VlmUrl = Annotated[

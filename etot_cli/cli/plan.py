@@ -28,10 +28,12 @@ from etot_cli.cli.options import (
     VlmRecord,
     VlmReplay,
     VlmUrl,
+    WhenToLook,
 )
 from etot_cli.cli.session import Session
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 from etot_cli.specs.bounds import MAX_WORLDS
+from etot_cli.specs.look import Look
 
 EXPORTS = (".xml", ".pddl.txt", ".pddl", ".zip")
 """Endings of files that --export writes."""
@@ -103,10 +105,11 @@ def plan(
             min=1,
             max=MAX_WORLDS,
             metavar="N",
-            help="Varied worlds that each action is tried in; the plan that holds in more wins. "
-            "[default: as the task says, else 1]",
+            help="Varied worlds in which the plan's odds are told; a few others have a say in "
+            "choosing it. [default: as the task says, else 1]",
         ),
     ] = None,
+    look: WhenToLook = Look.EACH,
     vlm_url: VlmUrl = None,
     model: VlmModelName = None,
     judge: Annotated[
@@ -156,6 +159,7 @@ def plan(
         record=html,
         jobs=jobs or _cores(),
         worlds=worlds,
+        look=look,
         without=frozenset(without or ()),
         limits=Limits(max_nodes=max_nodes, time_limit_s=time_limit),
         vlm={

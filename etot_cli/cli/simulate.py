@@ -9,8 +9,20 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import OK
-from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, TaskFile, Vary, Verbose
+from etot_cli.cli.options import (
+    Force,
+    Html,
+    Json,
+    Out,
+    Quiet,
+    Seed,
+    TaskFile,
+    Vary,
+    Verbose,
+    WhenToLook,
+)
 from etot_cli.cli.session import Session
+from etot_cli.specs.look import Look
 
 
 def simulate(
@@ -32,6 +44,7 @@ def simulate(
         bool, typer.Option("--noise", help="With --capture: as a Kinect would see it.")
     ] = False,
     vary: Vary = False,
+    look: WhenToLook = Look.EACH,
     video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
     html: Html = True,
@@ -65,7 +78,7 @@ def simulate(
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
 
     options = SimulateOptions(
-        task=task, plan=plan, seed=seed, vary=vary, record=video or frames or html
+        task=task, plan=plan, seed=seed, vary=vary, look=look, record=video or frames or html
     )
     simulation = run_simulate(options, session.log())
     report = simulation.report

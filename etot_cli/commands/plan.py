@@ -38,6 +38,7 @@ from etot_cli.reporting.plan_report import (
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
+from etot_cli.specs.look import Look
 from etot_cli.specs.reading import printable
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
@@ -57,6 +58,8 @@ class PlanOptions:
     jobs: int = 1
     worlds: int | None = None
     """As the task says when None."""
+    look: Look = Look.EACH
+    """When the robot looks, in varied worlds."""
     without: frozenset[Ablation] = frozenset()
     limits: Limits = field(default_factory=Limits)
     record: bool = False
@@ -127,6 +130,7 @@ def plan_task(
                 seed=options.seed,
                 jobs=options.jobs,
                 worlds=min(options.worlds or task.worlds, CHOOSING_WORLDS),
+                look=options.look,
                 record=options.record or (session is not None and session.needs_trajectories),
             )
         with closing(simulator), watch.phase("search"):
@@ -175,6 +179,7 @@ def _tried(
         worlds=1 + (options.worlds or task.worlds),
         record=False,
         fresh=True,
+        look=options.look,
     )
     judge = rooms.reasoners["builtin"]()
     try:
@@ -224,6 +229,7 @@ def _report(
             vary=options.vary,
             jobs=options.jobs,
             worlds=options.worlds or (task.worlds if task else 1),
+            look=options.look.value,
             without=[ablation.value for ablation in Ablation if ablation in options.without],
             max_nodes=options.limits.max_nodes,
             time_limit_s=options.limits.time_limit_s,

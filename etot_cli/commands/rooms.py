@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+from etot_cli.specs.look import Look
+
 if TYPE_CHECKING:
     from etot_cli.control.simulated import Simulator
     from etot_cli.reasoning.protocol import Reasoner
@@ -33,9 +35,11 @@ class OpenSimulator(Protocol):
         record: bool,
         fresh: bool = False,
         truth: Scene | None = None,
+        look: Look = Look.EACH,
     ) -> Simulator:
         """``record``: keep trajectories for later rendering; ``fresh``: varied worlds that no
-        search has seen; ``truth``: the world to act in, beside the twin.
+        search has seen; ``truth``: the world to act in, beside the twin; ``look``: when the robot
+        looks at a world that is not the twin.
         """
         ...
 

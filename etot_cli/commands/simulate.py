@@ -25,6 +25,7 @@ from etot_cli.reporting.simulate_report import (
     SuccessConditionsModel,
 )
 from etot_cli.skills.action import Action, parse_plan
+from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 from etot_cli.specs.wording import describe
@@ -39,6 +40,8 @@ class SimulateOptions:
     plan: str
     seed: int = 0
     vary: bool = False
+    look: Look = Look.EACH
+    """When the robot looks, in a varied world."""
     record: bool = False
     """Keep the trajectories, so that frames or a video can be rendered afterwards."""
 
@@ -118,6 +121,7 @@ def run_simulate(
                 worlds=1,
                 record=options.record,
                 truth=truth,
+                look=options.look,
             )
         with closing(simulator), watch.phase("simulate"):
             _carry_out(run, simulator, reasoner, rooms, observer)
@@ -216,6 +220,7 @@ def _report(options: SimulateOptions, run: _Run, watch: Stopwatch) -> SimulateRe
             "task": task_model(options.task, run.task),
             "files": {},
             "vary": options.vary,
+            "look": options.look.value,
             "plan": [str(action) for action in run.plan],
             "steps": run.steps,
             "cause": cause,

@@ -18,11 +18,11 @@ from functools import partial
 
 from etot_cli.control.physics_world import Performed
 from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
-from etot_cli.control.true_world import Look
 from etot_cli.control.worlds import Recipe, Worlds
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.motion.motion import Motion
+from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
 from etot_cli.world.snapshot import Snapshot

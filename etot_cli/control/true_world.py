@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import replace
-from enum import StrEnum
 
 import mujoco
 
@@ -19,18 +18,10 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.skills.motions import plan_motions
 from etot_cli.skills.outcome import SkillOutcome, failed
+from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import CauseKind
-
-
-class Look(StrEnum):
-    """When the robot looks at the scene."""
-
-    EACH = "each"
-    """Before each action, as the closed loop does; motions are planned for what is seen."""
-    ONCE = "once"
-    """Before the first one only: the motions of the twin are run as they are."""
 
 
 class TrueWorld(PhysicsWorld):

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 from etot_cli.control.physics_world import Performed, PhysicsWorld
 from etot_cli.control.simulated_world import SimulatedWorld
-from etot_cli.control.true_world import Look, TrueWorld
+from etot_cli.control.true_world import TrueWorld
 from etot_cli.skills.action import Action
 from etot_cli.skills.motion.motion import Motion
+from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import Cause, SceneState

@@ -46,6 +46,8 @@ class PlanOptionsModel(Model):
     vary: bool
     jobs: Count
     worlds: Count
+    look: Literal["each", "once"]
+    """When the robot looked, in varied worlds."""
     without: list[Literal["priori", "reflective"]]
     max_nodes: Count
     time_limit_s: Seconds | None

@@ -49,6 +49,8 @@ class SimulateReport(Report):
     schema_: Literal["etot.simulate/1"] = Field(default="etot.simulate/1", alias="schema")
     status: Literal["success", "failure", "unsafe", "interrupted"]
     vary: bool
+    look: Literal["each", "once"]
+    """When the robot looked at the varied world."""
     plan: list[str]
     """The plan asked for."""
     steps: list[StepModel]

@@ -12,34 +12,54 @@ import sys
 import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.rooms import default_rooms
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.planning.options import Ablation
+from etot_cli.reporting.files import write_report
+from etot_cli.specs.look import Look
+from etot_cli.specs.scene import Scene
+from etot_cli.specs.vary import vary
 from tests.measure.expectations import NAIVE_PLANS, TASKS, Naive, is_right_plan
 from tests.measure.markdown import replace_section, table
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "docs" / "results.md"
-OTHER_WORLD = 1000
-"""Plans found with seed s are tried in the world of seed s + this."""
 SOLVED_WITHOUT_REFLECTIVE = ("task2", "task3", "disturbance")
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One planning run: its plan, whether it is the right one, and how it fared elsewhere."""
+    """One planning run: its plan, and whether it is the right one."""
 
     task: str
     seed: int
     status: str
     plan: tuple[str, ...]
     right: bool
-    same_world: str
-    other_world: str
     wall_s: float
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How a nominal plan is carried out in worlds that differ from the twin."""
+
+    title: str
+    look: Look
+    position_m: float
+    yaw_deg: float
+    least: int
+    """Successes demanded of 20; 0 where the figure is told as it is."""
+
+
+SETTINGS = (
+    Setting("looks each time, worlds ±10 mm, ±10°", Look.EACH, 0.010, 10.0, 18),
+    Setting("looks once, worlds ±5 mm, ±3°", Look.ONCE, 0.005, 3.0, 19),
+    Setting("looks once, worlds ±10 mm, ±10°", Look.ONCE, 0.010, 10.0, 0),
+)
 
 
 def task_file(name: str) -> Path:
@@ -48,34 +68,42 @@ def task_file(name: str) -> Path:
 
 
 def plan_trial(arguments: tuple[str, int | None]) -> Trial:
-    """Plans one task (None: unvaried), replays the plan there and in another varied world."""
+    """Plans one task, unvaried where the seed is None."""
     name, seed = arguments
     begun = time.perf_counter()
     report = run_plan(
         PlanOptions(task=task_file(name), seed=seed or 0, vary=seed is not None, jobs=1)
     )
     wall = time.perf_counter() - begun
-    same = other = "-"
-    if report.plan:
-        written = _write(report, name, seed)
-        same = _simulate(name, written, seed or 0, vary=seed is not None)
-        other = _simulate(name, written, (seed or 0) + OTHER_WORLD, vary=True)
+    if seed is None and report.plan:
+        folder = report_folder(name)
+        folder.mkdir(parents=True, exist_ok=True)
+        write_report(report, folder)
     right = report.status == "feasible" and is_right_plan(name, list(report.plan))
-    return Trial(name, seed or 0, report.status, tuple(report.plan), right, same, other, wall)
+    return Trial(name, seed or 0, report.status, tuple(report.plan), right, wall)
 
 
-def _write(report: object, name: str, seed: int | None) -> str:
-    folder = ROOT / "results" / "check" / f"{name}-{seed}"
-    from etot_cli.reporting.files import write_report
-
-    folder.mkdir(parents=True, exist_ok=True)
-    write_report(report, folder)  # type: ignore[arg-type]
-    return str(folder / "report.json")
+def report_folder(name: str) -> Path:
+    """Where the report of a task's nominal plan is kept."""
+    return ROOT / "results" / "check" / name
 
 
-def _simulate(name: str, plan: str, seed: int, *, vary: bool) -> str:
-    options = SimulateOptions(task=task_file(name), plan=plan, seed=seed, vary=vary)
-    return run_simulate(options).report.status
+def truth_trial(arguments: tuple[str, int, int]) -> tuple[str, int, str, str]:
+    """Carries a nominal plan out in a true world: task, setting, status and cause."""
+    name, index, seed = arguments
+    setting = SETTINGS[index]
+
+    def drawn(scene: Scene, seed: int) -> Scene:
+        variation = scene.variation.model_copy(
+            update={"position_m": setting.position_m, "yaw_deg": setting.yaw_deg}
+        )
+        return vary(scene.model_copy(update={"variation": variation}), seed)
+
+    options = SimulateOptions(
+        task=task_file(name), plan=str(report_folder(name)), seed=seed, vary=True, look=setting.look
+    )
+    report = run_simulate(options, rooms=replace(default_rooms(), vary=drawn)).report
+    return name, index, report.status, report.cause or ""
 
 
 def naive_trial(arguments: tuple[int, int | None]) -> tuple[int, str, tuple[str, ...], str, str]:
@@ -108,7 +136,7 @@ def ablation_trial(arguments: tuple[str, str]) -> tuple[str, str, str, int]:
 
 
 def check_plans(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
-    """The table of demand 2 and 3."""
+    """Planning itself, in the scene as shipped and in varied ones."""
     jobs: list[tuple[str, int | None]] = [
         (task, seed) for task in tasks for seed in (None, *range(seeds))
     ]
@@ -118,27 +146,43 @@ def check_plans(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tupl
         nominal, *varied = [trial for trial in trials if trial.task == task]
         feasible = sum(trial.status == "feasible" for trial in varied)
         right = sum(trial.right for trial in varied)
-        again = sum(trial.same_world == "success" for trial in varied)
-        elsewhere = sum(trial.other_world == "success" for trial in varied)
-        passed = (
-            nominal.right
-            and nominal.same_world == "success"
-            and feasible >= round(0.95 * seeds)
-            and elsewhere >= round(0.9 * seeds)
-        )
+        passed = nominal.right and feasible >= round(0.95 * seeds)
         good &= passed
         rows.append(
             [task, "right" if nominal.right else nominal.status, f"{feasible}/{seeds}",
-             f"{right}/{seeds}", f"{again}/{seeds}", f"{elsewhere}/{seeds}",
-             f"{max(t.wall_s for t in varied or [nominal]):.1f} s", "yes" if passed else "NO"]
+             f"{right}/{seeds}", f"{max(t.wall_s for t in varied or [nominal]):.1f} s",
+             "yes" if passed else "NO"]
         )  # fmt: skip
         for trial in (nominal, *varied):
-            if not trial.right or trial.other_world != "success" or trial.same_world != "success":
-                print(f"  {task} seed {trial.seed}: {trial.status}, here {trial.same_world}, "
-                      f"elsewhere {trial.other_world}: {' '.join(trial.plan)}")  # fmt: skip
-    heads = ["task", "unvaried", "feasible", "right plan", "succeeds again",
-             "succeeds in another world", "slowest plan", "demand met"]  # fmt: skip
+            if not trial.right:
+                print(f"  {task} seed {trial.seed}: {trial.status}: {' '.join(trial.plan)}")
+    heads = ["task", "unvaried", "feasible", "right plan", "slowest plan", "demand met"]
     return table(heads, rows), good
+
+
+def check_truth(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
+    """The nominal plans under belief and truth."""
+    for task in tasks:
+        if not (report_folder(task) / "report.json").exists():
+            plan_trial((task, None))
+    jobs = [
+        (task, i, seed) for task in tasks for i in range(len(SETTINGS)) for seed in range(seeds)
+    ]
+    results = list(pool.map(truth_trial, jobs))
+    rows, good = [], True
+    for task in tasks:
+        cells, passed = [], True
+        for index, setting in enumerate(SETTINGS):
+            mine = [result for result in results if result[:2] == (task, index)]
+            alive = sum(status == "success" for *_, status, _ in mine)
+            passed &= alive >= setting.least * seeds / 20
+            cells.append(f"{alive}/{seeds}")
+            for seed, (*_, status, cause) in enumerate(mine):
+                if status != "success" and setting.least:
+                    print(f"  {task}, {setting.title}, seed {seed}: {status}: {cause}")
+        good &= passed
+        rows.append([task, *cells, "yes" if passed else "NO"])
+    return table(["task", *(setting.title for setting in SETTINGS), "demand met"], rows), good
 
 
 def check_naive(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
@@ -190,7 +234,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--tasks", default=",".join(TASKS))
-    parser.add_argument("--only", choices=["plans", "naive", "ablations"])
+    parser.add_argument("--only", choices=["plans", "truth", "naive", "ablations"])
     parser.add_argument("--no-write", action="store_true")
     options = parser.parse_args()
     tasks = options.tasks.split(",")
@@ -199,6 +243,7 @@ def main() -> int:
     with ProcessPoolExecutor(os.cpu_count() or 1) as pool:
         for key, title, check in (
             ("plans", "Planned in varied worlds", lambda: check_plans(pool, tasks, options.seeds)),
+            ("truth", "Belief and truth", lambda: check_truth(pool, tasks, options.seeds)),
             ("naive", "Naive plans", lambda: check_naive(pool, tasks, options.seeds)),
             ("ablations", "Ablations", lambda: check_ablations(pool, tasks)),
         ):

@@ -10,6 +10,7 @@ from etot_cli.control.simulated import Simulated, Simulator, StateToken
 from etot_cli.errors import SpecError
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
+from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Condition, Task
 from etot_cli.world.state import SceneState
@@ -83,6 +84,7 @@ class ToyRooms:
         record: bool,
         fresh: bool = False,
         truth: Scene | None = None,
+        look: Look = Look.EACH,
     ) -> Simulator:
         self._interrupt("open")
         if fresh:
