@@ -27,7 +27,6 @@ from etot_cli.reasoning.language.vocabulary import (
     GENERIC,
     HEAD,
     PART_OF_NAME,
-    REST_OF_NAME,
     Entry,
     Vocabulary,
     is_general_noun,
@@ -163,7 +162,7 @@ def _match_in(
     by_name: bool = True,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
-    sifted = _Sifted(_graded(pool, head, adjectives))
+    sifted = _Sifted(_graded(pool, head))
     called = (*adjectives, head, *((number,) if number else ()))
     exactly = [item for item in sifted.graded if item[0].is_called(called)]
     if len(exactly) == 1 and len(called) > 1:
@@ -184,7 +183,7 @@ def _match_in(
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
         plural = any(entry.is_plural(head) for entry in entries)
-    loose = best in (PART_OF_NAME, REST_OF_NAME) or (
+    loose = best == PART_OF_NAME or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
     if loose and any(_is_object(entry) for entry in entries):
@@ -260,31 +259,11 @@ def _names(entries: Iterable[Entry]) -> str:
     return " or ".join(dict.fromkeys(entry.exact[0] for entry in entries))
 
 
-def _graded(pool: list[Entry], head: str, adjectives: tuple[str, ...]) -> list[tuple[Entry, int]]:
+def _graded(pool: list[Entry], head: str) -> list[tuple[Entry, int]]:
     """Entries that a noun fits, with how well."""
     if matches_any(head, THING_NOUNS):
         return [(e, GENERIC) for e in pool if e.info is not None and e.thing.part is None]
-    graded = [(entry, grade) for entry in pool if (grade := entry.grade(head)) is not None]
-    if graded or is_general_noun(head):
-        return graded
-    # "the kettle thingamy": a noun that nobody knows after words that fit an object's own name.
-    plain = [word for word in adjectives if not _is_descriptive(word)]
-    return [
-        (entry, REST_OF_NAME)
-        for entry in pool
-        if plain and all(entry.has_word(word) for word in plain) and entry.thing.part is None
-    ]
-
-
-def _is_descriptive(word: str) -> bool:
-    return (
-        basic_color(word) is not None
-        or word in SIDES
-        or word in SIZES
-        or word in ORDINALS
-        or word in STATES
-        or word in LEVELS
-    )
+    return [(entry, grade) for entry in pool if (grade := entry.grade(head)) is not None]
 
 
 def _has_levels(entry: Entry) -> bool:

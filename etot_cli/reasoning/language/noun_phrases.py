@@ -233,7 +233,10 @@ class Resolver:
         """The things but for those that the phrase takes out."""
         out: set[Thing] = set()
         for word in phrase.without:
-            out |= self._with_quality(things, word, phrase)
+            meant = self._with_quality(things, word, phrase)
+            if not meant and basic_color(word) is None and word not in STATES:
+                raise ReferenceProblem(phrase.text, f"none of them is {word!r}", 1, word=word)
+            out |= meant
         for modifier in phrase.modifiers:
             if modifier.prep is Prep.QUALITY and modifier.denied:
                 out |= {

@@ -16,8 +16,9 @@ from typing import Any
 Result = tuple[int, Any]
 Parser = Callable[["Input", int], Sequence[Result]]
 
-MAX_WORK = 120_000
-"""Results of all rules together for one sentence; the longest sensible ones need a tenth."""
+MAX_WORK = 4000
+"""Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
+need some hundreds."""
 
 
 class TooManyReadings(Exception):

@@ -34,6 +34,8 @@ from etot_cli.reasoning.language.text import (
 )
 
 SHOWN_WORDS = 4
+MAX_READINGS = 200
+"""Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
 
 
 class UnreadableError(Exception):
@@ -132,6 +134,8 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
     given = Input(words, vocabulary)
     try:
         found = grammar.readings(given)
+        if len(found) > MAX_READINGS:
+            raise TooManyReadings
     except TooManyReadings:
         why = "this can be read in too many ways; make it several sentences"
         raise UnreadableError(_some(words), before, why) from None

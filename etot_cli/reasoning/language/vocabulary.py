@@ -26,9 +26,9 @@ from etot_cli.reasoning.language.phrases import GRAMMAR_WORDS
 from etot_cli.reasoning.language.text import normalized
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
-EXACT, HEAD, GENERIC, PART_OF_NAME, REST_OF_NAME = range(5)
+EXACT, HEAD, GENERIC, PART_OF_NAME = range(4)
 """How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
-its kind; another word of its name; only words before the phrase's noun fit ("kettle thing")."""
+its kind; another word of its name."""
 
 
 @dataclass(frozen=True, slots=True)
