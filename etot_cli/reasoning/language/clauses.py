@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.coreference import Discourse
 from etot_cli.reasoning.language.determiners import is_distributive
 from etot_cli.reasoning.language.distribution import distributed
 from etot_cli.reasoning.language.noun_phrases import Resolved, Resolver
-from etot_cli.reasoning.language.referents import Phrases
+from etot_cli.reasoning.language.referents import Phrases, lies_on
 from etot_cli.reasoning.language.syntax import (
     Avoid,
     AvoidClause,
@@ -359,12 +359,14 @@ class Clauses:
             if len(things) == 1 and len(places) == 1 and under is not None:
                 bottom = under
         for below, above in pairwise(indices):
-            self._steps.append(Put((above,), (self._upon(things[indices.index(below)], below),)))
+            lower, upper = things[indices.index(below)], things[indices.index(above)]
+            self._steps.append(Put((above,), (self._upon(lower, upper, below),)))
         self.discourse.stacks[self.discourse.clause] = bottom
 
-    def _upon(self, thing: Thing, index: int) -> Place:
-        """On a thing, or into a vessel that has no flat top."""
-        if can_be(thing, Role.SURFACE, self._scene):
+    def _upon(self, thing: Thing, upper: Thing, index: int) -> Place:
+        """On a thing, or into a vessel whose mouth is wider than what goes there."""
+        on = can_be(thing, Role.SURFACE, self._scene)
+        if on and lies_on([upper], thing, self._scene):
             return Place(Relation.ON, index)
         if can_be(thing, Role.CONTAINER, self._scene):
             return Place(Relation.INSIDE, index)

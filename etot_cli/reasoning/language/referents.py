@@ -26,6 +26,10 @@ _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
 
+LID = 0.95
+"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
+
+
 class Phrases:
     """Turns phrases into referents of a discourse.
 
@@ -174,7 +178,11 @@ class Phrases:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             things = self.discourse.things(index)
             fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
-            fits_on = any(can_be(thing, Role.SURFACE, self._scene) for thing in things)
+            laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+            fits_on = any(
+                can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
+                for thing in things
+            )
             if fits_in and (toward is not Toward.ON or not fits_on):
                 found.append(Place(Relation.INSIDE, index))
             if fits_on and toward is not Toward.INSIDE:
@@ -273,6 +281,19 @@ class Phrases:
             if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
                 return (Place(relation, index),)
         return (discourse.latest_place(relation, themes, word),)
+
+
+def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
+    """Whether things stay on top of another one and do not sink into its mouth."""
+    if below.name == DESK or below.board is not None:
+        return True
+    info = scene.infos[below.name]
+    if info.surface or not info.container:
+        return True
+    mouth = LID * min(info.size[:2])
+    return all(
+        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
+    )
 
 
 def _chooses(determiner: str) -> bool:
