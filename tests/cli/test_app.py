@@ -120,6 +120,7 @@ def test_options_reach_the_search(etot: Etot) -> None:
         "vary": True,
         "jobs": 1,
         "worlds": 3,
+        "look": "each",
         "without": [ablation.value for ablation in Ablation],
         "max_nodes": 200,
         "time_limit_s": 60.0,
