@@ -21,8 +21,9 @@ from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
 from etot_cli.cli.simulate import simulate
-from etot_cli.cli.streams import lost, protect, visible
+from etot_cli.cli.streams import lost, protect
 from etot_cli.errors import EtotError
+from etot_cli.specs.reading import visible
 
 
 class _Answer(int):

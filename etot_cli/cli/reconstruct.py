@@ -109,6 +109,7 @@ def reconstruct(
 def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
     from etot_cli.reporting.reconstruct_report import ReconstructReport
     from etot_cli.reporting.style import counted
+    from etot_cli.specs.reading import visible
 
     assert isinstance(report, ReconstructReport)  # imported late: --help stays quick
     found = counted(len(report.objects), "object")
@@ -121,9 +122,9 @@ def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
         print(f"  {item.name}: {item.kind}, {size} mm, at ({x:.3f}, {y:.3f}) on {item.support}; "
               f"{100 * item.fit.explained:.0f} % explained")  # fmt: skip
         for warning in item.warnings if verbose else item.warnings[:2]:
-            print(f"    note: {warning}")
+            print(f"    note: {visible(warning)}")
     for warning in report.warnings:
-        print(f"  note: {warning}")
+        print(f"  note: {visible(warning)}")
     if "page" in report.files:
         print(f"  page: {folder / report.files['page']}")
     if report.task:

@@ -74,8 +74,3 @@ def lost(sink: Sink) -> str:
     if sink.trouble is None or sink.trouble.errno == errno.EPIPE:
         return ""
     return sink.trouble.strerror or str(sink.trouble)
-
-
-def visible(text: str) -> str:
-    """A text without what a terminal would obey; line breaks stay."""
-    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)

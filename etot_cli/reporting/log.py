@@ -10,6 +10,7 @@ from etot_cli.reasoning.protocol import Branch
 from etot_cli.reporting.simulate_report import StepModel
 from etot_cli.reporting.style import counted, speaks_unicode, symbol
 from etot_cli.skills.action import Action, format_plan
+from etot_cli.specs.reading import visible
 
 
 class PlainLog:
@@ -82,4 +83,4 @@ class PlainLog:
         self._say(line)
 
     def _say(self, line: str) -> None:
-        print(line, file=self._stream, flush=True)
+        print(visible(line), file=self._stream, flush=True)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import IO, NamedTuple
 
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
+from rich.segment import Segment
 from rich.text import Text
+
+from etot_cli.specs.reading import visible
 
 
 class Verbosity(IntEnum):
@@ -42,7 +45,34 @@ LOOKS: dict[str, Look] = {
 
 def make_console(stream: IO[str]) -> Console:
     """A console on a stream; colours only on a terminal, and not with NO_COLOR."""
-    return Console(file=stream, highlight=False, soft_wrap=False)
+    console = Console(file=stream, highlight=False, soft_wrap=False)
+    console.push_render_hook(_Harmless())
+    return console
+
+
+class _Harmless(RenderHook):
+    """Takes out of everything that is shown what a terminal would obey.
+
+    Instructions, labels and replies of models may come from anybody; colours and movements of the
+    cursor are the console's own and stay.
+    """
+
+    def process_renderables(self, renderables: list[ConsoleRenderable]) -> list[ConsoleRenderable]:
+        return [_Shown(item) for item in renderables]
+
+
+class _Shown:
+    """A renderable whose text is visible text."""
+
+    def __init__(self, inner: ConsoleRenderable) -> None:
+        self._inner = inner
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        for segment in console.render(self._inner, options):
+            if segment.control:
+                yield segment
+            else:
+                yield Segment(visible(segment.text), segment.style)
 
 
 def counted(count: int, noun: str) -> str:

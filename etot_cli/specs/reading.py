@@ -102,6 +102,13 @@ def printable(path: Path) -> str:
     return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
+def visible(text: str) -> str:
+    """A text without what a terminal would obey; line breaks stay."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
 def _similar(path: Path) -> str:
     """A hint at a file of a similar name beside the missing one."""
     try:

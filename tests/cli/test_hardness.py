@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import resource
@@ -13,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.text import Text
 
+from etot_cli.reporting.style import make_console
 from tests.cli.test_process import ROOT, TOY, call, environment
 
 pytestmark = pytest.mark.slow
@@ -176,3 +179,26 @@ def test_a_task_file_of_any_name(tmp_path: Path, name: bytes) -> None:
     assert done.returncode == 0, done.stderr
     (found,) = tmp_path.glob("results/plan/*/report.json")
     assert report(found.parent)["status"] == "feasible"
+
+
+ESCAPES = "\x1b]0;title\x07\x1b[2J\x9b31m\u202e"
+
+
+@pytest.mark.parametrize("terminal", [False, True])
+def test_nothing_that_is_shown_speaks_to_the_terminal(terminal: bool) -> None:
+    """What is told to the console goes through; what came in a text does not."""
+    stream = io.StringIO()
+    console = make_console(stream)
+    if terminal:
+        console._force_terminal = True  # as a terminal would, so that colours are written
+    for shown in (f"a{ESCAPES}b", Text(f"a{ESCAPES}b", style="red")):
+        console.print(shown)
+    written = stream.getvalue()
+    for piece in ("\x1b]", "\x1b[2J", "\x9b", "\x07", "\u202e"):
+        assert piece not in written, repr(written)
+    assert "title" in written
+
+
+def test_neither_do_errors(tmp_path: Path) -> None:
+    done = call([*PLAN[:2], "simulate", "toy.yaml", "--plan", f"x{ESCAPES}"], tmp_path)
+    assert done.returncode == 2 and "\x1b" not in done.stderr and "\x9b" not in done.stderr
