@@ -167,3 +167,18 @@ def test_mirrored_scene_gives_mirrored_grasps(name: str) -> None:
         distance = np.linalg.norm(others - grasp.tool.position * flip, axis=1)
         alike = np.abs(closings @ (grasp.tool.rotation[:, 1] * flip)) > 0.99
         assert distance[alike].min() < 0.003
+
+
+@pytest.mark.parametrize("yaw", [0, 15, 30, 45])
+def test_a_line_across_a_corner_is_no_grasp(yaw: float) -> None:
+    """A box wider than the hand on every side, however it is turned."""
+    _, found = sample({"kind": "box", "size": [0.12, 0.11, 0.11], "at": [0.4, 0.1], "yaw_deg": yaw})
+    assert not found.grasps
+
+
+@pytest.mark.parametrize("thing", [{"kind": "sphere", "diameter": 0.11}, {
+    "kind": "cylinder", "diameter": 0.12, "height": 0.1,
+}])  # fmt: skip
+def test_a_chord_of_a_wide_round_thing_is_no_grasp(thing: dict[str, Any]) -> None:
+    _, found = sample(thing | {"at": [0.4, 0.1]})
+    assert all(grasp.width > 0.06 for grasp in found.grasps), "only near its widest line"

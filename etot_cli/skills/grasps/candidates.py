@@ -30,6 +30,10 @@ SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
 FINGER_DEPTH = 0.05
 """Depth of the space between the fingers, from the tool point backwards [m]."""
+SQUARE = 0.8
+"""Cosine of the largest angle between the closing direction and a surface's normal: 37°, within the
+friction cone of the pads (45° at their friction of 1) by a margin for what is perceived wrongly. A
+line across a box's corner meets its sides at more."""
 LEAN_COST = 0.25
 """Added to the score per radian of lean."""
 TOO_WIDE_TRIES = 1.35
@@ -176,7 +180,7 @@ def _choices(line: list[Interval]) -> list[tuple[Interval, bool]]:
     """Single walls with room on both sides, and the whole outside; True marks a wall."""
     if not line:
         return []
-    outer = Interval(line[0].start, line[-1].end)
+    outer = line[0].to(line[-1])
     chosen = [(outer, False)]
     if len(line) > 1:
         for index, interval in enumerate(line):
@@ -237,7 +241,7 @@ def _from_side(
     for origin, (approach, closing, turn, back), line in zip(origins, labels, lines, strict=True):
         if not line:
             continue
-        outer = Interval(line[0].start, line[-1].end)
+        outer = line[0].to(line[-1])
         middle = origin + closing * (outer.start + outer.end) / 2
         score = 1.0 + abs(turn) * 0.3 + abs(origin[2] - center[2]) * 4 + abs(back) * 5
         if axis is not None and abs(float(axis @ closing)) > 0.5:
@@ -259,6 +263,8 @@ def _add(
     pose: GraspPose,
     score: float,
 ) -> None:
+    if interval.squareness < SQUARE:
+        return
     largest = world.robot.spec.gripper.opening
     tool = Pose(point, rotation_from_axes(approach, closing))
     if interval.width + WIDTH_MARGIN <= largest:

@@ -22,10 +22,19 @@ _SIDES = 24
 
 @dataclass(frozen=True)
 class Interval:
-    """Solid material along a line, from ``start`` to ``end`` [m]."""
+    """Solid material along a line, from ``start`` to ``end`` [m].
+
+    ``squareness``: cosine of the larger of the angles at which the line meets the two surfaces; 1
+    where it is at right angles to both.
+    """
 
     start: float
     end: float
+    squareness: float = 1.0
+
+    def to(self, other: Interval) -> Interval:
+        """From where this one starts to where another ends."""
+        return Interval(self.start, other.end, min(self.squareness, other.squareness))
 
     @property
     def width(self) -> float:
@@ -66,28 +75,30 @@ class Solids:
             For every line its disjoint intervals in order, touching pieces merged.
         """
         spans = [
-            self._span(data, int(geom), origins, directions) for geom in self._world.geoms_of(name)
-        ]
+            self._crossings(
+                int(geom), data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3),
+                origins, directions, 0.0,
+            )
+            for geom in self._world.geoms_of(name)
+        ]  # fmt: skip
         lines: list[list[Interval]] = []
         for i in range(len(origins)):
             pieces = sorted(
-                (float(low[i]), float(high[i])) for low, high in spans if high[i] - low[i] > 1e-4
+                (float(low[i]), float(high[i]), float(entry[i]), float(leave[i]))
+                for low, high, entry, leave in spans
+                if high[i] - low[i] > 1e-4
             )
-            merged: list[Interval] = []
-            for low, high in pieces:
-                if merged and low <= merged[-1].end + 0.001:
-                    last = merged.pop()
-                    merged.append(Interval(last.start, max(last.end, high)))
+            merged: list[tuple[float, float, float, float]] = []
+            for piece in pieces:
+                if merged and piece[0] <= merged[-1][1] + 0.001:
+                    start, end, entry_cosine, leave_cosine = merged.pop()
+                    if piece[1] > end:
+                        end, leave_cosine = piece[1], piece[3]
+                    merged.append((start, end, entry_cosine, leave_cosine))
                 else:
-                    merged.append(Interval(low, high))
-            lines.append(merged)
+                    merged.append(piece)
+            lines.append([Interval(start, end, min(ends)) for start, end, *ends in merged])
         return lines
-
-    def _span(
-        self, data: mujoco.MjData, geom: int, origins: Vector, directions: Vector
-    ) -> tuple[Vector, Vector]:
-        rotation = data.geom_xmat[geom].reshape(3, 3)
-        return self.span(geom, data.geom_xpos[geom], rotation, origins, directions)
 
     def span(
         self,
@@ -111,26 +122,42 @@ class Solids:
         Returns:
             Distances (m,), (m,) along the lines [m]; a line misses where the second is smaller.
         """
+        low, high, *_ = self._crossings(geom, position, rotation, origins, directions, margin)
+        return low, high
+
+    def _crossings(
+        self,
+        geom: int,
+        position: Vector,
+        rotation: Vector,
+        origins: Vector,
+        directions: Vector,
+        margin: float,
+    ) -> tuple[Vector, Vector, Vector, Vector]:
+        """As :meth:`span`, and the cosines between line and surface normal at both crossings."""
         model = self._world.model
         local = (origins - position) @ rotation
         along = directions @ rotation
         if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
             middle = -(local * along).sum(axis=1)
-            squared = (model.geom_size[geom, 0] + margin) ** 2 - (
-                np.einsum("ij,ij->i", local, local) - middle**2
-            )
+            radius = model.geom_size[geom, 0] + margin
+            squared = radius**2 - (np.einsum("ij,ij->i", local, local) - middle**2)
             half = np.sqrt(np.maximum(squared, 0.0))
-            return middle - half, middle + half
+            return middle - half, middle + half, half / radius, half / radius
         normals, offsets = self.planes(geom)
         rate = along @ normals.T
         slack = offsets + margin - local @ normals.T
         with np.errstate(divide="ignore", invalid="ignore"):
             crossing = slack / rate
-        low = np.where(rate < -1e-9, crossing, -np.inf).max(axis=1)
-        high = np.where(rate > 1e-9, crossing, np.inf).min(axis=1)
+        entering = np.where(rate < -1e-9, crossing, -np.inf)
+        leaving = np.where(rate > 1e-9, crossing, np.inf)
+        low, high = entering.max(axis=1), leaving.min(axis=1)
         outside = ((np.abs(rate) <= 1e-9) & (slack < 0)).any(axis=1)
         high = np.where(outside, low, high)
-        return low, high
+        rows = np.arange(len(rate))
+        entry = -rate[rows, entering.argmax(axis=1)]
+        leave = rate[rows, leaving.argmin(axis=1)]
+        return low, high, entry, leave
 
 
 def _planes(model: mujoco.MjModel, geom: int) -> tuple[Vector, Vector]:
