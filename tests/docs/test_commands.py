@@ -35,6 +35,7 @@ RUN_BY_CI = {
     "check-random": "it plans for minutes",
     "check-reconstruct": "it renders and fits for minutes",
     "schemas": "tests/reporting compares the schemas with the models",
+    "soak": "it starts and stops programs for minutes",
     "docs": "tests/docs/test_site.py builds it",
     "figures": "it renders for minutes",
     "clean": "it would delete the environment of this test",
