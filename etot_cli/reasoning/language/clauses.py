@@ -26,6 +26,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.coreference import Discourse
 from etot_cli.reasoning.language.determiners import is_distributive
 from etot_cli.reasoning.language.distribution import distributed
+from etot_cli.reasoning.language.lexicon import is_descriptive, singular
 from etot_cli.reasoning.language.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.referents import Phrases, lies_on
 from etot_cli.reasoning.language.syntax import (
@@ -167,13 +168,12 @@ class Clauses:
 
     def _with_noun(self, phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
         """An elliptic phrase ("blue first") with the noun that it leaves out."""
+        single = tuple(map(singular, noun))
         if phrase.words[-1:] in (("one",), ("ones",)):
-            return replace(phrase, words=(*phrase.words[:-1], *noun))
+            kept = single if phrase.words[-1] == "one" else noun
+            return replace(phrase, words=(*phrase.words[:-1], *kept))
         # An adjective alone leaves its noun out; anything else is a noun of its own.
-        from etot_cli.reasoning.language.grammar import is_descriptive
-
         descriptive = phrase.words and all(map(is_descriptive, phrase.words))
-        single = tuple(word.removesuffix("s") for word in noun)
         return replace(phrase, words=(*phrase.words, *single)) if descriptive else phrase
 
     def _single(self, thing: Thing, text: str) -> int:

@@ -13,7 +13,7 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language import phrases as say
-from etot_cli.reasoning.language.lexicon import ORDINALS, SIDES, SIZES, basic_color
+from etot_cli.reasoning.language.lexicon import is_descriptive
 from etot_cli.reasoning.language.parsing import (
     Input,
     Parser,
@@ -104,12 +104,6 @@ ADJECTIVE = either(
 )
 ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
 NON = silent(phrase("non, not"))
-
-
-def is_descriptive(text: str) -> bool:
-    """Whether a word is an adjective of colour, place, size or order."""
-    described = text in SIDES or text in SIZES or text in ORDINALS
-    return described or basic_color(text) is not None
 
 
 def _relation(patterns: str, prep: Prep) -> Parser:

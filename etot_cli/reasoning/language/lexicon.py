@@ -154,6 +154,12 @@ def basic_color(word: str) -> str | None:
     return _COLOR_SYNONYMS.get(word)
 
 
+def is_descriptive(text: str) -> bool:
+    """Whether a word is an adjective of colour, place, size or order."""
+    described = text in SIDES or text in SIZES or text in ORDINALS
+    return described or basic_color(text) is not None
+
+
 def singular(word: str) -> str:
     """The singular of a regular noun; other words come back as they are."""
     if word in _IRREGULAR:
