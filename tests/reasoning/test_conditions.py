@@ -141,3 +141,20 @@ def test_an_order_is_one_of_the_given_placements(order: list[int]) -> None:
     assert sorted(supports_first(ring)) == list(range(5))
     free = [Placement(f"n{i}", Relation.ON, "desk") for i in order]
     assert supports_first(free) == list(range(5)), "the order given stays"
+
+
+def test_places_beside_things_are_goals() -> None:
+    state = scenes.kitchen()
+    assert plans(state, {"left_of": ["bottle", "box"]}) == [
+        "[PICK UP, bottle] [PUT ON, desk] (left of box)"
+    ]
+    assert plans(state, {"between": ["bottle", "box", "mug_a"]}, {"on": ["bottle", "desk"]}) == [
+        "[PICK UP, bottle] [PUT ON, desk] (between box and mug_a)"
+    ]
+    assert plans(state, {"at": ["bottle", "edge"]}, {"near": ["bottle", "box"]}) == [
+        "[PICK UP, bottle] [PUT ON, desk] (at edge, near box)"
+    ]
+    assert plans(state, {"not": {"left_of": ["bottle", "bowl_1"]}}, {"in_hand": "box"}) == [
+        "[PICK UP, box]"
+    ]
+    assert plans(state, {"next_to": ["bowl_1", "plate"]}) == []

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice, product
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Goal,
+    Near,
     Open,
     Pick,
     Place,
@@ -22,9 +23,13 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.relations import is_inside, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
-from etot_cli.specs.task import Condition
+from etot_cli.specs.task import BESIDE_KEYS, Condition
+from etot_cli.world import spatial
+from etot_cli.world.spatial import Whereabouts, whereabouts
 from etot_cli.world.state import DESK, SceneState
 
+BESIDE = "beside"
+"""Stands for all keys on where an object is with respect to others."""
 MAX_ALTERNATIVES = 256
 """Alternatives that nested ``any`` conditions may multiply into."""
 
@@ -36,6 +41,7 @@ class _Atom:
     key: str
     names: tuple[str, ...]
     denied: bool = False
+    where: Whereabouts | None = None
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
@@ -54,7 +60,8 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     for atoms in alternatives:
         draft = _Draft(scene)
         try:
-            for atom in atoms:
+            # What says where on a surface comes after what says on which.
+            for atom in sorted(atoms, key=lambda item: item.key == BESIDE):
                 draft.add(atom)
             goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps)), scene))
         except ReferenceProblem as error:
@@ -83,6 +90,13 @@ def _alternatives(condition: Condition, *, denied: bool) -> list[tuple[_Atom, ..
         name: str | None = getattr(condition, key)
         if name is not None:
             return [(_Atom(key, (name,), denied),)]
+    for key in BESIDE_KEYS:
+        names: tuple[str, ...] | None = getattr(condition, key)
+        if names is not None:
+            return [(_Atom(BESIDE, names[:1], denied, whereabouts(key, names[1:])),)]
+    if condition.at is not None:
+        name, region = condition.at
+        return [(_Atom(BESIDE, (name,), denied, whereabouts("at", (), region)),)]
     return [()]
 
 
@@ -113,6 +127,7 @@ class _Draft:
             "closed": self._open,
             "upright": self._state,
             "present": self._state,
+            BESIDE: self._beside,
         }
         adders[atom.key](atom)
 
@@ -129,6 +144,25 @@ class _Draft:
             if place == DESK:
                 raise ReferenceProblem(name, "say where it is to be instead of on the desk")
             self.steps.append(Put((theme,), (Place(Relation.ON, self._refer(DESK, Role.SURFACE)),)))
+
+    def _beside(self, atom: _Atom) -> None:
+        """A place beside something; on the surface that another condition names, if one does."""
+        name, where = atom.names[0], atom.where
+        assert where is not None  # these atoms have one
+        theme = self._refer(name, Role.THEME)
+        if atom.denied:
+            if spatial.holds(where, name, self.scene):
+                raise ReferenceProblem(name, f"say where it is to be instead of {where}")
+            return
+        landmarks = tuple(self._refer(landmark, Role.ANY) for landmark in where.landmarks)
+        near = Near(where.relation, landmarks, where.point)
+        for index, step in enumerate(self.steps):
+            if isinstance(step, Put) and step.what == (theme,):
+                places = tuple(replace(p, beside=(*p.beside, near)) for p in step.places)
+                self.steps[index] = replace(step, places=places)
+                return
+        surface = None if landmarks else self._refer(DESK, Role.SURFACE)
+        self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
 
     def _in_hand(self, atom: _Atom) -> None:
         name = atom.names[0]
