@@ -275,12 +275,19 @@ _COORDINATION = sequence(
 )
 exceptions.define(_COORDINATION)
 NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))
+
+
+def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
+    whole = _coordinated(nps[0], nps[1:]) if len(nps) > 1 else None
+    return None if whole is None else Things(whole, either=True)
+
+
 THINGS = either(
     valued(NP_LIST, Things),
     sequence(
         optional(EITHER),
         separated(noun_phrase, OR, most=6),
-        build=lambda nps: Things(nps, either=True) if len(nps) > 1 else None,
+        build=_one_of,
     ),
 )
 
@@ -308,7 +315,9 @@ def _either(parser: Parser, most: int) -> Parser:
     )
 
 
-TARGETS = _either(noun_phrase, 5)
+TARGETS = sequence(
+    _either(noun_phrase, 5), build=lambda nps: _coordinated(nps[0], nps[1:]) if nps else None
+)
 
 
 def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination]:
