@@ -26,6 +26,8 @@ SETTLE_S = 0.6
 """Time that the gripper gets at each of them [s]."""
 LINEAR = 1e-4
 """Openings this close to a line in the joints' values are taken to be on it [m]."""
+HEAVY = 1e6
+"""Inertia of joints that are not to move [kg m²]."""
 FAR = 1.0
 """Distances between pads are looked for up to this [m]."""
 OPENING_TOLERANCE = 0.005
@@ -100,6 +102,8 @@ def measure_fingers(spec: RobotSpec, changed_ns: int) -> Fingers:
     """
     model = mujoco.MjModel.from_xml_path(str(spec.model_path))
     model.opt.gravity[:] = 0.0
+    # As in scenes; with Euler's method stiff servos never come to rest.
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     arm = set(spec.joints)
     scalar = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     names = tuple(
@@ -117,6 +121,9 @@ def measure_fingers(spec: RobotSpec, changed_ns: int) -> Fingers:
         raise WorldError(
             f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
         ) from error
+    # Only the gripper is to move, whatever the arm's servos are like.
+    arm_dofs = [int(model.joint(name).dofadr[0]) for name in spec.joints]
+    model.dof_armature[arm_dofs] = HEAVY
     data = mujoco.MjData(model)
     data.qpos[arm_addresses] = spec.home
     data.ctrl[arm_actuators] = spec.home

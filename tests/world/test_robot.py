@@ -168,13 +168,13 @@ def test_no_collision_at_home_and_with_the_arm_stretched() -> None:
 MODEL = """<mujoco><worldbody><body name="b"><joint name="a"/><geom size="0.01"/>
 <body name="c"><joint name="d"/><geom size="0.01"/><body name="e"><joint name="f"/>
 <geom size="0.01"/><site name="tip"/>
-<body name="l"><joint name="l" type="slide" axis="0 1 0" range="0 0.02"/>
+<body name="l"><joint name="l" type="slide" axis="0 1 0" range="0 0.02" armature="0.05"/>
 <geom name="lp" size="0.005" pos="0 0.005 0"/></body>
-<body name="r"><joint name="r" type="slide" axis="0 -1 0" range="0 0.02"/>
+<body name="r"><joint name="r" type="slide" axis="0 -1 0" range="0 0.02" armature="0.05"/>
 <geom name="rp" size="0.005" pos="0 -0.005 0"/></body></body></body></body></worldbody>
 <equality><joint joint1="l" joint2="r" polycoef="0 1 0 0 0"/></equality>
 <actuator><position name="a" joint="a"/><position name="d" joint="d"/><position name="f" joint="f"/>
-<position name="g" joint="l" kp="50" dampratio="1"/></actuator></mujoco>"""
+<position name="g" joint="l" kp="50" kv="5"/></actuator></mujoco>"""
 YAML = """name: tiny
 model: tiny.xml
 joints: [a, d, f]

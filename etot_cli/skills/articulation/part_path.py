@@ -151,17 +151,22 @@ def approaches(
     travel.place(travel.value)
     belief.checker.set_fingers(contact.opening)
     tool = contact.touching(travel.at(travel.value))
-    free_spin = not contact.grip
-    for joints in arm.solutions(tool, belief.commanded, free_spin=free_spin):
-        reached = arm.forward(joints)
-        way = straight(reached, away_from(reached))
-        back, count = arm.line(way, joints, free_spin=free_spin)
-        if count < len(way):
-            continue
-        passage = met.copy()
-        rows = (joints, back[-1], back[count // 2])
-        if all(_admitted(belief, row, passage) for row in rows):
-            yield np.vstack([back[::-1], joints]), passage
+    # Closed fingers are thinnest with the hand turned along the face; otherwise any turn will do.
+    for free_spin in (False,) if contact.grip else (False, True):
+        found = False
+        for joints in arm.solutions(tool, belief.commanded, free_spin=free_spin):
+            reached = arm.forward(joints)
+            way = straight(reached, away_from(reached))
+            back, count = arm.line(way, joints, free_spin=free_spin)
+            if count < len(way):
+                continue
+            passage = met.copy()
+            rows = (joints, back[-1], back[count // 2])
+            if all(_admitted(belief, row, passage) for row in rows):
+                found = True
+                yield np.vstack([back[::-1], joints]), passage
+        if found:
+            return
 
 
 def _admitted(belief: Belief, joints: Vector, passage: Passage) -> bool:

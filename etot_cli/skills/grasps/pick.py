@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Iterator, Sequence
+from itertools import chain, islice
 
 import numpy as np
 
@@ -30,6 +30,10 @@ way by up to half a thin wall's thickness, and empty fingers close to nothing.""
 MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
 MAX_RANKED = 48
+MAX_SUSPECTS = 4
+"""Objects that are taken away one at a time to see whether that helps ..."""
+MAX_TRIED_AGAIN = 48
+"""... and the grasps that are then looked at again."""
 TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
 
@@ -62,8 +66,7 @@ def pick_motions(
             prepared.append(result)
             yield motion
     if not prepared:
-        opening = belief.world.robot.spec.gripper.opening
-        yield _explain(name, opening, found, blockers.evidence(unreachable))
+        yield _explain(belief, name, found, blockers.evidence(unreachable))
 
 
 def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Grasp]:
@@ -178,21 +181,25 @@ def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:
     )
 
 
-def _explain(name: str, opening: float, found: GraspSet, evidence: Evidence) -> SkillOutcome:
-    blocking, unreachable = evidence.most(excluding=[name]), evidence.unreachable
+def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> SkillOutcome:
+    """Why no grasp goes: whoever is in the way is found by looking again without them."""
+    opening = belief.world.robot.spec.gripper.opening
     # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
-    none_fits = bool(found.grasps) and not unreachable and not blocking
-    if none_fits or (not found.grasps and not found.too_wide):
+    suspects = evidence.most(excluding=[name])[:MAX_SUSPECTS]
+    if not found.grasps and not found.too_wide:
         return failed(
             CauseKind.NO_GRASP,
             [name],
             f"no two opposed surfaces of {name} fit the gripper (opening {opening * 1000:.0f} mm)",
         )
-    if blocking:
+    guilty = [one for one in suspects if _goes_without(belief, name, found, [one])]
+    if not guilty and len(suspects) > 1 and _goes_without(belief, name, found, suspects):
+        guilty = list(suspects)
+    if guilty:
         return failed(
             CauseKind.NO_GRASP,
-            [*blocking, name],
-            f"every grasp of {name} is obstructed by {', '.join(blocking)}",
+            [*guilty, name],
+            f"every grasp of {name} is obstructed by {', '.join(guilty)}",
         )
     if not found.grasps:
         return failed(
@@ -201,8 +208,26 @@ def _explain(name: str, opening: float, found: GraspSet, evidence: Evidence) -> 
             f"{name} is {found.narrowest * 1000:.0f} mm wide, the gripper opens "
             f"{opening * 1000:.0f} mm",
         )
+    if evidence.unreachable:
+        return failed(
+            CauseKind.UNREACHABLE,
+            [name],
+            f"the arm reaches none of the {evidence.unreachable} grasps of {name} that it has "
+            "room for",
+        )
     return failed(
-        CauseKind.UNREACHABLE,
-        [name],
-        f"the arm reaches none of the {unreachable} grasps of {name}",
+        CauseKind.NO_GRASP,
+        [*suspects, name],
+        f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
     )
+
+
+def _goes_without(belief: Belief, name: str, found: GraspSet, absent: Sequence[str]) -> bool:
+    """Whether some grasp goes once these objects are taken away."""
+    with belief.checker.without(absent):
+        for candidate in islice(_variants(found), MAX_TRIED_AGAIN):
+            belief.checker.freeze(belief.data)
+            result = prepare_grasp(belief, name, candidate, Blockers(belief.world))
+            if isinstance(result, PreparedGrasp):
+                return True
+    return False
