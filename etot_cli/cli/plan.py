@@ -41,6 +41,13 @@ MAX_JOBS = 256
 MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
 
 
+class Keep(StrEnum):
+    """Whose trajectories are written beside the report."""
+
+    PLAN = "plan"
+    ALL = "all"
+
+
 class ReasonerName(StrEnum):
     """Who proposes, judges and reflects."""
 
@@ -132,6 +139,10 @@ def plan(
             "the scene as MJCF (.zip). May be repeated.",
         ),
     ] = None,
+    keep: Annotated[
+        Keep,
+        typer.Option("--keep", help="Whose trajectories are written: the plan's, or all."),
+    ] = Keep.PLAN,
     html: Html = True,
     out: Out = None,
     force: Force = False,
@@ -175,6 +186,9 @@ def plan(
     with session.search_observer() as observer:
         planning = plan_task(options, observer)
     report = planning.report
+    from etot_cli.commands.trajectories import write_trajectories
+
+    write_trajectories(planning, session.folder, keep_all=keep is Keep.ALL)
     path = session.save(report)
     if html:
         from etot_cli.commands.pages import write_plan_page

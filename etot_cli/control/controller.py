@@ -5,6 +5,8 @@ The same code drives the simulated robot of the twin, that of an execution world
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,18 +29,15 @@ SETTLE_AFTER_FAILURE = 1.6
 """Time for what a failed motion has set moving to come to rest, at most [s]."""
 
 
-def run_motion(
-    motion: Motion, robot: Robot, limits: JointLimits, *, keep_targets: bool = False
-) -> Trace:
+def run_motion(motion: Motion, robot: Robot, limits: JointLimits) -> Trace:
     """Carries a motion out to its end or to the first phase that fails.
 
     Args:
         motion: what to do.
         robot: who does it.
         limits: of the joint targets that it is sent.
-        keep_targets: put the joint targets that were sent into the trace.
     """
-    run = _Run(robot, limits, keep_targets)
+    run = _Run(robot, limits)
     for phase in motion.phases:
         if not run.carry_out(phase):
             robot.wait(SETTLE_AFTER_FAILURE, Guards(), until_rest=True)
@@ -49,21 +48,23 @@ def run_motion(
 class _Run:
     """One motion on its way."""
 
-    def __init__(self, robot: Robot, limits: JointLimits, keep_targets: bool) -> None:
-        self._robot, self._limits, self._keep = robot, limits, keep_targets
+    def __init__(self, robot: Robot, limits: JointLimits) -> None:
+        self._robot, self._limits = robot, limits
         self._way_out: Vector | None = None
+        self._sent: Vector | None = None
+        self._held_from = 0.0
         self.phases: list[PhaseTrace] = []
 
     def carry_out(self, phase: Phase) -> bool:
         """Runs a phase; whether the motion goes on."""
         begun = self._robot.state().time_s
-        targets: Vector | None = None
+        self._sent, self._held_from = None, begun
         if isinstance(phase, Move):
-            end, targets = self._move(phase)
+            end, command = self._move(phase), phase.opening
         elif isinstance(phase, Hand):
-            end = self._hand(phase)
+            end, command = self._hand(phase), phase.opening
         else:
-            end = self._wait(phase)
+            end, command = self._wait(phase), None
         may_block = isinstance(phase, Move) and phase.may_block
         goes_on = end is PhaseEnd.DONE or (end is PhaseEnd.BLOCKED and may_block)
         contacts = self._robot.contacts() if may_block or not goes_on else Contacts()
@@ -76,14 +77,16 @@ class _Run:
                 round(state.time_s, 4),
                 round(state.opening, 6),
                 tuple(round(float(value), 6) for value in state.joints),
-                targets if self._keep else None,
+                command,
+                self._sent,
+                round(state.time_s - self._held_from, 4),
                 contacts.touching,
                 contacts.presses,
             )
         )
         return goes_on
 
-    def _move(self, move: Move) -> tuple[PhaseEnd, Vector]:
+    def _move(self, move: Move) -> PhaseEnd:
         if move.opening is not None:
             self._robot.set_opening(move.opening)
         path = move.path
@@ -92,11 +95,12 @@ class _Run:
         start = self._robot.state().targets
         whole = np.vstack([start[None], path])
         if move.length is None or move.tool_speed is None:
-            targets = time_path(whole, self._limits)
+            self._sent = time_path(whole, self._limits)
         else:
-            targets = time_line(whole, move.length, move.tool_speed, self._limits)
+            self._sent = time_line(whole, move.length, move.tool_speed, self._limits)
         guards = Guards(move.holding)
-        end = self._robot.follow(targets, guards)
+        end = self._robot.follow(self._sent, guards)
+        self._held_from = self._robot.state().time_s
         if end is PhaseEnd.DONE or (end is PhaseEnd.BLOCKED and move.may_block):
             waited = self._robot.wait(move.dwell, guards)
             if end is PhaseEnd.DONE:
@@ -105,7 +109,7 @@ class _Run:
             here = self._robot.state().joints
             nearest = int(np.abs(move.path - here).max(axis=1).argmin())
             self._way_out = move.exits[nearest]
-        return end, targets
+        return end
 
     def _hand(self, hand: Hand) -> PhaseEnd:
         self._robot.set_opening(hand.opening)
@@ -120,3 +124,34 @@ class _Run:
 
     def _wait(self, wait: Wait) -> PhaseEnd:
         return self._robot.wait(wait.seconds, Guards(wait.holding), until_rest=wait.until_rest)
+
+
+def replay(trace: Trace, robot: Robot) -> Trace:
+    """Sends a robot what another one was sent, phase by phase, looking at nothing in between.
+
+    Returns:
+        What became of it, with the same commands in it.
+    """
+    phases = []
+    for phase in trace.phases:
+        begun = robot.state().time_s
+        if phase.command is not None:
+            robot.set_opening(phase.command)
+        end = PhaseEnd.DONE
+        if phase.targets is not None:
+            end = robot.follow(phase.targets, Guards())
+        robot.wait(phase.waited_s, Guards())
+        state = robot.state()
+        phases.append(
+            replace(
+                phase,
+                end=end,
+                start_s=round(begun, 4),
+                end_s=round(state.time_s, 4),
+                opening=round(state.opening, 6),
+                joints=tuple(round(float(value), 6) for value in state.joints),
+                touching=(),
+                presses=(),
+            )
+        )
+    return Trace(tuple(phases))

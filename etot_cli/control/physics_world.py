@@ -98,7 +98,7 @@ class PhysicsWorld:
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
         robot = SimulatedRobot(world, data, recorder, self.deadline)
-        trace = run_motion(motion, robot, self.limits, keep_targets=self.keep_frames)
+        trace = run_motion(motion, robot, self.limits)
         self.total_steps += robot.steps
         mujoco.mj_forward(world.model, data)
         after, memory = read_scene(world, data, start.memory)

@@ -23,10 +23,14 @@ class WorldOutcome:
     """One world's account of an action.
 
     ``trajectory``: opaque decimated trajectory for later rendering (picklable), or None.
+    ``motion`` and ``trace``: what the robot was told and what became of it, opaque here; None where
+    nothing was tried.
     """
 
     record: RolloutRecord
     trajectory: object | None = None
+    motion: object | None = None
+    trace: object | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -204,7 +204,10 @@ class ActionSimulator:
             cause = Cause(CauseKind.ABANDONED, (), "not carried out, as it failed in the twin")
             performed.append(self._worlds.unperformed(index, node.snapshots[index], cause))
         return Simulated(
-            outcomes=tuple(WorldOutcome(item.record, item.trajectory) for item in performed),
+            outcomes=tuple(
+                WorldOutcome(item.record, item.trajectory, item.motion, item.trace)
+                for item in performed
+            ),
             end=_pack([item.end for item in performed]),
             wall_s=time.perf_counter() - node.begun,
         )

@@ -34,6 +34,7 @@ from etot_cli.reporting.models import (
     cause_model,
     seconds,
 )
+from etot_cli.reporting.motion_report import MotionModel
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord, SceneState
@@ -249,6 +250,8 @@ class PlanReport(Report):
     """Null without a plan."""
     success: SuccessModel | None
     """In the nominal world after the plan; null without a plan."""
+    motions: list[MotionModel] = Field(default_factory=list)
+    """What the robot is told for each action of the plan, in order."""
     prefix: PrefixModel | None
     """How far the search came; null with a plan, or where no action succeeded."""
     doubts: list[DoubtModel] = Field(default_factory=list)

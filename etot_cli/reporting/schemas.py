@@ -8,6 +8,7 @@ from pathlib import Path
 
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.models import Model
+from etot_cli.reporting.motion_report import TrajectoryModel
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.reporting.simulate_report import SimulateReport
@@ -17,6 +18,7 @@ REPORTS: dict[str, type[Model]] = {
     "etot.plan-1.json": PlanReport,
     "etot.simulate-1.json": SimulateReport,
     "etot.reconstruct-1.json": ReconstructReport,
+    "etot.trajectory-1.json": TrajectoryModel,
 }
 """Schema file name → report model."""
 

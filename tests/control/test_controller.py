@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from etot_cli.control.controller import run_motion
+from etot_cli.control.controller import replay, run_motion
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.control.simulated_world import SimulatedWorld
@@ -116,7 +116,7 @@ def test_the_simulated_robot_lifts_the_ball(
 
 def test_a_logging_robot_is_told_the_same(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=BALL["diameter"])
-    trace = run_motion(grasp, robot, LIMITS, keep_targets=True)
+    trace = run_motion(grasp, robot, LIMITS)
     assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
     assert trace.stopped is None
     assert [line.split(" to ")[0] for line in robot.log] == [
@@ -149,7 +149,7 @@ def test_a_drawer_that_stops_is_let_go_and_left_the_way_out_from_there(
     assert len(along.exits) == len(along.path)
     index = [p for p in motion.phases if isinstance(p, Move)].index(along)
     robot = scripted(motion, script={index: PhaseEnd.BLOCKED})
-    trace = run_motion(motion, robot, LIMITS, keep_targets=True)
+    trace = run_motion(motion, robot, LIMITS)
     assert ended(trace, "along") is PhaseEnd.BLOCKED
     assert ended(trace, "retreat") is PhaseEnd.DONE
     halted = np.array(next(p for p in trace.phases if p.name == "along").joints)
@@ -166,3 +166,17 @@ def test_planning_steps_nothing(world: SimulatedWorld, start: Snapshot) -> None:
     motion_of(world, start, "[PICK UP, ball]")
     restore(world.world, world.data, start)
     assert (world.data.time, world.data.qpos.tobytes()) == before
+
+
+def test_a_replay_ends_in_the_same_bytes(world: SimulatedWorld, start: Snapshot) -> None:
+    ends = []
+    restore(world.world, world.data, start)
+    motion = motion_of(world, start, "[OPEN, unit]")
+    restore(world.world, world.data, start)
+    trace = run_motion(motion, SimulatedRobot(world.world, world.data), LIMITS)
+    ends.append(world.data.qpos.tobytes())
+    restore(world.world, world.data, start)
+    again = replay(trace, SimulatedRobot(world.world, world.data))
+    ends.append(world.data.qpos.tobytes())
+    assert ends[0] == ends[1]
+    assert [phase.end_s for phase in again.phases] == [phase.end_s for phase in trace.phases]

@@ -165,8 +165,9 @@ class PhaseTrace:
     """What became of a phase.
 
     ``start_s`` and ``end_s``: time within the action [s]; ``opening``: sensed at its end [m];
-    ``joints``: sensed at its end (n,) [rad]; ``targets``: the joint targets sent, (m, n) at the
-    control period, None where they are not kept.
+    ``joints``: sensed at its end (n,) [rad]; ``command``: opening that the gripper was sent to as
+    the phase began [m], None for none; ``targets``: the joint targets sent, (m, n) at the control
+    period, None without any; ``waited_s``: time held still after them [s].
 
     ``touching`` and ``presses`` say who was in contact when a phase was stopped or a move that may
     be stopped came to its end; only a simulated robot knows. They serve the account of a failure;
@@ -179,7 +180,9 @@ class PhaseTrace:
     end_s: float
     opening: float
     joints: tuple[float, ...]
+    command: float | None = None
     targets: Vector | None = None
+    waited_s: float = 0.0
     touching: tuple[str, ...] = ()
     presses: tuple[Press, ...] = ()
 
