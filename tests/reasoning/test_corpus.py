@@ -12,8 +12,8 @@ import pytest
 import yaml
 
 from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.instructions import goal_of
-from etot_cli.reasoning.language.wording import formal
 from tests.reasoning import corpus_scenes
 
 CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.safe_load(

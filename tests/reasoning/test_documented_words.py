@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from etot_cli.reasoning.language import phrases
-from etot_cli.reasoning.language.parsing import spellings
+from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.patterns import spellings
 
 PAGE = Path(__file__).parents[2] / "docs" / "instructions.md"
 BEGIN = (
@@ -19,8 +19,8 @@ END = "<!-- end -->"
 
 
 def table() -> str:
-    rows = [(str(relation), text) for relation, text in phrases.NEARBY.items()]
-    rows += [(", ".join(map(str, regions)), text) for regions, text in phrases.REGIONS.items()]
+    rows = [(str(relation), text) for relation, text in places.NEARBY.items()]
+    rows += [(", ".join(map(str, regions)), text) for regions, text in places.REGIONS.items()]
     return "".join(f"| `{name}` | {', '.join(spellings(text)[:6])} |\n" for name, text in rows)
 
 

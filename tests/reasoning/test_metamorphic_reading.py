@@ -17,13 +17,13 @@ from hypothesis import strategies as st
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language import phrases
-from etot_cli.reasoning.language.goals import interpret
+from etot_cli.reasoning.builtin.wording import formal
+from etot_cli.reasoning.language.goals.interpretation import interpret
+from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.instructions import goal_of
-from etot_cli.reasoning.language.parsing import spellings
-from etot_cli.reasoning.language.reader import UnreadableError, normalized, read
-from etot_cli.reasoning.language.vocabulary import Vocabulary
-from etot_cli.reasoning.language.wording import formal
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words import known, verbs
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import SceneState
 from tests.reasoning import corpus_scenes, scenes
 
@@ -200,9 +200,9 @@ PLACES = """
 NOUNS = [item.strip() for line in THINGS.split("\n") for item in line.split("|") if item.strip()]
 WHERE = [item.strip() for line in PLACES.split("\n") for item in line.split("|") if item.strip()]
 VERBS = {
-    "put": spellings(phrases.PUT), "pick": spellings(phrases.PICK),
-    "open": [*spellings(phrases.OPEN), *spellings(phrases.CLOSE)],
-    "stack": [*spellings(phrases.STACK), *spellings(phrases.SWAP)],
+    "put": spellings(verbs.PUT), "pick": spellings(verbs.PICK),
+    "open": [*spellings(verbs.OPEN), *spellings(verbs.CLOSE)],
+    "stack": [*spellings(verbs.STACK), *spellings(verbs.SWAP)],
 }  # fmt: skip
 JOINTS = [" and ", ". ", ", then ", ", but first ", " after ", ", without touching the vase. "]
 EXTRAS = ["", " please", " first", " last", " together", " in this order", ", but not in the bowl"]
@@ -236,7 +236,7 @@ def sentences(draw: st.DrawFn) -> str:
         elif change == 3 and len(words[at]) > 2:
             words[at] = words[at][1:]
         else:
-            words.insert(at, draw(st.sampled_from(sorted(phrases.ALL_WORDS))))
+            words.insert(at, draw(st.sampled_from(sorted(known.ALL_WORDS))))
     return " ".join(words)
 
 

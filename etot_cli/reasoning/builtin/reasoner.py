@@ -12,7 +12,7 @@ from etot_cli.reasoning.builtin.constraints import broken_constraint, cause_of_b
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
-from etot_cli.reasoning.language.wording import formal
+from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.protocol import (
     Assignment,
     Branch,

@@ -1,5 +1,5 @@
 """Reading instructions: controlled English about a scene becomes a goal, or a refusal that helps.
 
-Text becomes words (``text``), words become every clause that the ``grammar`` allows (``syntax``),
-phrases find their things (``noun_phrases``, ``coreference``), clauses become a goal (``goals``).
+Text becomes every clause that the ``grammar`` allows, with its tables in ``words``; phrases find
+their things (``reference``); clauses become a goal (``goals``). ``instructions`` does all of it.
 """

@@ -7,11 +7,11 @@ from dataclasses import replace
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.goals import interpret
+from etot_cli.reasoning.language.goals.interpretation import interpret
+from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.languages import other_language
-from etot_cli.reasoning.language.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
-from etot_cli.reasoning.language.vocabulary import Vocabulary
 from etot_cli.world.state import SceneState
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from etot_cli.reasoning.language.phrases import ALL_WORDS
-from etot_cli.reasoning.language.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.world.state import SceneState
 
 _SMALL_WORDS = {

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.relations import container_parts
-from etot_cli.reasoning.language.lexicon import KIND_NOUNS
+from etot_cli.reasoning.language.words.lexicon import KIND_NOUNS
 from etot_cli.world.state import ObjectInfo, SceneState
 
 MAX_TRIES = 8

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.syntax import Destination, NounPhrase, PutGroup
+from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, PutGroup
 
 _DIFFERENT = frozenset({"different", "separate", "distinct"})
 

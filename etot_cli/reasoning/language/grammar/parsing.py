@@ -7,15 +7,14 @@ bounded; text with too many readings is refused, never cut down to some of them.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import product
 from typing import Any
+
+from etot_cli.reasoning.language.words.patterns import spellings
 
 Result = tuple[int, Any]
 Parser = Callable[["Input", int], Sequence[Result]]
-
 MAX_WORK = 4000
 """Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
 need some hundreds."""
@@ -83,21 +82,6 @@ class _Nothing:
 
 
 NOTHING = _Nothing()
-
-
-def expand(pattern: str) -> list[str]:
-    """All spellings of a pattern: ``(a|b)`` alternatives, ``[c]`` something optional."""
-    pattern = re.sub(r"\[([^\[\]]*)\]", r"(\1|)", pattern)
-    pieces = re.split(r"\(([^()]*)\)", pattern)
-    options = [piece.split("|") if index % 2 else [piece] for index, piece in enumerate(pieces)]
-    return [" ".join("".join(chosen).split()) for chosen in product(*options)]
-
-
-def spellings(patterns: str) -> list[str]:
-    """All spellings of patterns between commas; a line's end is no more than a space."""
-    plain = " ".join(patterns.split())
-    found = [text for part in plain.split(",") for text in expand(part.strip())]
-    return [text for text in dict.fromkeys(found) if text]
 
 
 def phrase(patterns: str, value: Any = None) -> Parser:
@@ -232,10 +216,3 @@ def located(parser: Parser, build: Callable[[int, Any], Any]) -> Parser:
 def complete(parser: Parser, given: Input) -> list[Any]:
     """The values of all readings of the whole input."""
     return list(dict.fromkeys(value for end, value in parser(given, 0) if end == len(given.words)))
-
-
-def words_of(patterns: Iterable[str]) -> frozenset[str]:
-    """Every single word that occurs in patterns."""
-    return frozenset(
-        item for pattern in patterns for text in spellings(pattern) for item in text.split()
-    )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.goal import Put, Step
-from etot_cli.reasoning.language.syntax import Order
+from etot_cli.reasoning.language.grammar.syntax import Order
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.lexicon import (
+from etot_cli.reasoning.language.reference.vocabulary import (
+    EXACT,
+    GENERIC,
+    HEAD,
+    PART_OF_NAME,
+    Entry,
+    Vocabulary,
+    is_general_noun,
+)
+from etot_cli.reasoning.language.words.known import REASONS
+from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
     LEVELS,
@@ -20,16 +30,6 @@ from etot_cli.reasoning.language.lexicon import (
     basic_color,
     matches_any,
     singular,
-)
-from etot_cli.reasoning.language.phrases import REASONS
-from etot_cli.reasoning.language.vocabulary import (
-    EXACT,
-    GENERIC,
-    HEAD,
-    PART_OF_NAME,
-    Entry,
-    Vocabulary,
-    is_general_noun,
 )
 
 

@@ -23,13 +23,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import is_closed, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.coreference import Discourse
-from etot_cli.reasoning.language.determiners import is_distributive
-from etot_cli.reasoning.language.distribution import distributed
-from etot_cli.reasoning.language.lexicon import is_descriptive, singular
-from etot_cli.reasoning.language.noun_phrases import Resolved, Resolver
-from etot_cli.reasoning.language.referents import Phrases, lies_on
-from etot_cli.reasoning.language.syntax import (
+from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
@@ -39,7 +33,6 @@ from etot_cli.reasoning.language.syntax import (
     MoveClause,
     NounPhrase,
     PickClause,
-    Prep,
     PutClause,
     PutGroup,
     RemoveClause,
@@ -49,6 +42,13 @@ from etot_cli.reasoning.language.syntax import (
     Toward,
     TowerClause,
 )
+from etot_cli.reasoning.language.reference.coreference import Discourse
+from etot_cli.reasoning.language.reference.determiners import is_distributive
+from etot_cli.reasoning.language.reference.distribution import distributed
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
+from etot_cli.reasoning.language.reference.referents import Phrases, lies_on
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
-from etot_cli.reasoning.language.syntax import Prep
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
 NEXT_TO = 0.10

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import contents, is_closed
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language import space
-from etot_cli.reasoning.language.lexicon import ORDINALS, SIDES, SIZES, STATES
-from etot_cli.reasoning.language.syntax import Modifier, Prep
+from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIDES, SIZES, STATES
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
 

@@ -5,8 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language import grammar, phrases
-from etot_cli.reasoning.language.lexicon import (
+from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
+from etot_cli.reasoning.language.grammar.sentences import readings
+from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.grammar.text import (
+    MAX_CHARACTERS,
+    MAX_SENTENCES,
+    MAX_WORDS,
+    Correction,
+    corrected,
+    normalized,
+    sentences_of,
+    spaced,
+    words_in,
+)
+from etot_cli.reasoning.language.words import known
+from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     MATERIALS,
@@ -18,19 +32,6 @@ from etot_cli.reasoning.language.lexicon import (
     STATES,
     basic_color,
     singular,
-)
-from etot_cli.reasoning.language.parsing import Input, TooManyReadings
-from etot_cli.reasoning.language.syntax import Spoken, reading_cost
-from etot_cli.reasoning.language.text import (
-    MAX_CHARACTERS,
-    MAX_SENTENCES,
-    MAX_WORDS,
-    Correction,
-    corrected,
-    normalized,
-    sentences_of,
-    spaced,
-    words_in,
 )
 
 SHOWN_WORDS = 4
@@ -117,13 +118,13 @@ def _is_known(word: str, vocabulary: Iterable[str]) -> bool:
     return (
         word in vocabulary
         or any(single == singular(item) for item in vocabulary)
-        or word in phrases.ALL_WORDS
+        or word in known.ALL_WORDS
         or single in COMMON_NOUNS
         or single in PURPOSES
         or word in MATERIALS
         or any(word in table for table in tables)
         or basic_color(word) is not None
-        or phrases.is_adverb(word)
+        or known.is_adverb(word)
     )
 
 
@@ -133,7 +134,7 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
         raise UnreadableError(_some(words), before, why)
     given = Input(words, vocabulary)
     try:
-        found = grammar.readings(given)
+        found = readings(given)
         if len(found) > MAX_READINGS:
             raise TooManyReadings
     except TooManyReadings:
@@ -148,17 +149,17 @@ def _stopped(given: Input, before: str) -> UnreadableError:
     """Where reading stopped and why: at a word that is never understood, else where it got to."""
     words, stop = given.words, given.reached
     for index, word in enumerate(words):
-        why = "" if word in given.nouns else phrases.REASONS.get(word, "")
-        if not why and word not in given.nouns and phrases.is_adverb(word):
-            why = "" if word in phrases.ALL_WORDS else "how something is done cannot be asked for"
-        if not why and word not in given.nouns and word in phrases.OTHER_VERBS:
+        why = "" if word in given.nouns else known.REASONS.get(word, "")
+        if not why and word not in given.nouns and known.is_adverb(word):
+            why = "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
+        if not why and word not in given.nouns and word in known.OTHER_VERBS:
             why = "no skill does that; things can be picked up, put somewhere, opened and closed"
-        blamed = word in phrases.BLAMED or word not in phrases.ALL_WORDS
+        blamed = word in known.BLAMED or word not in known.ALL_WORDS
         if why and (index >= stop - 1 or blamed):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(_some(words[index:]), understood, why, without)
-    strange = words[0] not in phrases.ALL_WORDS and words[0] not in given.nouns
+    strange = words[0] not in known.ALL_WORDS and words[0] not in given.nouns
     if strange and stop <= 1 < len(words):
         why = f"{words[0]!r} is no verb that is known"
         return UnreadableError(_some(words), before, why)

@@ -6,35 +6,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
-
-
-class Prep(StrEnum):
-    """How a modifier relates a noun to other things."""
-
-    ON = "on"
-    IN = "in"
-    FROM = "from"
-    OF = "of"
-    NEAR = "near"
-    LEFT = "left"
-    RIGHT = "right"
-    BEHIND = "behind"
-    FRONT = "front"
-    UNDER = "under"
-    ABOVE = "above"
-    BETWEEN = "between"
-    NEAREST = "nearest"
-    FARTHEST = "farthest"
-    CONTAINING = "containing"
-    BEARING = "bearing"
-    SIDE = "side"
-    """"on the left", "at the back": the word says which."""
-    QUALITY = "quality"
-    """"that is red", "red" after "everything": the words say which."""
-    EXCEPT = "except"
-    """Those that fit, without the phrases' things."""
 
 
 @dataclass(frozen=True, slots=True)

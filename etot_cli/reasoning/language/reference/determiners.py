@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "your", "its", "their"})
 

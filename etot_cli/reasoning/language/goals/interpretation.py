@@ -12,13 +12,13 @@ from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
-from etot_cli.reasoning.language.clauses import Clauses
-from etot_cli.reasoning.language.coreference import Discourse
-from etot_cli.reasoning.language.noun_phrases import Resolver
-from etot_cli.reasoning.language.ordering import Timed, in_order
-from etot_cli.reasoning.language.reader import Sentence
-from etot_cli.reasoning.language.syntax import Spoken, reading_cost
-from etot_cli.reasoning.language.vocabulary import Vocabulary
+from etot_cli.reasoning.language.goals.clauses import Clauses
+from etot_cli.reasoning.language.goals.ordering import Timed, in_order
+from etot_cli.reasoning.language.grammar.reader import Sentence
+from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.reference.coreference import Discourse
+from etot_cli.reasoning.language.reference.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.lexicon import same_noun
-from etot_cli.reasoning.language.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.world.state import SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})

@@ -7,18 +7,18 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.coreference import PLURAL_PRONOUNS, Discourse
-from etot_cli.reasoning.language.determiners import quantity_of
-from etot_cli.reasoning.language.noun_phrases import Resolved, Resolver, is_robot
-from etot_cli.reasoning.language.syntax import (
+from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
     Modifier,
     NounPhrase,
-    Prep,
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver, is_robot
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.language.lexicon import (
+from etot_cli.reasoning.language.grammar.text import normalized
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     COMMON_NOUNS,
     CONTAINER_NOUNS,
@@ -22,8 +24,6 @@ from etot_cli.reasoning.language.lexicon import (
     matches_any,
     singular,
 )
-from etot_cli.reasoning.language.phrases import GRAMMAR_WORDS
-from etot_cli.reasoning.language.text import normalized
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 EXACT, HEAD, GENERIC, PART_OF_NAME = range(4)

@@ -13,9 +13,13 @@ from itertools import combinations, islice
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language import space
-from etot_cli.reasoning.language.determiners import Quantity, quantity_of
-from etot_cli.reasoning.language.lexicon import (
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.reference.matching import Match, match_words
+from etot_cli.reasoning.language.reference.selection import select, state_holds
+from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary
+from etot_cli.reasoning.language.words.lexicon import (
     ORDINALS,
     SIDES,
     SIZES,
@@ -25,10 +29,7 @@ from etot_cli.reasoning.language.lexicon import (
     matches_any,
     singular,
 )
-from etot_cli.reasoning.language.matching import Match, match_words
-from etot_cli.reasoning.language.selection import select, state_holds
-from etot_cli.reasoning.language.syntax import Modifier, NounPhrase, Prep
-from etot_cli.reasoning.language.vocabulary import Entry, Vocabulary
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
 MAX_OPTIONS = 256

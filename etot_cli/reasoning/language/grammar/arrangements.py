@@ -1,0 +1,126 @@
+"""Rules for turning things upright, stacking them and swapping their places."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA, WITH
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    ReorientClause,
+    SwapClause,
+    Things,
+    TowerClause,
+)
+from etot_cli.reasoning.language.words import manner, verbs
+
+REORIENT = either(
+    sequence(
+        silent(phrase(verbs.REORIENT)),
+        THINGS,
+        silent(optional(phrase(manner.UPRIGHT), None)),
+        build=ReorientClause,
+    ),
+    sequence(
+        silent(phrase(verbs.TURN)), THINGS, silent(phrase(manner.UPRIGHT)), build=ReorientClause
+    ),
+)
+_ENDS = separated(
+    sequence(
+        noun_phrase,
+        optional(BE),
+        either(phrase(manner.AT_BOTTOM, "bottom"), phrase(manner.AT_TOP, "top")),
+        build=lambda np, end: (np, end),
+    ),
+    LIST,
+    most=2,
+)
+
+
+def _tower(
+    things: Things, upward: bool | None, ends: Any, base: tuple[Destination, ...] = ()
+) -> TowerClause | None:
+    named = {end: np for np, end in ends or ()}
+    if ends and len(named) < len(ends):
+        return None
+    return TowerClause(things, upward, named.get("bottom"), named.get("top"), base)
+
+
+_UPWARD = sequence(
+    OPTIONAL_COMMA,
+    either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False)),
+    build=lambda upward: upward,
+)
+_TOWER_ENDS = optional(sequence(OPTIONAL_COMMA, WITH, _ENDS, build=lambda ends: ends), None)
+TOWER = either(
+    sequence(
+        silent(phrase(verbs.STACK)),
+        THINGS,
+        silent(optional(phrase(manner.UPON_EACH_OTHER), None)),
+        optional(_UPWARD, None),
+        _TOWER_ENDS,
+        build=_tower,
+    ),
+    sequence(
+        silent(phrase(verbs.STACK)),
+        THINGS,
+        optional(_UPWARD, None),
+        DESTINATIONS,
+        _TOWER_ENDS,
+        build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        silent(phrase(manner.UPON_EACH_OTHER)),
+        optional(_UPWARD, None),
+        _TOWER_ENDS,
+        build=_tower,
+    ),
+    sequence(
+        silent(phrase(verbs.BUILD)),
+        optional(_UPWARD, None),
+        silent(phrase(verbs.OUT_OF)),
+        THINGS,
+        optional(_UPWARD, None),
+        _TOWER_ENDS,
+        build=lambda before, things, after, ends: (
+            None
+            if before is not None and after is not None
+            else _tower(things, before if after is None else after, ends)
+        ),
+    ),
+    sequence(
+        silent(phrase(verbs.BUILD)),
+        silent(phrase("a tower, a stack, a pile")),
+        _UPWARD,
+        COMMA,
+        THINGS,
+        build=lambda upward, things: _tower(things, upward, None),
+    ),
+)
+SWAP = either(
+    sequence(
+        silent(phrase(verbs.SWAP)),
+        THINGS,
+        silent(optional(phrase("around, over"), None)),
+        build=SwapClause,
+    ),
+    sequence(
+        silent(phrase("swap[ping], exchang(e|ing), switch[ing], replac(e|ing)")),
+        noun_phrase,
+        silent(phrase("with, for")),
+        noun_phrase,
+        build=lambda one, two: SwapClause(Things((one, two))),
+    ),
+)

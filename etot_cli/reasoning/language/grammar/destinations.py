@@ -1,0 +1,108 @@
+"""Rules for where something is to go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, OF, OR, alternatives
+from etot_cli.reasoning.language.grammar.noun_phrases import coordinated, noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    Rule,
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Beside,
+    Destination,
+    NounPhrase,
+    Toward,
+)
+from etot_cli.reasoning.language.words import places
+from etot_cli.world.spatial import Nearby
+
+TARGETS = sequence(
+    alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
+)
+
+
+def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination]:
+    return lambda targets: Destination(toward, targets)
+
+
+def _region(regions: tuple[Nearby, ...], phrases: Any) -> tuple[Beside, ...]:
+    return tuple(Beside(relation, () if phrases is None else (phrases,)) for relation in regions)
+
+
+def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
+    return (Beside(relation, nps),)
+
+
+_NEARBY = either(*(phrase(text, relation) for relation, text in places.NEARBY.items()))
+_REGION = either(*(phrase(text, regions) for regions, text in places.REGIONS.items()))
+BESIDE = either(
+    sequence(_NEARBY, noun_phrase, build=_beside),
+    sequence(
+        silent(phrase("[in] between")),
+        noun_phrase,
+        silent(phrase("and")),
+        noun_phrase,
+        build=lambda one, two: (
+            None if (pair := coordinated(one, (two,))) is None else (Beside(Nearby.BETWEEN, pair),)
+        ),
+    ),
+    sequence(
+        silent(phrase("[in] between")),
+        noun_phrase,
+        build=lambda np: (Beside(Nearby.BETWEEN, (np,)),),
+    ),
+    sequence(
+        _REGION, optional(sequence(OF, noun_phrase, build=lambda np: np), None), build=_region
+    ),
+)
+BESIDES = valued(
+    separated(BESIDE, silent(either(COMMA, phrase("and, but"))), most=3),
+    lambda found: tuple(item for several in found for item in several),
+)
+_into = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
+_onto = sequence(silent(phrase(places.ONTO)), TARGETS, build=_toward(Toward.ON))
+_to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
+_top_of = sequence(
+    silent(phrase(places.ONTO)),
+    noun_phrase,
+    silent(phrase("'s")),
+    silent(phrase("top, surface")),
+    build=lambda np: Destination(Toward.ON, (np,)),
+)
+destination = Rule(
+    either(
+        _into,
+        _onto,
+        _to,
+        _top_of,
+        valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
+        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
+        valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
+        sequence(
+            either(_onto, _to, _into),
+            silent(optional(phrase("~comma"), None)),
+            BESIDES,
+            build=lambda surface, found: replace(surface, beside=found),
+        ),
+    )
+)
+DESTINATIONS = sequence(
+    optional(EITHER), separated(destination, OR, most=5), build=lambda found: found
+)
+_directed = either(
+    sequence(silent(phrase(places.INTO_DIRECTED)), TARGETS, build=_toward(Toward.INSIDE)),
+    sequence(silent(phrase(places.ONTO_DIRECTED)), TARGETS, build=_toward(Toward.ON)),
+    _to,
+)
+DIRECTED = sequence(optional(EITHER), separated(_directed, OR, most=5), build=lambda found: found)

@@ -1,0 +1,234 @@
+"""Rules for noun phrases: determiner, adjectives and noun, and what singles an instance out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import EITHER, LIST, NOUN_WORD, OR, WITH
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    Rule,
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+    some,
+    spanned,
+    valued,
+    word,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Modifier,
+    NounPhrase,
+    Things,
+)
+from etot_cli.reasoning.language.words import manner, nouns, places
+from etot_cli.reasoning.language.words.lexicon import is_descriptive
+from etot_cli.reasoning.language.words.places import Prep
+
+noun_phrase = Rule()
+exceptions = Rule()
+_NUMBER = sequence(
+    word(lambda given, text: text.isdigit() and len(text) < 3),
+    silent(optional(phrase("of [the|these|those]"), None)),
+    build=lambda number: number,
+)
+DETERMINER = either(*(phrase(pattern) for pattern in nouns.DETERMINERS), _NUMBER)
+PRONOUN = phrase("it, them, they, this, that, these, those, its")
+RELATIVE = silent(phrase(nouns.RELATIVE))
+DENIED = silent(phrase(nouns.RELATIVE_NOT))
+ADJECTIVE = either(
+    word(lambda given, text: is_descriptive(text) or text in given.nouns),
+    phrase(manner.STATES),
+)
+ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
+NON = silent(phrase("non, not"))
+
+
+def _relation(patterns: str, prep: Prep) -> Parser:
+    return phrase(patterns, prep)
+
+
+PREPOSITION = either(*(_relation(pattern, prep) for prep, pattern in places.PREPOSITIONS.items()))
+SIDE = phrase(places.SIDE)
+
+
+def _with_prep(prep: Prep, np: NounPhrase) -> Modifier:
+    return Modifier(prep, (np,))
+
+
+_plain_modifier = either(
+    sequence(PREPOSITION, noun_phrase, build=_with_prep),
+    sequence(
+        silent(phrase("[in] between")),
+        noun_phrase,
+        silent(phrase("and")),
+        noun_phrase,
+        build=lambda one, two: (
+            None if (pair := coordinated(one, (two,))) is None else Modifier(Prep.BETWEEN, pair)
+        ),
+    ),
+    sequence(
+        silent(phrase("[in] between")), noun_phrase, build=lambda np: Modifier(Prep.BETWEEN, (np,))
+    ),
+    valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
+)
+_contents = either(
+    sequence(
+        silent(either(WITH, phrase(nouns.CONTAINING))),
+        noun_phrase,
+        build=lambda np: Modifier(Prep.CONTAINING, (np,)),
+    ),
+    sequence(
+        WITH,
+        noun_phrase,
+        silent(either(phrase("inside, in there, in"), phrase("(inside|in) (it|them)"))),
+        build=lambda np: Modifier(Prep.CONTAINING, (np,)),
+    ),
+    sequence(
+        WITH,
+        noun_phrase,
+        silent(phrase("on [top of] (it|them), on top")),
+        build=lambda np: Modifier(Prep.BEARING, (np,)),
+    ),
+)
+_quality = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
+_described = either(_plain_modifier, _contents, _quality)
+MODIFIER = either(
+    _plain_modifier,
+    _contents,
+    sequence(RELATIVE, _described, build=lambda modifier: modifier),
+    sequence(DENIED, _described, build=lambda modifier: replace(modifier, denied=True)),
+    sequence(
+        silent(phrase(nouns.NOT_PLACED)),
+        _plain_modifier,
+        build=lambda modifier: replace(modifier, denied=True),
+    ),
+    sequence(
+        silent(optional(phrase("~comma"), None)),
+        silent(phrase(nouns.EXCEPT)),
+        exceptions,
+        build=lambda nps: Modifier(Prep.EXCEPT, nps),
+    ),
+)
+MODIFIERS = some(MODIFIER, most=4)
+WORDS = some(NOUN_WORD, least=1, most=6)
+
+
+def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhrase:
+    return NounPhrase(determiner, words, modifiers)
+
+
+def _joined(
+    determiner: str, first: tuple[str, ...], rest: Any, modifiers: Any
+) -> NounPhrase | None:
+    if len(rest) < 2 or not all(map(is_descriptive, first)) or not is_descriptive(rest[0]):
+        return None
+    return NounPhrase(determiner, (*first, *rest), modifiers, joined=True)
+
+
+def _negative(determiner: str, without: str, words: Any, modifiers: Any) -> NounPhrase:
+    return NounPhrase(determiner, words, modifiers, without=(without,))
+
+
+def _general(determiner: str, head: str, quality: Any, modifiers: Any) -> NounPhrase:
+    modifiers = modifiers if quality is None else (quality, *modifiers)
+    return NounPhrase(determiner, (head,), modifiers)
+
+
+def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
+    if modifiers and pronoun in ("it", "its"):
+        return None
+    return NounPhrase(modifiers=modifiers, pronoun=pronoun)
+
+
+OPTIONAL_DETERMINER = optional(DETERMINER, "")
+noun_phrase.define(
+    spanned(
+        either(
+            sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
+            sequence(OPTIONAL_DETERMINER, NON, NOUN_WORD, WORDS, MODIFIERS, build=_negative),
+            sequence(
+                OPTIONAL_DETERMINER,
+                some(NOUN_WORD, least=1, most=2),
+                silent(phrase("and")),
+                WORDS,
+                MODIFIERS,
+                build=_joined,
+            ),
+            sequence(
+                OPTIONAL_DETERMINER,
+                phrase(nouns.GENERAL_NOUNS),
+                optional(_quality, None),
+                MODIFIERS,
+                build=_general,
+            ),
+            sequence(DETERMINER, MODIFIERS, build=lambda det, mods: NounPhrase(det, (), mods)),
+            sequence(
+                OPTIONAL_DETERMINER,
+                WORDS,
+                silent(phrase("'s")),
+                WORDS,
+                MODIFIERS,
+                build=lambda det, owner, words, mods: NounPhrase(
+                    "the", words, mods, owner=NounPhrase(det, owner, text=" ".join(owner))
+                ),
+            ),
+            sequence(PRONOUN, MODIFIERS, build=_pronoun),
+            sequence(
+                DETERMINER, PRONOUN, build=lambda det, pronoun: NounPhrase(det, pronoun=pronoun)
+            ),
+        ),
+        lambda text, np: replace(np, text=text),
+    )
+)
+
+
+def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """Noun phrases of which all but the last may leave the noun to the next: "the red and the blue
+    mug". None where the last one leaves it out, too.
+    """
+    found = [first, *more]
+    for index in range(len(found) - 1, -1, -1):
+        item = found[index]
+        adjectives = bool(item.words) and all(map(is_descriptive, item.words))
+        if index and not item.determiner and item.words and first.determiner:
+            item = replace(item, loose=True)
+        following = found[index + 1] if index + 1 < len(found) else None
+        if adjectives and following is None and not item.determiner:
+            return None
+        if adjectives and following is not None and len(following.words) > 1:
+            item = replace(item, words=(*item.words, following.words[-1]))
+        found[index] = item
+    return tuple(found)
+
+
+def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+    return None if nps is None or (both and len(nps) < 2) else nps
+
+
+_COORDINATION = sequence(
+    noun_phrase,
+    some(sequence(LIST, noun_phrase, build=lambda np: np), most=9),
+    build=coordinated,
+)
+exceptions.define(_COORDINATION)
+NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))
+
+
+def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
+    whole = coordinated(nps[0], nps[1:]) if len(nps) > 1 else None
+    return None if whole is None else Things(whole, either=True)
+
+
+THINGS = either(
+    valued(NP_LIST, Things),
+    sequence(
+        optional(EITHER),
+        separated(noun_phrase, OR, most=6),
+        build=_one_of,
+    ),
+)

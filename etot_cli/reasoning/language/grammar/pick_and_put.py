@@ -1,0 +1,228 @@
+"""Rules for clauses that pick things, put them, bring them and take them away."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, OR, WITH, alternatives
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, destination
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+    some,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
+    Destination,
+    Modifier,
+    NounPhrase,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.skills.action import GraspPose
+
+POSE = either(
+    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
+)
+POSES = alternatives(POSE, 1)
+SOURCE = sequence(silent(phrase(places.SOURCE)), noun_phrase, build=lambda np: np)
+OPTIONAL_SOURCE = optional(SOURCE, None)
+OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES, build=lambda found: found), None)
+
+
+def _from(things: Things, source: NounPhrase | None) -> Things:
+    """Things that are to be taken from somewhere."""
+    if source is None:
+        return things
+    modifier = Modifier(Prep.FROM, (source,))
+    moved = tuple(replace(np, modifiers=(*np.modifiers, modifier)) for np in things.phrases)
+    return replace(things, phrases=moved)
+
+
+def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
+    if before and after:
+        return None
+    poses = dict.fromkeys(before or after or ())
+    return PickClause(_from(things, source), tuple(poses))
+
+
+PICK = sequence(
+    optional(sequence(POSES, OPTIONAL_COMMA, build=lambda found: found), None),
+    silent(phrase(verbs.PICK)),
+    THINGS,
+    silent(optional(phrase("up"), None)),
+    OPTIONAL_SOURCE,
+    OPTIONAL_POSES,
+    build=_pick,
+)
+GROUPING = either(
+    phrase(manner.ANYHOW, Grouping.ANY),
+    phrase(manner.TOGETHER, Grouping.TOGETHER),
+    phrase(manner.SEPARATELY, Grouping.SEPARATELY),
+)
+CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
+FIRST_OF_THEM = either(
+    sequence(separated(noun_phrase, LIST, most=2), silent(phrase("first")), build=lambda nps: nps),
+    sequence(silent(phrase(manner.STARTING_WITH)), noun_phrase, build=lambda np: (np,)),
+)
+EXTRA = sequence(
+    OPTIONAL_COMMA,
+    either(
+        GROUPING,
+        CONDITION,
+        silent(phrase(manner.STANDING)),
+        sequence(
+            silent(phrase(places.BUT_NOT)),
+            separated(destination, OR, most=3),
+            build=lambda found: ("not", found),
+        ),
+        valued(FIRST_OF_THEM, lambda nps: ("first", nps)),
+        silent(phrase(manner.IN_THIS_ORDER)),
+    ),
+    build=lambda *found: found[0] if found else (),
+)
+
+
+def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    groupings = [item for item in extras if isinstance(item, Grouping)]
+    conditions = tuple(item for item in extras if isinstance(item, State))
+    said = [item for item in extras if isinstance(item, tuple) and item]
+    firsts = [item[1] for item in said if item[0] == "first"]
+    ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
+    if len(groupings) > 1 or len(firsts) > 1:
+        return None
+    grouping = groupings[0] if groupings else Grouping.ANY
+    first = firsts[0] if firsts else ()
+    return PutClause(groups, grouping, conditions, first, ruled_out)
+
+
+def _group(directions: Parser, particle: str) -> Parser:
+    return sequence(
+        THINGS,
+        silent(optional(phrase(particle), None)),
+        OPTIONAL_COMMA,
+        directions,
+        build=PutGroup,
+    )
+
+
+PUT_GROUP = _group(DESTINATIONS, "down, upright, away, back, over, inside")
+EXTRAS = some(EXTRA, most=3)
+DOWN = (Destination(Toward.HERE, word="down"),)
+BACK = (Destination(Toward.HOME),)
+PUT = either(
+    sequence(
+        silent(phrase(verbs.STACK)),
+        separated(PUT_GROUP, LIST, most=5),
+        build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
+    ),
+    sequence(silent(phrase(verbs.PUT)), separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put),
+    sequence(
+        silent(phrase(verbs.BRING)),
+        separated(
+            sequence(
+                valued(sequence(THINGS, OPTIONAL_SOURCE, build=_from), lambda things: things),
+                DIRECTED,
+                build=PutGroup,
+            ),
+            LIST,
+            most=5,
+        ),
+        EXTRAS,
+        build=_put,
+    ),
+    sequence(
+        silent(phrase(verbs.PUT_DOWN)),
+        THINGS,
+        build=lambda things: PutClause((PutGroup(things, DOWN),)),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        silent(phrase("down")),
+        build=lambda things: PutClause((PutGroup(things, DOWN),)),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT_BACK)),
+        THINGS,
+        silent(optional(phrase("back"), None)),
+        build=lambda things: PutClause((PutGroup(things, BACK),)),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        silent(phrase("back")),
+        build=lambda things: PutClause((PutGroup(things, BACK),)),
+    ),
+)
+REMOVE = either(
+    sequence(
+        silent(phrase(verbs.REMOVE)),
+        THINGS,
+        OPTIONAL_SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+    sequence(
+        silent(phrase(verbs.BRING)),
+        THINGS,
+        silent(phrase("out, off, away")),
+        OPTIONAL_SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+    sequence(
+        silent(phrase(verbs.BRING)),
+        THINGS,
+        SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+)
+
+
+def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
+    return NounPhrase(
+        "all", ("objects",), (Modifier(where, (np,)),), text=f"everything in {np.text}"
+    )
+
+
+def _emptied(things: Things, where: Any) -> Clause:
+    contents = Things(tuple(_contents_of(np, Prep.FROM) for np in things.phrases))
+    if where is None:
+        return RemoveClause(contents)
+    return PutClause((PutGroup(contents, where),))
+
+
+EMPTY = either(
+    sequence(
+        silent(phrase("empty[ing] [out]")), THINGS, optional(DESTINATIONS, None), build=_emptied
+    ),
+    sequence(
+        silent(phrase(verbs.TIDY)),
+        THINGS,
+        DESTINATIONS,
+        build=lambda things, where: PutClause((PutGroup(things, where),)),
+    ),
+    sequence(
+        silent(phrase(verbs.CLEAR)),
+        NP_LIST,
+        DESTINATIONS,
+        build=lambda nps, where: _emptied(Things(nps), where),
+    ),
+    sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+)

@@ -1,0 +1,65 @@
+"""Rules for what must not be done."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    phrase,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Avoid,
+    AvoidClause,
+    Things,
+)
+from etot_cli.reasoning.language.words import manner, verbs
+
+
+def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
+    return AvoidClause(avoid, things, where or ())
+
+
+_FORBIDDEN = either(
+    sequence(phrase(verbs.TOUCH, Avoid.TOUCH), THINGS, build=_avoid),
+    sequence(phrase(verbs.DISTURB, Avoid.MOVE), THINGS, build=_avoid),
+    sequence(phrase(verbs.PICK, Avoid.MOVE), THINGS, build=_avoid),
+    sequence(phrase(verbs.OPEN, Avoid.OPEN), THINGS, build=_avoid),
+    sequence(phrase(verbs.CLOSE, Avoid.CLOSE), THINGS, build=_avoid),
+    sequence(phrase(verbs.PUT, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(
+        either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),
+        silent(phrase(verbs.ANYTHING_ELSE)),
+        build=lambda avoid: AvoidClause(avoid, None),
+    ),
+)
+AVOID = sequence(silent(phrase(verbs.DO_NOT)), _FORBIDDEN, build=lambda clause: clause)
+WITHOUT = sequence(
+    OPTIONAL_COMMA, silent(phrase("without")), _FORBIDDEN, build=lambda clause: clause
+)
+KEEP_STILL = either(
+    sequence(
+        silent(phrase(verbs.KEEP)),
+        THINGS,
+        silent(phrase(manner.AS_IT_IS)),
+        build=lambda things: AvoidClause(Avoid.MOVE, things),
+    ),
+    sequence(
+        silent(phrase("leav(e|ing), keep[ing]")),
+        silent(phrase("everything else, all else, the (rest|others) [of (it|them)]")),
+        silent(phrase(manner.AS_IT_IS)),
+        build=lambda: AvoidClause(Avoid.MOVE, None),
+    ),
+    sequence(
+        silent(phrase("keep[ing], stay[ing]")),
+        silent(phrase("[your] (hand|hands|gripper|fingers|arm|), clear")),
+        silent(phrase("off, away from, clear of, of")),
+        THINGS,
+        build=lambda things: AvoidClause(Avoid.TOUCH, things),
+    ),
+)

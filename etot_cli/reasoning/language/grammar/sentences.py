@@ -1,0 +1,166 @@
+"""Rules for sentences: clauses, their order, and what joins them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
+from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.parsing import (
+    Input,
+    Rule,
+    complete,
+    either,
+    located,
+    optional,
+    phrase,
+    sequence,
+    silent,
+    some,
+)
+from etot_cli.reasoning.language.grammar.pick_and_put import EMPTY, PICK, PUT, REMOVE
+from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
+from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
+    Order,
+    Spoken,
+)
+from etot_cli.reasoning.language.words import small_words
+
+Reading = tuple[Spoken, ...]
+CLAUSE = located(
+    sequence(
+        EMPTY_WORDS,
+        either(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, REORIENT, TOWER, SWAP, AVOID, KEEP_STILL),
+        EMPTY_WORDS,
+        optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),
+        optional(phrase(small_words.TRAILING_LAST, Order.LAST), None),
+        optional(phrase(small_words.TRAILING_THEN, Order.THEN), None),
+        EMPTY_WORDS,
+        some(WITHOUT, most=3),
+        build=lambda clause, first, last, then, avoided: (
+            None
+            if sum(item is not None for item in (first, last, then)) > 1
+            else (clause, first or last or then, avoided)
+        ),
+    ),
+    lambda at, found: (at, *found),
+)
+ORDER_WORDS = either(
+    phrase(small_words.LEADING_FIRST, Order.FIRST),
+    phrase(small_words.LEADING_BEFORE, Order.BEFORE_THAT),
+    phrase(small_words.LEADING_LAST, Order.LAST),
+    phrase(small_words.LEADING_THEN, Order.THEN),
+)
+LEAD = sequence(
+    some(
+        either(
+            silent(phrase(small_words.FRAMES)),
+            silent(phrase(small_words.WITHOUT_MEANING)),
+            sequence(ORDER_WORDS, OPTIONAL_COMMA, build=lambda order: order),
+            COMMA,
+        ),
+        most=6,
+    ),
+    build=lambda orders: orders,
+)
+
+
+def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
+    """A clause with what must not be done on the way."""
+    at, clause, order, avoided = found
+    said = [item for item in dict.fromkeys((*orders, order)) if item is not None]
+    strong = [item for item in said if item is not Order.THEN]
+    if len(strong) > 1:
+        return None
+    when = strong[0] if strong else (said[0] if said else Order.SAID)
+    return (Spoken(clause, at, when), *(Spoken(item, at) for item in avoided))
+
+
+LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
+_JOINED = either(
+    sequence(silent(phrase(small_words.JOINTS)), LED_CLAUSE, build=lambda clause: ("and", clause)),
+    sequence(COMMA, LED_CLAUSE, build=lambda clause: ("and", clause)),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.THEN_JOINTS)),
+        OPTIONAL_COMMA,
+        LED_CLAUSE,
+        build=lambda clause: ("then", clause),
+    ),
+    sequence(
+        OPTIONAL_COMMA, silent(phrase("before")), LED_CLAUSE, build=lambda clause: ("then", clause)
+    ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.AFTER)),
+        LED_CLAUSE,
+        build=lambda clause: ("after", clause),
+    ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.SO_THAT)),
+        located(states, lambda at, found: (Spoken(EnsureClause(found), at),)),
+        build=lambda clause: ("and", clause),
+    ),
+)
+
+
+def _then(clause: Reading) -> Reading:
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
+def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
+    done = first
+    for joint, clause in more:
+        if joint == "after":
+            done = (*clause, *_then(done))
+        else:
+            done = (*done, *(_then(clause) if joint == "then" else clause))
+    return done
+
+
+CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
+SENTENCE = either(
+    CHAIN,
+    sequence(
+        LEAD,
+        located(WITHOUT, lambda at, clause: Spoken(clause, at)),
+        COMMA,
+        CHAIN,
+        build=lambda orders, avoided, rest: None if orders else (avoided, *rest),
+    ),
+    sequence(
+        LEAD,
+        silent(phrase(small_words.AFTER)),
+        LED_CLAUSE,
+        COMMA,
+        CHAIN,
+        build=lambda orders, earlier, rest: None if orders else (*earlier, *_then(rest)),
+    ),
+    sequence(
+        LEAD,
+        silent(phrase("before")),
+        LED_CLAUSE,
+        COMMA,
+        CHAIN,
+        build=lambda orders, later, rest: None if orders else (*rest, *_then(later)),
+    ),
+)
+WHOLE = sequence(
+    SENTENCE,
+    OPTIONAL_COMMA,
+    EMPTY_WORDS,
+    OPTIONAL_COMMA,
+    build=lambda reading: reading,
+)
+
+
+def readings(given: Input) -> list[Reading]:
+    """All readings of a sentence, each as clauses in the order in which the sentence puts them."""
+    return complete(WHOLE, given)

@@ -1,0 +1,92 @@
+"""Rules for what is to be open, closed or somewhere, and for opening and closing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import BE, LIST
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    Rule,
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
+    MoveClause,
+    NounPhrase,
+    State,
+)
+from etot_cli.reasoning.language.words import manner, verbs
+
+OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
+PREDICATE = either(OPEN_OR_CLOSED, DESTINATIONS)
+
+
+def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State:
+    """What is to be so: a word for a state, or where things are to be."""
+    if isinstance(predicate, str):
+        return State(subjects, word=predicate)
+    return State(subjects, predicate)
+
+
+STATE = sequence(NP_LIST, BE, PREDICATE, build=state_of)
+states = Rule(separated(STATE, LIST, most=6))
+MOVE = either(
+    sequence(
+        silent(phrase("pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)")),
+        THINGS,
+        build=lambda things: MoveClause(things, opens=True),
+    ),
+    sequence(
+        silent(phrase(verbs.OPEN)), THINGS, build=lambda things: MoveClause(things, opens=True)
+    ),
+    sequence(
+        silent(phrase(verbs.PULL)),
+        THINGS,
+        silent(phrase(manner.OPEN_STATE)),
+        build=lambda things: MoveClause(things, opens=True),
+    ),
+    sequence(
+        silent(phrase(verbs.CLOSE)), THINGS, build=lambda things: MoveClause(things, opens=False)
+    ),
+    sequence(
+        silent(phrase("push[ing], slid(e|ing)")),
+        THINGS,
+        silent(phrase("[back] in")),
+        build=lambda things: MoveClause(things, opens=False),
+    ),
+    sequence(
+        silent(phrase(verbs.PULL)),
+        THINGS,
+        silent(phrase(manner.CLOSED_STATE)),
+        build=lambda things: MoveClause(things, opens=False),
+    ),
+)
+ENSURE = either(
+    sequence(silent(phrase(verbs.ENSURE)), states, build=EnsureClause),
+    sequence(
+        silent(phrase(verbs.KEEP)),
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
+    ),
+    sequence(
+        NP_LIST,
+        silent(phrase(verbs.MODAL)),
+        PREDICATE,
+        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(optional(phrase("to be"), None)),
+        PREDICATE,
+        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
+    ),
+)

@@ -1,0 +1,1 @@
+"""From words to things: which objects, parts and places of a scene a phrase means."""

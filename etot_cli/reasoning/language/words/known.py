@@ -1,0 +1,186 @@
+"""Which words the grammar knows, which are never nouns, and why others are not understood."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.manner import (
+    ANYHOW,
+    AS_IT_IS,
+    AT_BOTTOM,
+    AT_TOP,
+    BOTTOM_UP,
+    HORIZONTAL,
+    IN_THIS_ORDER,
+    SEPARATELY,
+    STANDING,
+    STARTING_WITH,
+    STATES,
+    TOGETHER,
+    TOP_DOWN,
+    UPON_EACH_OTHER,
+    UPRIGHT,
+    VERTICAL,
+)
+from etot_cli.reasoning.language.words.nouns import (
+    CONTAINING,
+    DETERMINERS,
+    EXCEPT,
+    GENERAL_NOUNS,
+    RELATIVE,
+    RELATIVE_NOT,
+)
+from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.reasoning.language.words.places import (
+    HOME,
+    NEARBY,
+    PREPOSITIONS,
+    REGIONS,
+    SIDE,
+)
+from etot_cli.reasoning.language.words.small_words import (
+    FRAMES,
+    LEADING_BEFORE,
+    LEADING_FIRST,
+    LEADING_LAST,
+    LEADING_THEN,
+    TRAILING_FIRST,
+    TRAILING_LAST,
+    TRAILING_THEN,
+    WITHOUT_MEANING,
+)
+from etot_cli.reasoning.language.words.verbs import (
+    ANYTHING_ELSE,
+    BE,
+    BUILD,
+    CLEAR,
+    CLOSE,
+    DISTURB,
+    DO_NOT,
+    ENSURE,
+    KEEP,
+    MODAL,
+    OPEN,
+    OUT_OF,
+    PICK,
+    PULL,
+    PUT,
+    PUT_DOWN,
+    REMOVE,
+    REORIENT,
+    STACK,
+    SWAP,
+    TIDY,
+    TOUCH,
+    TURN,
+    WANT,
+)
+
+_FUNCTION = """
+    the a an any some another these those this that my your its their our it them they of and or
+    then in into inside within on onto upon atop to from off out at by next beside near
+    nearby behind beyond under underneath below beneath above over between with without is
+    are be was were been being am should must shall has have had which who whose whom either both
+    all
+    each every not non no never neither nor except unless if while until because where so but before
+    after once when whenever as please don t do does did together separately respectively
+    horizontally
+    vertically upright ensure up down there here than instead two three four five six seven eight
+    nine ten i we us me you he she what why how whether himself aside away everything anything
+    something everyone nothing apart along plus via per using twice thrice times half halfway
+    backwards forwards sideways rather also too just simply could would will may might i'd d ll
+    ve re 's whichever upside goes go belong belongs want wants need needs like
+    such only again now hey hi hello ok okay robot let lets alone untouched unmoved except
+    during through across around toward towards against among anyone someone yet still even ever
+    most more less few several many much enough half quite very really almost nearly maybe
+    perhaps otherwise else other others remaining same single exactly
+"""
+VERB_WORDS = words_of(
+    (PICK, PUT, PUT_DOWN, REMOVE, OPEN, CLOSE, PULL, ENSURE, KEEP, REORIENT, TURN, STACK, BUILD,
+     SWAP, TOUCH, DISTURB, TIDY, CLEAR, DO_NOT)
+) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "back", "places",
+    "positions", "position"}  # fmt: skip
+"""Words for doing; part of a noun phrase only where the scene has a thing called so."""
+OTHER_VERBS = word_set(
+    """
+    pour pouring wipe wiping wash washing clean cleaning cook cooking stir stirring cut
+    cutting slice slicing press pressing toss tossing throw throwing kick kicking juggle
+    juggling shake shaking spin spinning roll rolling squeeze squeezing fold folding fill
+    filling peel drink eat light plug unplug screw unscrew twist pinch poke break crush drag
+    dragging sweep sweeping dust polish paint draw write hit hammer count find look search
+    wait stop follow show tell describe explain say measure weigh heat cool mix blend scoop
+    serve feed water inspect scan balance hang catch wave point dance walk drive fly jump
+    sing toggle activate
+    """
+)
+"""What no skill does."""
+NEVER_NOUNS = frozenset({"the", "a", "an", "and", "or", "in", "on", "of", "not", "~comma", "to"})
+GRAMMAR_WORDS = frozenset(_FUNCTION.split()) | VERB_WORDS | OTHER_VERBS | {"~comma"}
+
+
+def is_adverb(text: str) -> bool:
+    """Whether a word looks like one that says how something is done."""
+    return len(text) > 4 and text.endswith("ly") and text not in ("jelly", "belly", "lily", "doily")
+
+
+REASONS = {
+    **dict.fromkeys(
+        ("if", "unless", "when", "whenever", "while", "until", "once"),
+        "conditions and waiting are not supported; say what is to be done",
+    ),
+    **dict.fromkeys(
+        ("twice", "thrice", "times", "repeat", "again"), "repetitions are not supported"
+    ),
+    **dict.fromkeys(
+        ("quickly", "slowly", "fast", "faster", "slower", "quick", "carelessly", "rapidly"),
+        "how fast something is done cannot be asked for",
+    ),
+    **dict.fromkeys(
+        ("what", "why", "how", "who", "whose", "is", "are", "does", "did", "do"),
+        "questions are not answered; say what is to be done",
+    ),
+    **dict.fromkeys(
+        ("hands", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"
+    ),
+    **dict.fromkeys(
+        ("halfway", "half", "partially", "slightly", "partly", "little"),
+        "things are opened and closed fully",
+    ),
+    **dict.fromkeys(
+        ("push", "pull", "slide", "swing", "shove", "nudge", "drag"),
+        "no skill pushes or pulls, but for opening and closing; say where it is to be put",
+    ),
+    **dict.fromkeys(
+        ("hand", "arm", "tong"), "the robot has one gripper and no other tool",
+    ),
+    **dict.fromkeys(
+        ("cm", "mm", "centimeters", "centimetres", "inches", "meters", "metres", "degrees"),
+        "distances and angles cannot be asked for; say beside what it is to be",
+    ),
+    **dict.fromkeys(("row", "line", "circle"), "patterns of several things are not supported"),
+    **dict.fromkeys(("same", "likewise", "ditto"), "say again what is to be done"),
+    **dict.fromkeys(
+        ("under", "underneath", "below", "beneath", "above", "through", "around"),
+        "things can be put on, into and beside others, no other way",
+    ),
+    "rather": "say only what is to be done",
+    "instead": "say only what is to be done",
+    "upside": "how a thing is to lie cannot be asked for",
+    "nothing": "say what is to be done",
+    "never": "say first what is to be done",
+}  # fmt: skip
+"""Why words are not understood, wherever they stand."""
+BLAMED = frozenset(
+    {"push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
+)
+"""Words that are understood in some places only, and where they are not are what is wrong."""
+ALL_WORDS = GRAMMAR_WORDS | words_of(
+    (
+        WITHOUT_MEANING, FRAMES, LEADING_FIRST, LEADING_BEFORE, LEADING_LAST, LEADING_THEN,
+        TRAILING_FIRST, TRAILING_LAST, TRAILING_THEN, MODAL, WANT, BE, UPRIGHT, BUILD, OUT_OF,
+        UPON_EACH_OTHER, BOTTOM_UP, TOP_DOWN, AT_BOTTOM, AT_TOP, ANYTHING_ELSE, AS_IT_IS, EXCEPT,
+        RELATIVE, RELATIVE_NOT, CONTAINING, SIDE, *PREPOSITIONS.values(), HOME, *NEARBY.values(),
+        *REGIONS.values(), ANYHOW, TOGETHER, SEPARATELY, STARTING_WITH, IN_THIS_ORDER, STANDING,
+        HORIZONTAL, VERTICAL, GENERAL_NOUNS, *DETERMINERS, STATES,
+    )
+)  # fmt: skip
+"""Every word that the grammar knows."""

@@ -1,0 +1,49 @@
+"""How things are or are to be: open, upright, stacked, in which order, by which grasp."""
+
+from __future__ import annotations
+
+OPEN_STATE = "[wide] open, opened"
+CLOSED_STATE = "[fully|completely|properly] (closed|shut)"
+STATES = "open, opened, closed, shut, ajar, empty, full, filled, toppled, fallen, tipped over"
+UPRIGHT = "upright, up, on end, vertical, vertically"
+UPON_EACH_OTHER = """
+    on [top of] (each other|one another), one on [top of] (the other|another),
+    in a (tower|stack|pile),
+    into a (tower|stack|pile), onto each other, up
+"""
+BOTTOM_UP = """
+    (from the|from) bottom (up|to top|to the top), bottom (first|up),
+    starting (with|at|from) the bottom,
+    [in this order] from bottom to top
+"""
+TOP_DOWN = "[from the] top (first|down), from (the top|top) to bottom, from top to the bottom"
+AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base"
+AT_TOP = "at the top, on [the] top, uppermost, highest"
+AS_IT_IS = """
+    where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
+    unmoved, in its place
+"""
+ANYHOW = """
+    [either] [both] together or (separately|apart|individually|one by one),
+    [either] (separately|apart|individually) or together, in any combination
+"""
+TOGETHER = "[all|both] together"
+SEPARATELY = "separately, apart from each other, individually, apart"
+STARTING_WITH = "starting with, beginning with"
+IN_THIS_ORDER = """
+    in (this|that) order, in the (given|same|stated) order,
+    one (by one|after the other) in this order
+"""
+STANDING = """
+    so [that] it (fits|stands) [upright], standing [upright|up], upright,
+    so that (it|they) (fits|fit)
+"""
+HORIZONTAL = """
+    horizontally, in a horizontal (pose|grasp), with a (horizontal|side) grasp, sideways,
+    (from|by) (the|its|a|one) (side|sides), from one side
+"""
+VERTICAL = """
+    vertically, in a vertical (pose|grasp), top down, with a (vertical|top|top down) grasp,
+    [from] (above|straight above|overhead), from (the|its) top, from the top,
+    by (the|its) (rim|edge|top)
+"""

@@ -1,0 +1,45 @@
+"""What stands around a noun: determiners before it, clauses that describe it behind it."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+
+_COUNT = "|".join(NUMBERS)
+_THE = "the|these|those|my|your|its|their|our"
+DETERMINERS = (
+    f"({_THE}|this|that|a|an|another|only the)",
+    f"(the|my|your|this|that) (other|same|single|only|remaining|{_COUNT})",
+    f"(the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT})",
+    "another one of the, a single, one single, only a",
+    "(any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your]",
+    "(any|each|every|either) (one|single) [of] [the|these|those]",
+    f"(all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT})",
+    "(every|any|each|some) other",
+    f"({_COUNT}) [of] [the|these|those|other|more|of the other]",
+    "one of the (other|remaining), [any] one of (the|these|those|my|your|),"
+    " any of (the|these|those|)",
+    "exactly one, exactly two, just one, half of the, none of the, no",
+    "a couple of, a pair of, several, a few, many, most of the",
+    "whichever, any",
+)
+GENERAL_NOUNS = """
+    everything, anything, something, everything else, all else, the (rest|others|other ones),
+    all (others|the others|the rest)
+"""
+EXCEPT = "except [for], but not, other than, apart from, but, excluding, aside from, save for"
+RELATIVE = """
+    (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)
+    [currently|now|already],
+    (that|which) (is|are) (standing|lying|sitting|placed|located|resting|kept|positioned),
+    that, which, standing, lying, sitting, placed, located, resting, kept, situated, positioned,
+    currently
+"""
+RELATIVE_NOT = """
+    (that|which|who) (is|are) not [currently|yet], (that|which) do not (stand|lie|sit|rest),
+    (that|which) does not (stand|lie|sit|rest), (that|which) isn t, not being
+"""
+NOT_PLACED = "not"
+CONTAINING = """
+    containing, holding, contains, contain, holds, hold, has,
+    (that|which) (contains|holds|has|contain|hold|have)
+"""

@@ -1,0 +1,135 @@
+"""The words for where things are and where they are to go."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from etot_cli.world.spatial import Nearby
+
+
+class Prep(StrEnum):
+    """How a modifier relates a noun to other things."""
+
+    ON = "on"
+    IN = "in"
+    FROM = "from"
+    OF = "of"
+    NEAR = "near"
+    LEFT = "left"
+    RIGHT = "right"
+    BEHIND = "behind"
+    FRONT = "front"
+    UNDER = "under"
+    ABOVE = "above"
+    BETWEEN = "between"
+    NEAREST = "nearest"
+    FARTHEST = "farthest"
+    CONTAINING = "containing"
+    BEARING = "bearing"
+    SIDE = "side"
+    """"on the left", "at the back": the word says which."""
+    QUALITY = "quality"
+    """"that is red", "red" after "everything": the words say which."""
+    EXCEPT = "except"
+    """Those that fit, without the phrases' things."""
+
+
+SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
+SIDE = """
+    (on|at|to|in|from) the (left|right|front|back|rear|middle|centre|center)
+    [side|end|edge|corner|hand side],
+    (on|at|to|in|from) the (left|right|front|back|rear) (side|end|edge) of the
+    (desk|table|scene|room|row),
+    (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
+    (on|at) the (left|right) of the (desk|table|scene),
+    on the far (left|right), in front, in back, at the very (left|right|front|back), in the row
+"""
+PREPOSITIONS: dict[Prep, str] = {
+    Prep.ON: "on [top of], upon, atop, on the top of, (standing|lying|sitting) on",
+    Prep.IN: "inside [of], in, within",
+    Prep.FROM: "from, off of, off, out of",
+    Prep.OF: "of, belonging to",
+    Prep.NEAR: "next to, beside, nearby, near [to], close to, by, alongside, adjacent to, at",
+    Prep.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
+    Prep.RIGHT: "(to|on|at) the right [hand] [side] of, right of",
+    Prep.BEHIND: "behind, in back of, beyond",
+    Prep.FRONT: "in front of",
+    Prep.UNDER: "underneath, under, below, beneath",
+    Prep.ABOVE: "above, over",
+    Prep.NEAREST: "(closest|nearest) [to]",
+    Prep.FARTHEST: "(farthest|furthest|far) [away] from, away from",
+}
+INTO = "in to, into, inside [of], in, within"
+ONTO = "onto, on to, on [the] top of, on, upon, atop, over"
+INTO_DIRECTED = "in to, into, inside [of]"
+ONTO_DIRECTED = "onto, on to, on top of, over"
+TO = "[over] to"
+HERE = "inside, in there, on there, there, on top, in, into it"
+HOME = """
+    back [to its place], to (its|their|the) [original|old|previous] (place|places|position|spot),
+    back to (its|their) [original|old] (place|places|position|spot),
+    [back] (to|) where (it|they) (was|were|came from),
+    [back] to where (it|they) (was|were) before, to its original position,
+    back where (it|they) belong[s]
+"""
+NEARBY: dict[Nearby, str] = {
+    Nearby.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
+    Nearby.RIGHT: "(to|on|at) the right [hand] [side] of, right of",
+    Nearby.FRONT: "in front of",
+    Nearby.BEHIND: "behind, in back of",
+    Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
+    Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
+    Nearby.AWAY: "[far] away from, far from",
+}
+REGIONS: dict[tuple[Nearby, ...], str] = {
+    (
+        Nearby.AT_LEFT,
+    ): "(on|at|to|in|onto|towards) the left (side|end|half|part|edge|border), (on|at) the left",
+    (Nearby.AT_RIGHT,): (
+        "(on|at|to|in|onto|towards) the right (side|end|half|part|edge|border), (on|at) the right"
+    ),
+    (Nearby.AT_FRONT,): ("(on|at|to|in|onto|towards) the front [side|end|half|part|edge|border]"),
+    (Nearby.AT_BACK,): (
+        "(on|at|to|in|onto|towards) the (back|rear) [side|end|half|part|edge|border]"
+    ),
+    (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) the (middle|centre|center)",
+    (Nearby.AT_EDGE,): "(at|on|near|to|by) (the|an) (edge|border|rim)",
+    (Nearby.AT_CORNER,): "(in|at|into|to|on) (the|a) corner",
+    (
+        Nearby.AT_LEFT,
+        Nearby.AT_FRONT,
+    ): "(in|at|into|to|on) the (front left|left front|near left) [part|quarter|area]",
+    (
+        Nearby.AT_LEFT,
+        Nearby.AT_FRONT,
+        Nearby.AT_CORNER,
+    ): "(in|at|into|to|on) the (front left|left front|near left) corner",
+    (
+        Nearby.AT_RIGHT,
+        Nearby.AT_FRONT,
+    ): "(in|at|into|to|on) the (front right|right front|near right) [part|quarter|area]",
+    (
+        Nearby.AT_RIGHT,
+        Nearby.AT_FRONT,
+        Nearby.AT_CORNER,
+    ): "(in|at|into|to|on) the (front right|right front|near right) corner",
+    (
+        Nearby.AT_LEFT,
+        Nearby.AT_BACK,
+    ): "(in|at|into|to|on) the (back left|left back|rear left|far left) [part|quarter|area]",
+    (
+        Nearby.AT_LEFT,
+        Nearby.AT_BACK,
+        Nearby.AT_CORNER,
+    ): "(in|at|into|to|on) the (back left|left back|rear left|far left) corner",
+    (
+        Nearby.AT_RIGHT,
+        Nearby.AT_BACK,
+    ): "(in|at|into|to|on) the (back right|right back|rear right|far right) [part|quarter|area]",
+    (
+        Nearby.AT_RIGHT,
+        Nearby.AT_BACK,
+        Nearby.AT_CORNER,
+    ): "(in|at|into|to|on) the (back right|right back|rear right|far right) corner",
+}
+BUT_NOT = "but not, and not, not"

@@ -1,0 +1,42 @@
+"""Words without meaning, words for time and order, and what joins things and clauses."""
+
+from __future__ import annotations
+
+WITHOUT_MEANING = """
+    please, kindly, carefully, gently, safely, cautiously, also, too, as well, just, simply, now,
+    again,
+    immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
+    one (by one|after the other|after another), one at a time, in the process, if you please,
+    (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
+    thank you, thanks, if you can, if possible, at all times, properly, neatly, directly, straight
+"""
+"""Words that a request may contain without asking for anything more. What "gently" and "safely" ask
+for, every plan does: things are set down, and no plan may harm anything."""
+FRAMES = """
+    robot, hey robot, hello robot, hi robot, hey, ok, okay, so, and, but, go, go and, go ahead and,
+    (can|could|would|will) you, you (should|must|have to|need to|can|may), could you possibly,
+    (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
+    i would like, i want, let us, try to, the robot (should|must|has to|needs to), make sure to,
+    be sure to, remember to, (do not|don t) forget to, would you mind, your job is, it is time to,
+    i would appreciate it if you could, help me, help me to, we need to, you are to
+"""
+LEADING_FIRST = "first, firstly, first of all, to begin with, to start with, as a first step"
+LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
+LEADING_LAST = "finally, lastly, last, last of all, at the end, in the end, as a last step"
+LEADING_THEN = """
+    then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
+    after doing so, once (that is done|done|you are done), when done, and then, subsequently, later
+"""
+TRAILING_FIRST = "first, beforehand, before that, before anything else"
+TRAILING_LAST = "last, at the end, in the end, finally, at last, when (done|finished|you are done)"
+TRAILING_THEN = "afterwards, afterward, after that, next, then, later"
+AND = "and [also], as well as, along with, together with, plus"
+OR = "or [else]"
+EITHER = "either, one of, any of"
+JOINTS = "and, but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
+THEN_JOINTS = """
+    [and|but] then, [and] after that, [and] afterwards, [and] next, [and] finally, after which,
+    and later
+"""
+AFTER = "(once|after|when) [you have|having|you]"
+SO_THAT = "so that, such that, so, until, in such a way that"

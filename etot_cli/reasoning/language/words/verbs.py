@@ -1,0 +1,77 @@
+"""The words for doing, by what they ask for; the words that forbid."""
+
+from __future__ import annotations
+
+PICK = """
+    pick[ing] up, pick[ing], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up], fetch[ing],
+    get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up], seiz(e|ing), collect[ing], hand me,
+    rais(e|ing), choose and pick up, bring me, giv(e|ing) me, pass[ing] me, retriev(e|ing),
+    gather[ing]
+"""
+PUT = """
+    put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
+    stow[ing] [away],
+    stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
+    tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
+    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], leav(e|ing), slid(e|ing), shift[ing],
+    sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
+    add[ing]
+"""
+PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
+PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
+BRING = """
+    tak(e|ing), get[ting], lift[ing], grab[bing], fetch[ing], pull[ing], mov(e|ing), bring[ing],
+    transfer[ring]
+"""
+REMOVE = """
+    remov(e|ing), clear[ing] [away], unload[ing], extract[ing], tak(e|ing) (out|off|away),
+    get[ting] (out|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
+"""
+TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
+CLEAR = "clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out"
+OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
+CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
+PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
+ENSURE = """
+    (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
+    (make|making|be) (sure|certain) [that], see to it [that]
+"""
+MODAL = """
+    (should|must|shall) (be|end up|stay|remain|get|finally be|then be|go|be put|be
+    placed|stand|sit|lie),
+    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|stay|remain|go|be
+    put|be placed),
+    (is|are) supposed to be, goes, go, belong[s]
+"""
+WANT = "i want, i would like, i d like, i need, we want, we need, i would love, i prefer"
+BE = """
+    is, are, be, (is|are|be) (left|put|placed|kept|again|properly), stay[s], remain[s], end[s] up,
+    get[s]
+"""
+KEEP = "keep[ing], leav(e|ing)"
+REORIENT = """
+    re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
+    re orientate
+"""
+TURN = "turn[ing], stand[ing], set[ting], put[ting], bring[ing], make"
+STACK = "stack[ing] [up], pil(e|ing) [up]"
+BUILD = "build[ing], mak(e|ing), creat(e|ing), form[ing]"
+OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
+SWAP = "swap[ping], exchang(e|ing), switch[ing], swap the (places|positions) of, interchange"
+DO_NOT = """
+    do not, don t, never, you must not, you may not, you should not, must not, avoid,
+    but do not, and do not
+"""
+TOUCH = """
+    touch[ing], hit[ting], bump[ing] into, bump[ing], collid(e|ing) with, com(e|ing) near,
+    contact[ing]
+"""
+DISTURB = """
+    mov(e|ing), disturb[ing], push[ing], shift[ing], displac(e|ing), knock[ing] over, topple,
+    toppling,
+    tip[ping] over, lift[ing], relocat(e|ing), knock[ing]
+"""
+ANYTHING_ELSE = """
+    anything else, any other (object|thing|things|objects), other (objects|things),
+    the (others|rest)
+"""
