@@ -12,7 +12,8 @@ from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
-from etot_cli.reasoning.language.goals.clauses import Clauses
+from etot_cli.reasoning.language.goals.clauses import steps_of
+from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ordering import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
@@ -38,7 +39,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     state = _State(scene, Discourse(scene), Resolver(scene, vocabulary))
     for sentence in sentences:
         state = _best_reading(state, sentence)
-    goal = settled(state.goal(), scene, state.clauses.turned)
+    goal = settled(state.goal(), scene, state.context.turned)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
     return goal
@@ -49,7 +50,7 @@ class _State:
 
     def __init__(self, scene: SceneState, discourse: Discourse, resolver: Resolver) -> None:
         self._scene, self._resolver = scene, resolver
-        self.clauses = Clauses(scene, resolver, discourse)
+        self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
         self.sentence = 0
 
@@ -60,9 +61,9 @@ class _State:
 
     def copy(self) -> _State:
         """An independent copy, for trying a reading."""
-        other = _State(self._scene, self.clauses.discourse.copy(), self._resolver)
-        other.clauses.turned = list(self.clauses.turned)
-        other.clauses.constraints = list(self.clauses.constraints)
+        other = _State(self._scene, self.context.discourse.copy(), self._resolver)
+        other.context.turned = list(self.context.turned)
+        other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.sentence = self.sentence
         return other
@@ -72,19 +73,19 @@ class _State:
         self.sentence += 1
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
-            steps[id(spoken)] = self.clauses.read(spoken.clause)
+            steps[id(spoken)] = steps_of(spoken.clause, self.context)
         for spoken in reading:
             done = tuple(steps[id(spoken)])
             self.timed.append(Timed(done, spoken.order, self.sentence))
 
     def goal(self) -> Goal:
         """The goal so far."""
-        discourse = self.clauses.discourse
+        discourse = self.context.discourse
         steps = in_order(self.timed)
         return Goal(
             tuple(discourse.referents),
             tuple(steps),
-            tuple(dict.fromkeys(self.clauses.constraints)),
+            tuple(dict.fromkeys(self.context.constraints)),
             tuple(discourse.notes),
         )
 
@@ -127,7 +128,7 @@ def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _St
     for attempt in found.values():
         goal = attempt.goal()
         with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
-            scene = state.clauses.discourse.scene
+            scene = state.context.discourse.scene
             branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
             if branches:
                 key = tuple(branch.actions for branch in branches)

@@ -18,12 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    Beside,
-    Destination,
-    NounPhrase,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.words import places
 from etot_cli.world.spatial import Nearby
 

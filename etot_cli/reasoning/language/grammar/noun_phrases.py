@@ -20,11 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
     word,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    Modifier,
-    NounPhrase,
-    Things,
-)
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, nouns, places
 from etot_cli.reasoning.language.words.lexicon import is_descriptive
 from etot_cli.reasoning.language.words.places import Prep

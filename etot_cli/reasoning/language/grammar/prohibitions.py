@@ -7,17 +7,8 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
-from etot_cli.reasoning.language.grammar.parsing import (
-    either,
-    phrase,
-    sequence,
-    silent,
-)
-from etot_cli.reasoning.language.grammar.syntax import (
-    Avoid,
-    AvoidClause,
-    Things,
-)
+from etot_cli.reasoning.language.grammar.parsing import either, phrase, sequence, silent
+from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Things
 from etot_cli.reasoning.language.words import manner, verbs
 
 

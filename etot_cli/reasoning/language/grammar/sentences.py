@@ -22,11 +22,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.pick_and_put import EMPTY, PICK, PUT, REMOVE
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
-from etot_cli.reasoning.language.grammar.syntax import (
-    EnsureClause,
-    Order,
-    Spoken,
-)
+from etot_cli.reasoning.language.grammar.syntax import EnsureClause, Order, Spoken
 from etot_cli.reasoning.language.words import small_words
 
 Reading = tuple[Spoken, ...]

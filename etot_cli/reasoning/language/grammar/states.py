@@ -16,12 +16,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    EnsureClause,
-    MoveClause,
-    NounPhrase,
-    State,
-)
+from etot_cli.reasoning.language.grammar.syntax import EnsureClause, MoveClause, NounPhrase, State
 from etot_cli.reasoning.language.words import manner, verbs
 
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))

@@ -8,53 +8,35 @@ to be understood; what is taken for something near it is noted.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from itertools import combinations, islice
+from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
+from etot_cli.reasoning.language.reference.landmarks import RANKED, related
 from etot_cli.reasoning.language.reference.matching import Match, match_words
 from etot_cli.reasoning.language.reference.selection import select, state_holds
+from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
-    ORDINALS,
     SIDES,
     SIZES,
     STATES,
     THING_NOUNS,
     basic_color,
     matches_any,
-    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import SceneState
 
-MAX_OPTIONS = 256
-"""Ways of choosing instances for one phrase that are looked at."""
-ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
 _INCOMPLETE = frozenset({"", "the", "a", "an", "my", "your", "its", "their", "our"})
 """Determiners that do not stand without a noun."""
-_RANKING = frozenset(
-    {
-        Prep.NEAR, Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN, Prep.LEFT, Prep.RIGHT, Prep.BEHIND,
-        Prep.FRONT,
-    }
-)  # fmt: skip
-_GENERAL = {
-    "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
-    "all else": "all other",
-}  # fmt: skip
-"""Determiners that nouns for anything stand for."""
 
-_OTHERS = frozenset(
-    {"the rest", "the others", "the other ones", "all others", "all the others", "all the rest"}
-)
-"""The others of what was spoken of before."""
 
 Pronoun = Callable[[NounPhrase], Sequence[Thing]]
 
@@ -78,14 +60,6 @@ class Resolved:
     noun: str
     every: bool = False
     notes: tuple[str, ...] = ()
-
-
-def is_robot(phrase: NounPhrase) -> bool:
-    """Whether a phrase means the robot itself, as a landmark."""
-    number = phrase.determiner.split()[-1:]
-    return phrase.words[-1:] in [(noun,) for noun in ROBOT_NOUNS] and (
-        len(phrase.words) == 1 and number not in (["one"], ["two"], ["both"])
-    )
 
 
 class Resolver:
@@ -121,7 +95,7 @@ class Resolver:
         Raises:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
-        phrase = _plain(phrase)
+        phrase = usual_form(phrase)
         if not phrase.words and phrase.determiner in _INCOMPLETE:
             raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
         if not phrase.words and noun is None:
@@ -149,7 +123,7 @@ class Resolver:
             things = [thing for thing in things if thing not in excluded]
             if not things:
                 raise ReferenceProblem(phrase.text, "there is no other one", 2)
-        things = self._usable(things, role, phrase)
+        things = usable_ones(things, role, phrase, self._scene)
         modifiers = phrase.modifiers
         if phrase.owner is not None:
             modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
@@ -169,8 +143,8 @@ class Resolver:
             names = ", ".join(thing.name for thing in things)
             why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
-        things = self._exactly(things, match, phrase, words, quantity, count)
-        options = _options(things, count, quantity, phrase)
+        things = called_exactly(things, match, phrase, words, quantity, count)
+        options = options_of(things, count, quantity, phrase)
         head = noun if matches_any(words[-1], THING_NOUNS) and noun else words[-1]
         every = quantity.every or (count is None and match.plural)
         return Resolved(options, quantity.definite, quantity.other, head, every, match.notes)
@@ -271,50 +245,6 @@ class Resolver:
         vocabulary = self._vocabulary
         return (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
 
-    def _exactly(
-        self,
-        things: list[Thing],
-        match: Match,
-        phrase: NounPhrase,
-        words: tuple[str, ...],
-        quantity: Quantity,
-        count: int | None,
-    ) -> list[Thing]:
-        """Of several things that "the cup" may mean the one that is called just that."""
-        if not quantity.definite or quantity.every or count != 1 or len(things) < 2:
-            return things
-        exact = [
-            entry.thing
-            for entry in match.entries
-            if entry.thing in things and entry.is_called(words)
-        ]
-        return exact if len(exact) == 1 else things
-
-    def _usable(self, things: list[Thing], role: Role, phrase: NounPhrase) -> list[Thing]:
-        """Things that can be used as asked for; lost ones only when there are no others."""
-        usable = [thing for thing in things if can_be(thing, role, self._scene)]
-        if not usable and role is Role.SURFACE:
-            # "On the bowl" is said of what goes into it; on a drawer is not in it.
-            vessels = [thing for thing in things if thing.part is None]
-            usable = [thing for thing in vessels if can_be(thing, Role.CONTAINER, self._scene)]
-            parts = [thing for thing in things if thing.part is not None]
-            if not usable and parts:
-                owner = parts[0].name
-                raise ReferenceProblem(
-                    phrase.text,
-                    f"nothing can stand on a drawer or door; say 'into' it, or 'on {owner}'",
-                    3,
-                )
-        if not usable:
-            names = ", ".join(dict.fromkeys(thing.name for thing in things))
-            raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
-        at_hand = [
-            thing
-            for thing in usable
-            if thing.name == DESK or not self._scene.states[thing.name].lost
-        ]
-        return at_hand or usable
-
     # -- modifiers ---------------------------------------------------------------------------------
 
     def _modified(
@@ -327,11 +257,11 @@ class Resolver:
         pronoun: Pronoun,
     ) -> list[Thing]:
         """Things that all modifiers are true of, or that they fit best."""
-        for modifier in sorted(modifiers, key=lambda item: item.prep in _RANKING):
+        for modifier in sorted(modifiers, key=lambda item: item.prep in RANKED):
             if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT):
                 continue
             landmarks = self._landmark_sets(modifier, phrase, pronoun)
-            found = self._related(modifier, things, landmarks, quantity, count)
+            found = related(modifier, things, landmarks, quantity, count, self._scene)
             if not found:
                 names = ", ".join(dict.fromkeys(thing.name for thing in things))
                 raise ReferenceProblem(
@@ -364,107 +294,3 @@ class Resolver:
             raise ReferenceProblem(phrase.text, why, 3, word=phrase.text)
         resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun)
         return list(dict.fromkeys(thing for option in resolved.options for thing in option))
-
-    def _related(
-        self,
-        modifier: Modifier,
-        things: list[Thing],
-        landmarks: list[list[Thing]],
-        quantity: Quantity,
-        count: int | None,
-    ) -> list[Thing]:
-        scene, prep = self._scene, modifier.prep
-        fitting = [
-            thing
-            for thing in things
-            if any(
-                (thing not in marks and space.holds_at(prep, thing, marks, scene) is not False)
-                or (prep is Prep.OF and space.holds_at(prep, thing, marks, scene))
-                for marks in _tuples(landmarks)
-            )
-        ]
-        if modifier.denied:
-            return [thing for thing in things if thing not in fitting]
-        if prep not in _RANKING:
-            return fitting
-        best: dict[Thing, float] = {}
-        for marks in _tuples(landmarks):
-            others = [
-                thing
-                for thing in fitting
-                if thing not in marks and space.holds_at(prep, thing, marks, scene) is not False
-            ]
-            for cost, thing in space.ranked(prep, others, marks, scene):
-                best[thing] = min(cost, best.get(thing, cost))
-        order = sorted(best, key=lambda thing: best[thing])
-        if quantity.definite and count is not None and not quantity.every:
-            return order[:count]
-        if prep is Prep.NEAR:
-            beside = landmarks[0]
-            near = [t for t in order if any(space.is_next_to(t, m, scene) for m in beside)]
-            order = near or order[:1]
-        elif prep in (Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN):
-            order = order[: count or 1]
-        return [thing for thing in things if thing in order]
-
-
-def _plain(phrase: NounPhrase) -> NounPhrase:
-    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
-    last = phrase.words[-1] if phrase.words else ""
-    if last in _GENERAL and len(phrase.words) == 1:
-        determiner = _GENERAL[last]
-        described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
-        if last == "anything" and (described or phrase.modifiers):
-            determiner = "all"  # whatever is so
-        words = ("objects",) if determiner.startswith("all") else ("object",)
-        return replace(phrase, determiner=determiner, words=words)
-    if last in _OTHERS and len(phrase.words) == 1:
-        return replace(phrase, determiner="all other", words=())
-    if phrase.determiner.startswith("only "):
-        phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
-    out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
-    if not last and out is not None and out.phrases[0].words:
-        head = out.phrases[0].words[-1]
-        return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
-    of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
-    if not last or of is None:
-        return phrase
-    rest = tuple(item for item in phrase.modifiers if item is not of)
-    whole = of.phrases[0]
-    if last == "contents":
-        inside = Modifier(Prep.IN, (whole,))
-        return replace(phrase, determiner="all", words=("objects",), modifiers=(inside, *rest))
-    if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
-        several = singular(whole.words[-1]) != whole.words[-1]
-        if not several:
-            raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
-        noun = (*whole.words[:-1], singular(whole.words[-1]))
-        among = quantity_of(whole.determiner).count or 0
-        return replace(
-            phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
-        )
-    return phrase
-
-
-def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:
-    if len(landmarks) == 1:
-        return [(mark,) for mark in landmarks[0]]
-    return [(one, two) for one in landmarks[0] for two in landmarks[1] if one != two]
-
-
-def _options(
-    things: list[Thing], count: int | None, quantity: Quantity, phrase: NounPhrase
-) -> tuple[tuple[Thing, ...], ...]:
-    """Alternative sets of things, given how many are meant."""
-    names = ", ".join(thing.name for thing in things)
-    if quantity.every and quantity.count is not None and len(things) != quantity.count:
-        raise ReferenceProblem(
-            phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1
-        )
-    if quantity.definite and count is not None and 1 < count < len(things):
-        raise ReferenceProblem(phrase.text, f"there are more than {count}: {names}", 1)
-    if count is None or quantity.every:
-        return (tuple(things),)
-    if count > len(things):
-        raise ReferenceProblem(phrase.text, f"there are only {len(things)} of them: {names}", 1)
-    return tuple(islice(combinations(things, count), MAX_OPTIONS))

@@ -30,13 +30,7 @@ from etot_cli.reasoning.language.words.nouns import (
     RELATIVE_NOT,
 )
 from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.places import (
-    HOME,
-    NEARBY,
-    PREPOSITIONS,
-    REGIONS,
-    SIDE,
-)
+from etot_cli.reasoning.language.words.places import HOME, NEARBY, PREPOSITIONS, REGIONS, SIDE
 from etot_cli.reasoning.language.words.small_words import (
     FRAMES,
     LEADING_BEFORE,

@@ -1,0 +1,101 @@
+"""Clauses about several things at once: towers, and things that swap places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
+from etot_cli.reasoning.language.reference.referents import lies_on
+
+
+def tower(context: Context, clause: TowerClause) -> None:
+    """Everything upon each other, from the bottom up; the bottom one stays where it is."""
+    themes = context.phrases.things(clause.things, Role.THEME)
+    things = [thing for index in themes for thing in context.only(index, "say which ones to stack")]
+    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    if len(things) < 2 and not clause.base:
+        raise ReferenceProblem(text, "a stack needs at least two things", 2)
+    if len(things) > 1:
+        things = _upward(context, things, clause, text, listed=len(themes) > 1)
+    indices = [context.single(thing, thing.name) for thing in things]
+    bottom = indices[0]
+    if clause.base:
+        places = context.phrases.places(clause.base, indices)
+        context.steps.append(Put((indices[0],), places))
+        under = places[0].where
+        if len(things) == 1 and len(places) == 1 and under is not None:
+            bottom = under
+    for below, above in pairwise(indices):
+        lower, upper = things[indices.index(below)], things[indices.index(above)]
+        context.steps.append(Put((above,), (_upon(context, lower, upper, below),)))
+    context.discourse.stacks[context.discourse.clause] = bottom
+
+
+def _upon(context: Context, thing: Thing, upper: Thing, index: int) -> Place:
+    """On a thing, or into a vessel whose mouth is wider than what goes there."""
+    on = can_be(thing, Role.SURFACE, context.scene)
+    if on and lies_on([upper], thing, context.scene):
+        return Place(Relation.ON, index)
+    if can_be(thing, Role.CONTAINER, context.scene):
+        return Place(Relation.INSIDE, index)
+    raise ReferenceProblem(thing.name, "nothing can stand on it", 2)
+
+
+def _upward(
+    context: Context, things: list[Thing], clause: TowerClause, text: str, *, listed: bool
+) -> list[Thing]:
+    """The things of a tower from the bottom up, as it is said or by size."""
+    ordered = list(things)
+    if clause.upward is not None:
+        if not listed:
+            raise ReferenceProblem(text, "name them one by one to say their order", 2)
+        return ordered if clause.upward else ordered[::-1]
+    ends = {"bottom": clause.bottom, "top": clause.top}
+    named = {end: _end(context, phrase, things) for end, phrase in ends.items() if phrase}
+    rest = [thing for thing in ordered if thing not in named.values()]
+    if len(rest) > 1 or (rest and not named):
+        # The widest below, and of equals the one that is named first.
+        rest.sort(key=lambda thing: -max(context.scene.infos[thing.name].size[:2]))
+        order = ", ".join(thing.name for thing in rest)
+        context.discourse.notes.append(f"stack from the bottom up, by width: {order}")
+    bottom = [named["bottom"]] if "bottom" in named else []
+    top = [named["top"]] if "top" in named else []
+    return [*bottom, *rest, *top]
+
+
+def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing:
+    resolved = context.phrases.meaning(phrase, Role.THEME)
+    found = [option[0] for option in resolved.options if option[0] in things]
+    if len(found) != 1:
+        raise ReferenceProblem(phrase.text, "it is not one of what is to be stacked", 2)
+    return found[0]
+
+
+def swap(context: Context, clause: SwapClause) -> None:
+    """Each of two things to the other's place; the first one waits on the desk."""
+    themes = context.phrases.things(clause.things, Role.THEME)
+    things = [thing for index in themes for thing in context.only(index, "say which two")]
+    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    if len(things) != 2:
+        raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
+    homes = [context.home(thing) for thing in things]
+    if _carries(context, things[0], things[1]) or _carries(context, things[1], things[0]):
+        raise ReferenceProblem(text, "one of them is in or on the other", 2)
+    if homes[0] == homes[1]:
+        raise ReferenceProblem(text, "they are in the same place", 2)
+    first, second = (context.single(thing, thing.name) for thing in things)
+    context.steps += [
+        Put((first,), (context.phrases.on_the_desk(),), aside=True),
+        Put((second,), (homes[0],)),
+        Put((first,), (homes[1],)),
+    ]
+
+
+def _carries(context: Context, below: Thing, above: Thing) -> bool:
+    state = context.scene.states[above.name]
+    around = [*state.on, *([state.inside] if state.inside else [])]
+    return any(item.partition(".")[0] == below.name for item in around)

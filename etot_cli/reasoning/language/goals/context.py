@@ -1,0 +1,65 @@
+"""What has been understood so far, which every clause reads and adds to."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.reference.coreference import Discourse
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
+from etot_cli.reasoning.language.reference.referents import Phrases
+from etot_cli.world.spatial import Nearby
+from etot_cli.world.state import DESK, SceneState
+
+
+class Context:
+    """What clauses have in common: the scene, what was spoken of, steps and constraints.
+
+    Args:
+        scene: what is spoken about.
+        resolver: of phrases with a noun.
+        discourse: what was spoken of before; it grows.
+    """
+
+    def __init__(self, scene: SceneState, resolver: Resolver, discourse: Discourse) -> None:
+        self.scene = scene
+        self.discourse = discourse
+        self.phrases = Phrases(scene, resolver, discourse)
+        self.turned: list[int] = []
+        """Referents that were to be reoriented."""
+        self.constraints: list[Constraint] = []
+        self.steps: list[Step] = []
+        """Of the clause that is being read."""
+
+    def single(self, thing: Thing, text: str) -> int:
+        """A referent for one thing."""
+        alone = Resolved(((thing,),), definite=True, other=False, noun=thing.name)
+        return self.discourse.add(alone, text, Role.THEME)
+
+    def only(self, index: int, why: str) -> tuple[Thing, ...]:
+        """What a referent stands for, where there must be no choice."""
+        referent = self.discourse.referents[index]
+        if len(referent.options) != 1:
+            raise ReferenceProblem(referent.text, why, 2)
+        return referent.options[0]
+
+    def home(self, thing: Thing) -> Place:
+        """Where a thing is at the start; on the desk the very spot."""
+        state = self.scene.states[thing.name]
+        if state.inside is not None:
+            owner, _, part = state.inside.partition(".")
+            return Place(Relation.INSIDE, self._referent(Thing(owner, part or None)))
+        if not state.on:
+            raise ReferenceProblem(thing.name, "it is not known where it was", 2)
+        owner, _, board = state.on[0].partition(".")
+        info = self.scene.infos.get(owner)
+        surface = Thing(owner, board=board if info is not None and board in info.boards else None)
+        if owner != DESK:
+            return Place(Relation.ON, self._referent(surface))
+        point = (round(state.position[0], 3), round(state.position[1], 3))
+        return Place(Relation.ON, self._referent(surface), (Near(Nearby.AT_POINT, point=point),))
+
+    def _referent(self, thing: Thing) -> int:
+        referent = Referent(((thing,),), thing.name)
+        if referent not in self.discourse.referents:
+            self.discourse.referents.append(referent)
+        return self.discourse.referents.index(referent)

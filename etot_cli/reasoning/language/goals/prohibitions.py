@@ -1,0 +1,96 @@
+"""What must not be done, or must stay as it is, as constraints on every step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Relation, Thing
+from etot_cli.reasoning.builtin.relations import is_closed, is_open
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Destination
+from etot_cli.world.state import DESK
+
+_KEEPS = {
+    Avoid.TOUCH: Keep.UNTOUCHED,
+    Avoid.MOVE: Keep.UNMOVED,
+    Avoid.OPEN: Keep.CLOSED,
+    Avoid.CLOSE: Keep.OPEN,
+}
+
+
+def avoid(context: Context, clause: AvoidClause) -> None:
+    """Adds what a clause forbids to the constraints."""
+    if clause.things is None:
+        _avoid_others(context, clause)
+        return
+    role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
+    before = len(context.discourse.mentions)
+    indices = context.phrases.things(clause.things, role)
+    # "Without touching a cup" is about all of them.
+    things = {thing: None for index in indices for thing in context.discourse.things(index)}
+    names = tuple(dict.fromkeys(_address(thing, role) for thing in things))
+    if DESK in names:
+        raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
+    if clause.avoid is Avoid.PUT:
+        rule_out(context, indices, clause.destinations)
+        del context.discourse.mentions[before:]
+        return
+    # What must not be done is not what "it" speaks of afterwards.
+    del context.discourse.mentions[before:]
+    context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _avoid_others(context: Context, clause: AvoidClause) -> None:
+    """Nothing but what was spoken of may be touched or moved."""
+    spoken = {
+        thing.name
+        for referent in context.discourse.referents
+        for option in referent.options
+        for thing in option
+    }
+    others = tuple(
+        name for name, info in context.scene.infos.items() if name not in spoken and info.movable
+    )
+    if others:
+        context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
+
+
+def rule_out(context: Context, themes: Sequence[int], destinations: Sequence[Destination]) -> None:
+    """Says where things must not be put."""
+    names = {thing.name: None for index in themes for thing in context.discourse.things(index)}
+    text = " and ".join(context.discourse.referents[index].text for index in themes)
+    places: list[tuple[Relation, str]] = []
+    for place in context.phrases.places(destinations, themes):
+        if place.beside or place.where is None:
+            raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
+        for thing in context.discourse.things(place.where):
+            places += [(place.relation, item) for item in _addresses(context, thing, place)]
+    context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
+
+
+def keep_as_it_is(context: Context, index: int, word: str) -> None:
+    """What is open or closed by now, and is to stay so, must not be moved in between."""
+    opened = word == "open"
+    for thing in context.discourse.things(index):
+        for part in context.scene.infos[thing.name].parts:
+            if thing.part not in (None, part.name):
+                continue
+            if (is_open if opened else is_closed)(context.scene, part):
+                keep = Keep.OPEN if opened else Keep.CLOSED
+                name = f"{part.owner}.{part.name}"
+                context.constraints.append(Constraint(keep, (name,)))
+
+
+def _address(thing: Thing, role: Role) -> str:
+    if role is Role.PART and thing.part is not None:
+        return f"{thing.name}.{thing.part}"
+    return thing.name
+
+
+def _addresses(context: Context, thing: Thing, place: Place) -> list[str]:
+    if place.relation is Relation.ON or thing.name == DESK:
+        return [f"{thing.name}.{thing.board}" if thing.board else thing.name]
+    info = context.scene.infos[thing.name]
+    parts = [part.address for part in info.parts if thing.part in (None, part.name)]
+    return [thing.name, *parts] if thing.part is None else parts

@@ -1,0 +1,209 @@
+"""Clauses that put things somewhere, take them away, or say where they are to be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
+from etot_cli.reasoning.language.grammar.syntax import (
+    Modifier,
+    NounPhrase,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.determiners import is_distributive
+from etot_cli.reasoning.language.reference.distribution import distributed
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def put(context: Context, clause: PutClause) -> None:
+    """Adds the steps of a clause that says what goes where."""
+    if clause.first and len(clause.groups) > 1:
+        text = " and ".join(phrase.text for phrase in clause.first)
+        raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
+    for group in clause.groups:
+        themes = _in_said_order(context, group, clause.first)
+        if any(item.toward is Toward.HOME for item in group.destinations):
+            _put_back(context, themes, group)
+            continue
+        destinations, grouping = distributed(group, clause.grouping)
+        places = context.phrases.places(destinations, themes)
+        if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
+            places = tuple(_spread(context, place) for place in places)
+        places_of = dict.fromkeys(themes, places)
+        for condition in clause.conditions:
+            _condition(context, condition, themes, places_of)
+        _add_puts(context, places_of, grouping)
+        context.discourse.last_places = places
+        if clause.ruled_out:
+            rule_out(context, themes, clause.ruled_out)
+
+
+def ensure(context: Context, state: State) -> None:
+    """Adds the steps after which something is as it is said to be."""
+    if state.word:
+        for phrase in state.subjects:
+            for index in context.phrases.refer(phrase, Role.PART):
+                if state.kept:
+                    keep_as_it_is(context, index, state.word)
+                step = Open(index, final=True) if state.word == "open" else None
+                context.steps.append(step or Close(index, final=True))
+        return
+    themes = context.phrases.things(Things(state.subjects), Role.THEME)
+    if any(item.toward is Toward.HOME for item in state.destinations):
+        _put_back(context, themes, PutGroup(Things(state.subjects), state.destinations))
+        return
+    places = context.phrases.places(state.destinations, themes)
+    again = [index for index in themes if index in context.discourse.put]
+    if again and any(place.beside for place in places):
+        text = context.discourse.referents[again[0]].text
+        why = "say where it goes in one: 'on the tray, next to the cup'"
+        raise ReferenceProblem(text, why, 3)
+    _add_put(context, themes, places, Grouping.ANY)
+    context.discourse.last_places = places
+
+
+def remove(context: Context, clause: RemoveClause) -> None:
+    """Adds the steps that take things from where they are to the desk."""
+    things = clause.things
+    if clause.source is not None:
+        modifier = Modifier(Prep.FROM, (clause.source,))
+        things = replace(
+            things,
+            phrases=tuple(
+                replace(phrase, modifiers=(*phrase.modifiers, modifier))
+                for phrase in things.phrases
+            ),
+        )
+    themes = context.phrases.things(things, Role.THEME)
+    _add_put(context, themes, (context.phrases.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _in_said_order(context: Context, group: PutGroup, first: Sequence[NounPhrase]) -> list[int]:
+    """The things of a group, those that are to go first before the others."""
+    themes = context.phrases.things(group.things, Role.THEME)
+    if not first:
+        return themes
+    noun = group.things.phrases[-1].words[-1:]
+    ahead: list[Thing] = []
+    for phrase in first:
+        spoken = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun)
+        resolved = context.phrases.meaning(spoken, Role.THEME)
+        if len(resolved.options) != 1:
+            raise ReferenceProblem(phrase.text, "say which one goes first", 2)
+        ahead += resolved.options[0]
+    things = [thing for index in themes for thing in context.only(index, "say which ones")]
+    if not all(thing in things for thing in ahead):
+        raise ReferenceProblem(first[0].text, "it is none of what is to be put", 2)
+    ordered = [*ahead, *(thing for thing in things if thing not in ahead)]
+    text = " and ".join(phrase.text for phrase in group.things.phrases)
+    return [context.single(thing, text) for thing in ordered]
+
+
+def _with_noun(phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
+    """An elliptic phrase ("blue first") with the noun that it leaves out."""
+    single = tuple(map(singular, noun))
+    if phrase.words[-1:] in (("one",), ("ones",)):
+        kept = single if phrase.words[-1] == "one" else noun
+        return replace(phrase, words=(*phrase.words[:-1], *kept))
+    # An adjective alone leaves its noun out; anything else is a noun of its own.
+    descriptive = phrase.words and all(map(is_descriptive, phrase.words))
+    return replace(phrase, words=(*phrase.words, *single)) if descriptive else phrase
+
+
+def _put_back(context: Context, themes: Sequence[int], group: PutGroup) -> None:
+    """Puts things back to where they are at the start."""
+    if len(group.destinations) > 1:
+        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 2)
+    for index in themes:
+        for thing in context.only(index, "say which one goes back"):
+            place = context.home(thing)
+            context.steps.append(Put((context.single(thing, thing.name),), (place,)))
+
+
+def _spread(context: Context, place: Place) -> Place:
+    """A place whose choice is free for each object ("each pear in a mug")."""
+    if place.where is None:
+        return place
+    referent = context.discourse.referents[place.where]
+    things = context.discourse.things(place.where)
+    if len(referent.options) == 1:
+        return place
+    context.discourse.referents.append(replace(referent, options=(things,)))
+    return replace(place, where=len(context.discourse.referents) - 1)
+
+
+def _condition(
+    context: Context,
+    condition: State,
+    themes: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> None:
+    """Gives some of the things a place of their own ("… with the plum inside the mug")."""
+    if condition.word:
+        ensure(context, condition)
+        return
+    subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
+    vessels = [theme for theme in themes if theme not in subjects]
+    places = context.phrases.places(condition.destinations, subjects, prefer=vessels)
+    for subject in subjects:
+        places_of[subject] = places
+
+
+def _add_puts(
+    context: Context, places_of: dict[int, tuple[Place, ...]], grouping: Grouping
+) -> None:
+    """One step for each run of things with the same places, in the order of the things."""
+    run: list[int] = []
+    for index, places in places_of.items():
+        if run and places_of[run[-1]] != places:
+            _add_put(context, run, places_of[run[-1]], grouping)
+            run = []
+        run.append(index)
+    if run:
+        _add_put(context, run, places_of[run[-1]], grouping)
+
+
+def _add_put(
+    context: Context,
+    themes: Sequence[int],
+    places: tuple[Place, ...],
+    grouping: Grouping,
+    *,
+    removal: bool = False,
+) -> None:
+    discourse = context.discourse
+    targets = {
+        thing.name
+        for place in places
+        for index in place.referents()
+        for thing in discourse.things(index)
+    }
+    for theme in themes:
+        referent = discourse.referents[theme]
+        # "Put everything into the box": the box itself is not meant.
+        options = tuple(
+            tuple(thing for thing in option if thing.name not in targets)
+            if len(option) > 1
+            else option
+            for option in referent.options
+        )
+        if not all(options):
+            raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
+        discourse.referents[theme] = replace(referent, options=options)
+        where = places[0].where if len(places) == 1 else None
+        if where is not None and places[0].relation is Relation.INSIDE:
+            discourse.put_into[theme] = where
+        else:
+            discourse.put_into.pop(theme, None)
+    context.discourse.put |= {*themes}
+    context.steps.append(Put(tuple(themes), places, grouping, removal=removal))

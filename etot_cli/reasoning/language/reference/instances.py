@@ -1,0 +1,74 @@
+"""Which of the things that fit a phrase are meant, and in how many ways they can be chosen."""
+
+from __future__ import annotations
+
+from itertools import combinations, islice
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.matching import Match
+from etot_cli.world.state import DESK, SceneState
+
+MAX_OPTIONS = 256
+"""Ways of choosing instances for one phrase that are looked at."""
+
+
+def usable_ones(
+    things: list[Thing], role: Role, phrase: NounPhrase, scene: SceneState
+) -> list[Thing]:
+    """Things that can be used as asked for; lost ones only when there are no others."""
+    usable = [thing for thing in things if can_be(thing, role, scene)]
+    if not usable and role is Role.SURFACE:
+        # "On the bowl" is said of what goes into it; on a drawer is not in it.
+        vessels = [thing for thing in things if thing.part is None]
+        usable = [thing for thing in vessels if can_be(thing, Role.CONTAINER, scene)]
+        parts = [thing for thing in things if thing.part is not None]
+        if not usable and parts:
+            owner = parts[0].name
+            raise ReferenceProblem(
+                phrase.text,
+                f"nothing can stand on a drawer or door; say 'into' it, or 'on {owner}'",
+                3,
+            )
+    if not usable:
+        names = ", ".join(dict.fromkeys(thing.name for thing in things))
+        raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
+    at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]
+    return at_hand or usable
+
+
+def called_exactly(
+    things: list[Thing],
+    match: Match,
+    phrase: NounPhrase,
+    words: tuple[str, ...],
+    quantity: Quantity,
+    count: int | None,
+) -> list[Thing]:
+    """Of several things that "the cup" may mean the one that is called just that."""
+    if not quantity.definite or quantity.every or count != 1 or len(things) < 2:
+        return things
+    exact = [
+        entry.thing for entry in match.entries if entry.thing in things and entry.is_called(words)
+    ]
+    return exact if len(exact) == 1 else things
+
+
+def options_of(
+    things: list[Thing], count: int | None, quantity: Quantity, phrase: NounPhrase
+) -> tuple[tuple[Thing, ...], ...]:
+    """Alternative sets of things, given how many are meant."""
+    names = ", ".join(thing.name for thing in things)
+    if quantity.every and quantity.count is not None and len(things) != quantity.count:
+        raise ReferenceProblem(
+            phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1
+        )
+    if quantity.definite and count is not None and 1 < count < len(things):
+        raise ReferenceProblem(phrase.text, f"there are more than {count}: {names}", 1)
+    if count is None or quantity.every:
+        return (tuple(things),)
+    if count > len(things):
+        raise ReferenceProblem(phrase.text, f"there are only {len(things)} of them: {names}", 1)
+    return tuple(islice(combinations(things, count), MAX_OPTIONS))

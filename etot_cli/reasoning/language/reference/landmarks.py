@@ -1,0 +1,68 @@
+"""Which things stand to others as a modifier says: "next to the cup", "nearest to the bowl"."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import SceneState
+
+RANKED = frozenset(
+    {
+        Prep.NEAR, Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN, Prep.LEFT, Prep.RIGHT, Prep.BEHIND,
+        Prep.FRONT,
+    }
+)  # fmt: skip
+"""Relations that are true of some things more than of others."""
+
+
+def related(
+    modifier: Modifier,
+    things: list[Thing],
+    landmarks: list[list[Thing]],
+    quantity: Quantity,
+    count: int | None,
+    scene: SceneState,
+) -> list[Thing]:
+    """Those of the things that a modifier is true of, or that fit it best."""
+    prep = modifier.prep
+    fitting = [
+        thing
+        for thing in things
+        if any(
+            (thing not in marks and space.holds_at(prep, thing, marks, scene) is not False)
+            or (prep is Prep.OF and space.holds_at(prep, thing, marks, scene))
+            for marks in _tuples(landmarks)
+        )
+    ]
+    if modifier.denied:
+        return [thing for thing in things if thing not in fitting]
+    if prep not in RANKED:
+        return fitting
+    best: dict[Thing, float] = {}
+    for marks in _tuples(landmarks):
+        others = [
+            thing
+            for thing in fitting
+            if thing not in marks and space.holds_at(prep, thing, marks, scene) is not False
+        ]
+        for cost, thing in space.ranked(prep, others, marks, scene):
+            best[thing] = min(cost, best.get(thing, cost))
+    order = sorted(best, key=lambda thing: best[thing])
+    if quantity.definite and count is not None and not quantity.every:
+        return order[:count]
+    if prep is Prep.NEAR:
+        beside = landmarks[0]
+        near = [t for t in order if any(space.is_next_to(t, m, scene) for m in beside)]
+        order = near or order[:1]
+    elif prep in (Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN):
+        order = order[: count or 1]
+    return [thing for thing in things if thing in order]
+
+
+def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:
+    if len(landmarks) == 1:
+        return [(mark,) for mark in landmarks[0]]
+    return [(one, two) for one in landmarks[0] for two in landmarks[1] if one != two]

@@ -1,0 +1,68 @@
+"""Noun phrases put in their usual form, and phrases for the robot itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIDES, SIZES, singular
+from etot_cli.reasoning.language.words.places import Prep
+
+ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
+_GENERAL = {
+    "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
+    "all else": "all other",
+}  # fmt: skip
+"""Determiners that nouns for anything stand for."""
+_OTHERS = frozenset(
+    {"the rest", "the others", "the other ones", "all others", "all the others", "all the rest"}
+)
+"""The others of what was spoken of before."""
+
+
+def is_robot(phrase: NounPhrase) -> bool:
+    """Whether a phrase means the robot itself, as a landmark."""
+    number = phrase.determiner.split()[-1:]
+    return phrase.words[-1:] in [(noun,) for noun in ROBOT_NOUNS] and (
+        len(phrase.words) == 1 and number not in (["one"], ["two"], ["both"])
+    )
+
+
+def usual_form(phrase: NounPhrase) -> NounPhrase:
+    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
+    last = phrase.words[-1] if phrase.words else ""
+    if last in _GENERAL and len(phrase.words) == 1:
+        determiner = _GENERAL[last]
+        described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
+        if last == "anything" and (described or phrase.modifiers):
+            determiner = "all"  # whatever is so
+        words = ("objects",) if determiner.startswith("all") else ("object",)
+        return replace(phrase, determiner=determiner, words=words)
+    if last in _OTHERS and len(phrase.words) == 1:
+        return replace(phrase, determiner="all other", words=())
+    if phrase.determiner.startswith("only "):
+        phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
+    out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
+    if not last and out is not None and out.phrases[0].words:
+        head = out.phrases[0].words[-1]
+        return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
+    of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
+    if not last or of is None:
+        return phrase
+    rest = tuple(item for item in phrase.modifiers if item is not of)
+    whole = of.phrases[0]
+    if last == "contents":
+        inside = Modifier(Prep.IN, (whole,))
+        return replace(phrase, determiner="all", words=("objects",), modifiers=(inside, *rest))
+    if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
+        several = singular(whole.words[-1]) != whole.words[-1]
+        if not several:
+            raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
+        noun = (*whole.words[:-1], singular(whole.words[-1]))
+        among = quantity_of(whole.determiner).count or 0
+        return replace(
+            phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
+        )
+    return phrase
