@@ -112,6 +112,10 @@ def pick_outcome(
             stopped.name, "while lifting it"
         )
         struck = [item for item in trace.touching if item != name]
+        opening = belief.world.robot.spec.gripper.opening
+        if not struck and motion.details["width"] > opening:
+            # Tried all the same, since physics decides; what stopped the hand is the thing itself.
+            return _too_wide(name, motion.details["width"], opening, trace.seconds)
         return failed(
             CauseKind.BLOCKED,
             [*struck, name],
@@ -202,12 +206,7 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
             f"every grasp of {name} is obstructed by {', '.join(guilty)}",
         )
     if not found.grasps:
-        return failed(
-            CauseKind.NO_GRASP,
-            [name],
-            f"{name} is {found.narrowest * 1000:.0f} mm wide, the gripper opens "
-            f"{opening * 1000:.0f} mm",
-        )
+        return _too_wide(name, found.narrowest, opening)
     if evidence.unreachable:
         return failed(
             CauseKind.UNREACHABLE,
@@ -219,6 +218,17 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
         CauseKind.NO_GRASP,
         [*suspects, name],
         f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
+    )
+
+
+def _too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
+    """``width`` and ``opening`` in metres."""
+    return failed(
+        CauseKind.NO_GRASP,
+        [name],
+        f"{name} is {width * 1000:.0f} mm wide, the gripper opens {opening * 1000:.0f} mm",
+        time_s,
+        another_way=True,
     )
 
 
