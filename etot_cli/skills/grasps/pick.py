@@ -228,7 +228,6 @@ def _too_wide(name: str, width: float, opening: float, time_s: float | None = No
         [name],
         f"{name} is {width * 1000:.0f} mm wide, the gripper opens {opening * 1000:.0f} mm",
         time_s,
-        another_way=True,
     )
 
 
