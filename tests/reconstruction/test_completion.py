@@ -18,7 +18,7 @@ from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.free_form.symmetry import find_mirrors
 from etot_cli.reconstruction.pipeline import Options, reconstruct
-from etot_cli.world.build import meshes
+from etot_cli.world.build import meshes, pieces
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import angle_block, prism, roof, toy
@@ -100,16 +100,14 @@ def test_the_twin_and_its_pieces(
     two: Picture, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Pieces are counted and measured; a second run takes them from the cache."""
-    import coacd
-
     calls = []
 
     def counted(*words: Any, **options: Any) -> Any:
         calls.append(1)
         return original(*words, **options)
 
-    original = coacd.run_coacd
-    monkeypatch.setattr(coacd, "run_coacd", counted)
+    original = pieces._decompose
+    monkeypatch.setattr(pieces, "_decompose", counted)
     monkeypatch.setenv("ETOT_CACHE", str(tmp_path / "cache"))
     reports = []
     for out in ("one", "two"):
