@@ -18,7 +18,7 @@ from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.free_form.symmetry import find_mirrors
 from etot_cli.reconstruction.pipeline import Options, reconstruct
-from etot_cli.world.build import meshes, pieces
+from etot_cli.world.build import pieces
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import angle_block, prism, roof, toy
@@ -119,7 +119,7 @@ def test_the_twin_and_its_pieces(
     assert first == second
     assert {item["object"] for item in first} == set(SHAPES)
     for item in first:
-        assert 2 <= item["count"] <= meshes.MAX_PIECES
+        assert 2 <= item["count"] <= pieces.MAX_PIECES
         assert abs(item["volume_error"]) < 0.15
     for item in reports[0]["objects"]:
         assert item["settle_m"] < 0.002 and item["settle_deg"] < 1.0
