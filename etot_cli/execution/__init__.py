@@ -1,0 +1,1 @@
+"""The closed loop: plan, act, look, judge, and plan anew from what is seen."""
