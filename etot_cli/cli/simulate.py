@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -23,6 +23,9 @@ from etot_cli.cli.options import (
 )
 from etot_cli.cli.session import Session
 from etot_cli.specs.look import Look
+
+if TYPE_CHECKING:
+    from etot_cli.specs.start_error import StartError
 
 
 def simulate(
@@ -45,6 +48,20 @@ def simulate(
     ] = False,
     vary: Vary = False,
     look: WhenToLook = Look.EACH,
+    open_loop: Annotated[
+        bool,
+        typer.Option(
+            "--open-loop", help="Send the trajectories of the plan report as they are, unseeing."
+        ),
+    ] = False,
+    error: Annotated[
+        str | None,
+        typer.Option(
+            "--error",
+            metavar="5mm,3deg",
+            help="With --open-loop: start poses are off by up to so much, drawn by the seed.",
+        ),
+    ] = None,
     video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
     html: Html = True,
@@ -61,7 +78,7 @@ def simulate(
     or --frames without OpenGL; 130: interrupted.
     """
     if capture is not None:
-        if plan is not None or video or frames:
+        if plan is not None or video or frames or open_loop:
             raise typer.BadParameter("--capture renders the scene as it stands; it takes no plan")
         from etot_cli.commands.capture import run_capture
 
@@ -70,6 +87,9 @@ def simulate(
         return OK
     if plan is None:
         raise typer.BadParameter("missing --plan (or --capture to render the scene)")
+    if error is not None and not open_loop:
+        raise typer.BadParameter("--error needs --open-loop")
+    start_error = None if error is None else _start_error(error)
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
@@ -78,7 +98,14 @@ def simulate(
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
 
     options = SimulateOptions(
-        task=task, plan=plan, seed=seed, vary=vary, look=look, record=video or frames or html
+        task=task,
+        plan=plan,
+        seed=seed,
+        vary=vary,
+        look=look,
+        open_loop=open_loop,
+        error=start_error,
+        record=video or frames or html,
     )
     simulation = run_simulate(options, session.log())
     report = simulation.report
@@ -102,3 +129,13 @@ def simulate(
     if html and not report.interrupted:
         session.add_page(report, lambda told: write_simulate_page(simulation, session.folder, told))
     return session.conclude(report, path, lambda summary: summary.simulate(report, path))
+
+
+def _start_error(text: str) -> StartError:
+    """What ``--error`` says."""
+    from etot_cli.specs.start_error import parse_start_error
+
+    try:
+        return parse_start_error(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"--error: {error}") from None

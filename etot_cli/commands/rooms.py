@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from etot_cli.specs.look import Look
 
 if TYPE_CHECKING:
+    from etot_cli.control.replaying import Recording
     from etot_cli.control.simulated import Simulator
     from etot_cli.reasoning.protocol import Reasoner
     from etot_cli.reasoning.vlm.accounts import VlmAccount
@@ -41,6 +42,22 @@ class OpenSimulator(Protocol):
         search has seen; ``truth``: the world to act in, beside the twin; ``look``: when the robot
         looks at a world that is not the twin.
         """
+        ...
+
+
+class OpenReplay(Protocol):
+    """Opens a world to which recorded actions are sent again."""
+
+    def __call__(
+        self,
+        scene: Scene,
+        recordings: Sequence[Recording],
+        *,
+        truth: Scene,
+        seed: int,
+        record: bool,
+    ) -> Simulator:
+        """``scene``: in which they were planned; ``truth``: in which they are replayed."""
         ...
 
 
@@ -86,6 +103,14 @@ def _open_model(
     return open_vlm(flags, scene, seed=seed, state=state)
 
 
+def _open_replay(
+    scene: Scene, recordings: Sequence[Recording], *, truth: Scene, seed: int, record: bool
+) -> Simulator:
+    from etot_cli.control.replaying import open_replay
+
+    return open_replay(scene, recordings, truth=truth, seed=seed, record=record)
+
+
 @dataclass(frozen=True, slots=True)
 class Rooms:
     """What the commands need of the rooms below."""
@@ -100,6 +125,7 @@ class Rooms:
     """Reasoner name → how to make it."""
     open_model: OpenModel = _open_model
     """For the reasoner ``vlm``, which needs the scene."""
+    open_replay: OpenReplay = _open_replay
 
 
 def default_rooms() -> Rooms:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -17,16 +17,20 @@ from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.reporting.evidence import contact_models, moved_models
 from etot_cli.reporting.models import action_fields, cause_model, seconds
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.reporting.recordings import RecordedPlan, recorded_plan
 from etot_cli.reporting.replay import plan_from_report
 from etot_cli.reporting.simulate_report import (
     ConditionModel,
+    OpenLoopModel,
     SimulateReport,
+    StartErrorModel,
     StepModel,
     SuccessConditionsModel,
 )
 from etot_cli.skills.action import Action, parse_plan
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
+from etot_cli.specs.start_error import StartError, with_start_error
 from etot_cli.specs.task import Task
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord, SceneState
@@ -42,6 +46,10 @@ class SimulateOptions:
     vary: bool = False
     look: Look = Look.EACH
     """When the robot looks, in a varied world."""
+    open_loop: bool = False
+    """Send the trajectories of the plan report as they are."""
+    error: StartError | None = None
+    """With ``open_loop``: how far the start poses are off."""
     record: bool = False
     """Keep the trajectories, so that frames or a video can be rendered afterwards."""
 
@@ -81,6 +89,8 @@ class _Run:
     trajectories: list[object] = field(default_factory=list)
     records: list[RolloutRecord] = field(default_factory=list)
     final: SceneState | None = None
+    end_digest: str | None = None
+    recorded: RecordedPlan | None = None
     interrupted: bool = False
 
 
@@ -108,26 +118,64 @@ def run_simulate(
         with watch.phase("load"):
             run.task = rooms.load_task(options.task)
             # Text that is no plan is refused before the world is built; names need the world.
-            run.plan = read_plan(options.plan)
-            scene = run.task.scene
-            truth = rooms.vary(scene, options.seed) if options.vary else None
-            run.scene = truth or scene
+            if options.open_loop:
+                run.recorded = recorded_plan(report_of(options.plan))
+                run.plan = run.recorded.actions
+            else:
+                run.plan = read_plan(options.plan)
         with watch.phase("world"):
             reasoner = rooms.reasoners["builtin"]()
-            simulator = rooms.open_simulator(
-                scene,
-                seed=options.seed,
-                jobs=1,
-                worlds=1,
-                record=options.record,
-                truth=truth,
-                look=options.look,
-            )
+            simulator = _opened(run, run.task.scene, options, rooms)
         with closing(simulator), watch.phase("simulate"):
             _carry_out(run, simulator, reasoner, rooms, observer)
     except KeyboardInterrupt:
         run.interrupted = True
     return Simulation(_report(options, run, watch), run.scene, run.trajectories, run.records)
+
+
+def _opened(run: _Run, scene: Scene, options: SimulateOptions, rooms: doors.Rooms) -> Simulator:
+    """The world to act in; ``run`` learns its scene."""
+    if run.recorded is None:
+        truth = rooms.vary(scene, options.seed) if options.vary else None
+        run.scene = truth or scene
+        return rooms.open_simulator(
+            scene,
+            seed=options.seed,
+            jobs=1,
+            worlds=1,
+            record=options.record,
+            truth=truth,
+            look=options.look,
+        )
+    if run.recorded.drawn_with is not None:
+        scene = rooms.vary(scene, run.recorded.drawn_with)
+    run.scene = scene
+    if options.error is not None:
+        run.scene = with_start_error(scene, options.error, vary=options.vary)
+    if options.error is not None or options.vary:
+        run.scene = rooms.vary(run.scene, options.seed)
+    return rooms.open_replay(
+        scene,
+        run.recorded.recordings,
+        truth=run.scene,
+        seed=options.seed,
+        record=options.record,
+    )
+
+
+def report_of(given: str) -> Path:
+    """The path of a plan report, from what ``--plan`` was given with ``--open-loop``.
+
+    Raises:
+        PlanSyntaxError: it is none.
+    """
+    path = _report_path(given)
+    if path is None:
+        raise PlanSyntaxError(
+            f"{given[:200]!r} is no report file; --open-loop replays the trajectories of a report "
+            "of etot plan"
+        )
+    return path
 
 
 def read_plan(given: str) -> tuple[Action, ...]:
@@ -138,6 +186,17 @@ def read_plan(given: str) -> tuple[Action, ...]:
     """
     if "[" in given and not given.rstrip().endswith(".json"):
         return parse_plan(given)
+    path = _report_path(given)
+    if path is not None:
+        return plan_from_report(path)
+    raise PlanSyntaxError(
+        f"{given[:200]!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report "
+        "file"
+    )
+
+
+def _report_path(given: str) -> Path | None:
+    """The file that a text names, there or not; None where it names none."""
     path = Path(given)
     try:
         # An empty text would be the current folder.
@@ -146,12 +205,7 @@ def read_plan(given: str) -> tuple[Action, ...]:
             path = path / "report.json"
     except (OSError, ValueError):  # a name that no file can have
         there = False
-    if there or given.endswith(".json"):
-        return plan_from_report(path)
-    raise PlanSyntaxError(
-        f"{given[:200]!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report "
-        "file"
-    )
+    return path if there or given.endswith(".json") else None
 
 
 def _carry_out(
@@ -169,7 +223,7 @@ def _carry_out(
         simulated = simulator.submit(state, action).result()
         outcome = simulated.outcomes[-1]  # the true world where there is one, else the twin
         verdict = reasoner.judge(action, outcome.record)
-        run.final = outcome.record.after
+        run.final, run.end_digest = outcome.record.after, outcome.end_digest
         state = simulated.end
         if outcome.trajectory is not None:
             run.trajectories.append(outcome.trajectory)
@@ -221,11 +275,26 @@ def _report(options: SimulateOptions, run: _Run, watch: Stopwatch) -> SimulateRe
             "files": {},
             "vary": options.vary,
             "look": options.look.value,
+            "open_loop": _open_loop(options, run),
             "plan": [str(action) for action in run.plan],
             "steps": run.steps,
             "cause": cause,
             "success_conditions": conditions,
         }
+    )
+
+
+def _open_loop(options: SimulateOptions, run: _Run) -> OpenLoopModel | None:
+    if not options.open_loop:
+        return None
+    error = options.error
+    same, drawn = None, error is not None or options.vary
+    if run.recorded is not None and len(run.steps) == len(run.plan) and not drawn:
+        same = run.end_digest == run.recorded.recordings[-1].end_digest
+    return OpenLoopModel(
+        error=None if error is None else StartErrorModel(**asdict(error)),
+        end_state=run.end_digest,
+        same_end_state=same,
     )
 
 

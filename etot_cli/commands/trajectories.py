@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 
 from etot_cli.commands.plan import Planning
@@ -35,10 +36,14 @@ def write_trajectories(planning: Planning, folder: Path, *, keep_all: bool = Fal
         if outcome is None or not isinstance(outcome.trace, Trace):
             continue
         file = f"{FOLDER}/{number:03d}.json"
-        model = trajectory_model(actions[number], robot.name, list(robot.joints), outcome.trace)
+        model = trajectory_model(
+            actions[number], robot.name, list(robot.joints), outcome.model_digest, outcome.trace
+        )
+        text = model.model_dump_json() + "\n"
         (folder / FOLDER).mkdir(exist_ok=True)
-        write_atomically(folder / file, model.model_dump_json() + "\n")
-        motion = motion_model(actions[number], number, file, outcome)
+        write_atomically(folder / file, text)
+        digest = hashlib.sha256(text.encode()).hexdigest()
+        motion = motion_model(actions[number], number, file, digest, outcome)
         if motion is not None and number in report.plan_nodes:
             report.motions.append(motion)
     order = {number: place for place, number in enumerate(report.plan_nodes)}

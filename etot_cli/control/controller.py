@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, Robot
 from etot_cli.skills.motion.motion import (
+    SETTLE,
     Hand,
     Motion,
     Move,
@@ -27,6 +28,9 @@ Vector = NDArray[np.float64]
 
 SETTLE_AFTER_FAILURE = 1.6
 """Time for what a failed motion has set moving to come to rest, at most [s]."""
+COMMAND_DECIMALS = 9
+"""Of the joint targets that are sent: nanoradians, far below what an encoder resolves, so that a
+file of them holds what was sent to the last bit."""
 
 
 def run_motion(motion: Motion, robot: Robot, limits: JointLimits) -> Trace:
@@ -40,7 +44,7 @@ def run_motion(motion: Motion, robot: Robot, limits: JointLimits) -> Trace:
     run = _Run(robot, limits)
     for phase in motion.phases:
         if not run.carry_out(phase):
-            robot.wait(SETTLE_AFTER_FAILURE, Guards(), until_rest=True)
+            run.carry_out(Wait(SETTLE, SETTLE_AFTER_FAILURE, until_rest=True))
             break
     return Trace(tuple(run.phases))
 
@@ -80,6 +84,7 @@ class _Run:
                 command,
                 self._sent,
                 round(state.time_s - self._held_from, 4),
+                phase.holding,
                 contacts.touching,
                 contacts.presses,
             )
@@ -95,9 +100,10 @@ class _Run:
         start = self._robot.state().targets
         whole = np.vstack([start[None], path])
         if move.length is None or move.tool_speed is None:
-            self._sent = time_path(whole, self._limits)
+            targets = time_path(whole, self._limits)
         else:
-            self._sent = time_line(whole, move.length, move.tool_speed, self._limits)
+            targets = time_line(whole, move.length, move.tool_speed, self._limits)
+        self._sent = np.round(targets, COMMAND_DECIMALS)
         guards = Guards(move.holding)
         end = self._robot.follow(self._sent, guards)
         self._held_from = self._robot.state().time_s
@@ -127,7 +133,9 @@ class _Run:
 
 
 def replay(trace: Trace, robot: Robot) -> Trace:
-    """Sends a robot what another one was sent, phase by phase, looking at nothing in between.
+    """Sends a robot what another one was sent, phase by phase, whatever becomes of it.
+
+    No guard ends a phase; what one would have seen at the phase's end is in the account.
 
     Returns:
         What became of it, with the same commands in it.
@@ -142,6 +150,10 @@ def replay(trace: Trace, robot: Robot) -> Trace:
             end = robot.follow(phase.targets, Guards())
         robot.wait(phase.waited_s, Guards())
         state = robot.state()
+        if end is PhaseEnd.DONE and phase.holding is not None and state.opening < phase.holding:
+            closing = phase.targets is None and phase.command is not None
+            end = PhaseEnd.MISSED if closing else PhaseEnd.SLIPPED
+        contacts = robot.contacts()
         phases.append(
             replace(
                 phase,
@@ -150,8 +162,8 @@ def replay(trace: Trace, robot: Robot) -> Trace:
                 end_s=round(state.time_s, 4),
                 opening=round(state.opening, 6),
                 joints=tuple(round(float(value), 6) for value in state.joints),
-                touching=(),
-                presses=(),
+                touching=contacts.touching,
+                presses=contacts.presses,
             )
         )
     return Trace(tuple(phases))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from etot_cli.control.controller import run_motion
+from etot_cli.control.controller import replay, run_motion
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.skills.action import Action
@@ -91,14 +91,30 @@ class PhysicsWorld:
         return np.random.default_rng(int.from_bytes(digest[:8], "little"))
 
     def run(
-        self, start: Snapshot, belief: Belief, action: Action, motion: Motion
+        self,
+        start: Snapshot,
+        belief: Belief,
+        action: Action,
+        motion: Motion,
+        recorded: Trace | None = None,
     ) -> tuple[Performed, bool]:
-        """Runs a motion from a stored state; its account, and whether another may do better."""
+        """Runs a motion from a stored state; its account, and whether another may do better.
+
+        Args:
+            start: the state.
+            belief: what the motion was worked out from.
+            action: what is to be done.
+            motion: how.
+            recorded: what a robot was sent for this motion, to be sent again as it is.
+        """
         before = self.look(start)
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
         robot = SimulatedRobot(world, data, recorder, self.deadline)
-        trace = run_motion(motion, robot, self.limits)
+        if recorded is None:
+            trace = run_motion(motion, robot, self.limits)
+        else:
+            trace = replay(recorded, robot)
         self.total_steps += robot.steps
         mujoco.mj_forward(world.model, data)
         after, memory = read_scene(world, data, start.memory)

@@ -24,13 +24,16 @@ class WorldOutcome:
 
     ``trajectory``: opaque decimated trajectory for later rendering (picklable), or None.
     ``motion`` and ``trace``: what the robot was told and what became of it, opaque here; None where
-    nothing was tried.
+    nothing was tried. ``model_digest`` and ``end_digest``: SHA-256 of the world's model and of its
+    physics state afterwards.
     """
 
     record: RolloutRecord
     trajectory: object | None = None
     motion: object | None = None
     trace: object | None = None
+    model_digest: str = ""
+    end_digest: str = ""
 
 
 @dataclass(frozen=True, slots=True)

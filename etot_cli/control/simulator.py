@@ -205,8 +205,15 @@ class ActionSimulator:
             performed.append(self._worlds.unperformed(index, node.snapshots[index], cause))
         return Simulated(
             outcomes=tuple(
-                WorldOutcome(item.record, item.trajectory, item.motion, item.trace)
-                for item in performed
+                WorldOutcome(
+                    item.record,
+                    item.trajectory,
+                    item.motion,
+                    item.trace,
+                    self._worlds.digest(index),
+                    item.end.digest,
+                )
+                for index, item in enumerate(performed)
             ),
             end=_pack([item.end for item in performed]),
             wall_s=time.perf_counter() - node.begun,

@@ -82,6 +82,10 @@ class Worlds:
         """The record of an action that was not carried out in a world."""
         return self._all[index].unperformed(snapshot, cause)
 
+    def digest(self, index: int) -> str:
+        """Of a world's model."""
+        return self._all[index].world.digest
+
     @property
     def _all(self) -> list[PhysicsWorld]:
         return [self._twin, *self._others]

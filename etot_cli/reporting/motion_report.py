@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from etot_cli.control.simulated import WorldOutcome
 from etot_cli.reporting.models import Count, Model, Seconds
-from etot_cli.skills.motion.motion import FramedPose, Motion, Trace
+from etot_cli.skills.motion.motion import FramedPose, Motion, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, peaks
 from etot_cli.world.state import SceneState
 
-DECIMALS = 9
-"""Of joint targets in files: nanoradians, far below what an encoder resolves."""
+HEX_DIGEST = "^[0-9a-f]{64}$"
+Digest = Annotated[str, Field(pattern=HEX_DIGEST)]
+"""SHA-256, hexadecimal."""
 
 
 class PoseModel(Model):
@@ -46,6 +46,8 @@ class MotionModel(Model):
     node: Count
     file: str
     """The trajectory file, relative to the report."""
+    sha256: Digest
+    """Of that file."""
     seconds: Seconds
     tool_at: PoseModel | None
     """The tool where it closes on, or first touches, the object or part it is told in."""
@@ -58,14 +60,16 @@ class MotionModel(Model):
     before: dict[str, PoseModel]
     """Every object's pose when the action began, base frame."""
     after: dict[str, PoseModel]
+    end_state: str
+    """SHA-256 of the twin's physics state after the action: a replay there ends in it."""
 
 
 class TrajectoryPhaseModel(Model):
     """One phase of a motion, as sent."""
 
     name: str
-    end: str
-    """How it ended: done, blocked, …"""
+    end: PhaseEnd
+    """How it ended."""
     start_s: Seconds
     end_s: Seconds
     opening: float | None
@@ -74,6 +78,8 @@ class TrajectoryPhaseModel(Model):
     """Joint targets [rad], one row for every control period."""
     waited_s: Seconds
     """Time held still after the targets."""
+    holding: float | None
+    """With an opening below this [m] what was held is gone; null with empty fingers."""
 
 
 class TrajectoryModel(Model):
@@ -82,13 +88,17 @@ class TrajectoryModel(Model):
     schema_: Literal["etot.trajectory/1"] = Field(default="etot.trajectory/1", alias="schema")
     action: str
     robot: str
+    model: str
+    """SHA-256 of the twin's model, to tell whether a scene is the one that this was planned in."""
     joints: list[str]
     """Names of the joints, in the order of each row of targets."""
     control_period_s: Seconds
     phases: list[TrajectoryPhaseModel]
 
 
-def motion_model(action: str, node: int, file: str, outcome: WorldOutcome) -> MotionModel | None:
+def motion_model(
+    action: str, node: int, file: str, sha256: str, outcome: WorldOutcome
+) -> MotionModel | None:
     """A plan's motion as it stands in reports; None where the rooms below told none."""
     motion, trace = outcome.motion, outcome.trace
     if not isinstance(motion, Motion) or not isinstance(trace, Trace):
@@ -97,6 +107,7 @@ def motion_model(action: str, node: int, file: str, outcome: WorldOutcome) -> Mo
         action=action,
         node=node,
         file=file,
+        sha256=sha256,
         seconds=trace.seconds,
         tool_at=_pose(motion.tool_at),
         object_at=_pose(motion.object_at),
@@ -104,34 +115,34 @@ def motion_model(action: str, node: int, file: str, outcome: WorldOutcome) -> Mo
         peaks=_peaks(trace),
         before=_poses(outcome.record.before),
         after=_poses(outcome.record.after),
+        end_state=outcome.end_digest,
     )
 
 
-def trajectory_model(action: str, robot: str, joints: list[str], trace: Trace) -> TrajectoryModel:
+def trajectory_model(
+    action: str, robot: str, joints: list[str], model: str, trace: Trace
+) -> TrajectoryModel:
     """What a robot was sent, as it stands in a trajectory file."""
     return TrajectoryModel(
         action=action,
         robot=robot,
+        model=model,
         joints=joints,
         control_period_s=CONTROL_PERIOD,
         phases=[
             TrajectoryPhaseModel(
                 name=phase.name,
-                end=phase.end.value,
+                end=phase.end,
                 start_s=phase.start_s,
                 end_s=phase.end_s,
                 opening=phase.command,
-                targets=[] if phase.targets is None else _rows(phase.targets),
+                targets=[] if phase.targets is None else phase.targets.tolist(),
                 waited_s=phase.waited_s,
+                holding=phase.holding,
             )
             for phase in trace.phases
         ],
     )
-
-
-def _rows(targets: NDArray[np.float64]) -> list[list[float]]:
-    rows: list[list[float]] = np.round(targets, DECIMALS).tolist()
-    return rows
 
 
 def _pose(pose: FramedPose | None) -> PoseModel | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import zip_longest
 from pathlib import Path
+from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -17,30 +18,33 @@ MAX_REPORT_BYTES = 64 * 1024 * 1024
 READABLE = "etot.plan/1"
 
 
-class _Lenient(BaseModel):
+class Lenient(BaseModel):
     """Reads only what a replay needs, so that reports with further fields stay readable."""
 
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
 
 
-class _Disc(_Lenient):
+M = TypeVar("M", bound=Lenient)
+
+
+class _Disc(Lenient):
     x: float
     y: float
     radius: float
 
 
-class _Node(_Lenient):
+class _Node(Lenient):
     id: int
     action: str
     safe: bool = False
     keepout: list[_Disc] = Field(default_factory=list)
 
 
-class _Tree(_Lenient):
+class _Tree(Lenient):
     nodes: list[_Node] = Field(default_factory=list)
 
 
-class _Head(_Lenient):
+class _Head(Lenient):
     schema_: str = Field(default="", alias="schema")
     status: str = ""
     plan: list[str] = Field(default_factory=list)
@@ -58,7 +62,7 @@ def plan_from_report(path: Path) -> tuple[Action, ...]:
     Raises:
         PlanSyntaxError: the file cannot be read, is no such report, or holds no plan.
     """
-    report = _read(path)
+    report = read_report(path, _Head)
     if report.schema_ != READABLE:
         found = f"schema {report.schema_!r}" if report.schema_ else "no schema"
         raise PlanSyntaxError(f"{path}: not a plan report ({found}); expected schema {READABLE!r}")
@@ -94,13 +98,18 @@ def _parse_one(path: Path, written: str) -> Action:
     return actions[0]
 
 
-def _read(path: Path) -> _Head:
+def read_report(path: Path, model: type[M]) -> M:
+    """Reads what ``model`` has of a report, and ignores the rest.
+
+    Raises:
+        PlanSyntaxError: the file cannot be read, or holds something else there.
+    """
     try:
         text = read_bytes(path, MAX_REPORT_BYTES, "a plan report")
     except SpecError as error:
         raise PlanSyntaxError(f"{path}: cannot be read: {error.message}") from None
     try:
-        return _Head.model_validate_json(text)
+        return model.model_validate_json(text)
     except ValidationError as error:
         problem = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(str(part) for part in problem["loc"])

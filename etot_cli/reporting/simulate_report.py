@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from etot_cli.reporting.evidence import ContactModel, MovedModel
-from etot_cli.reporting.models import ActionModel, CauseModel, Count, Model, Report, Seconds
+from etot_cli.reporting.models import ActionModel, CauseModel, Count, Metres, Model, Report, Seconds
 
 
 class StepModel(ActionModel):
@@ -43,6 +43,26 @@ class SuccessConditionsModel(Model):
     conditions: list[ConditionModel]
 
 
+class StartErrorModel(Model):
+    """How far start poses may be off."""
+
+    position_m: Metres
+    """In each of x and y."""
+    yaw_deg: float
+
+
+class OpenLoopModel(Model):
+    """A plan report's trajectories, sent as they are."""
+
+    error: StartErrorModel | None
+    """Of the start poses; null where they were not drawn from an error."""
+    end_state: str | None
+    """SHA-256 of the physics state at the end; null when nothing was carried out."""
+    same_end_state: bool | None
+    """It is, to the byte, the one that the plan's report has; null where the world is another, or
+    where the plan was not carried out to its end."""
+
+
 class SimulateReport(Report):
     """What happened when a plan was carried out in the simulator."""
 
@@ -51,6 +71,8 @@ class SimulateReport(Report):
     vary: bool
     look: Literal["each", "once"]
     """When the robot looked at the varied world."""
+    open_loop: OpenLoopModel | None = None
+    """Null unless recorded trajectories were replayed."""
     plan: list[str]
     """The plan asked for."""
     steps: list[StepModel]

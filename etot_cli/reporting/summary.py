@@ -96,6 +96,10 @@ class Summary:
                 self._condition(condition.condition, condition.held)
         if report.cause is not None:
             self._say(report.cause, 2)
+        if report.open_loop is not None and report.open_loop.same_end_state is not None:
+            same = report.open_loop.same_end_state
+            word = "the same, to the byte, as" if same else "another than"
+            self._say(f"the end state is {word} when it was planned", 2)
         self._files(path, report.files)
 
     def _headline(self, status: str, instruction: str, instead: str = "") -> None:

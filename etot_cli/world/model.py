@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -20,6 +21,8 @@ from etot_cli.world.robot import RobotSpec, load_robot
 from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, add_robot, robot_index
 
 MASS_TOLERANCE = 1e-6
+SEEN_ONLY = ("cam", "light", "mat", "name", "nbuf", "nmat", "nname", "npath", "ntex", "path", "tex")
+"""Beginnings of the model's fields that physics does not depend on."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,19 @@ class World:
     """For every geom: object, ``object.part`` or ``.board``, ``robot``, ``gripper``, ``desk`` or
     ``floor``.
     """
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of everything in the model that physics depends on, hexadecimal."""
+        found = hashlib.sha256()
+        for owner in (self.model, self.model.opt):
+            for key in dir(owner):
+                if key.startswith(("_", *SEEN_ONLY)) or key.endswith("rgba"):
+                    continue
+                value = getattr(owner, key)
+                if isinstance(value, int | float | np.ndarray):
+                    found.update(key.encode() + np.ascontiguousarray(value).tobytes())
+        return found.hexdigest()
 
     @cached_property
     def geom_object(self) -> tuple[str, ...]:

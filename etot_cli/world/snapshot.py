@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, field
 
 import mujoco
@@ -34,6 +35,11 @@ class Snapshot:
 
     physics: bytes
     memory: Memory
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the physics state, hexadecimal."""
+        return hashlib.sha256(self.physics).hexdigest()
 
 
 def save(world: World, data: mujoco.MjData, memory: Memory) -> Snapshot:

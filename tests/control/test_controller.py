@@ -130,14 +130,15 @@ def test_a_logging_robot_is_told_the_same(grasp: Motion) -> None:
 def test_fingers_that_meet_nothing_end_the_motion(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=0.0)
     trace = run_motion(grasp, robot, LIMITS)
-    assert names(trace) == ["transit", "approach", "grip"]
+    assert names(trace) == ["transit", "approach", "grip", "settle"]
+    assert trace.seconds == trace.phases[2].end_s
     assert ended(trace, "grip") is PhaseEnd.MISSED
 
 
 def test_a_slip_ends_the_motion(grasp: Motion) -> None:
     robot = scripted(grasp, held_width=BALL["diameter"], script={2: PhaseEnd.SLIPPED})
     trace = run_motion(grasp, robot, LIMITS)
-    assert names(trace) == ["transit", "approach", "grip", "lift"]
+    assert names(trace) == ["transit", "approach", "grip", "lift", "settle"]
     assert trace.stopped is not None and trace.stopped.end is PhaseEnd.SLIPPED
 
 
@@ -166,6 +167,22 @@ def test_planning_steps_nothing(world: SimulatedWorld, start: Snapshot) -> None:
     motion_of(world, start, "[PICK UP, ball]")
     restore(world.world, world.data, start)
     assert (world.data.time, world.data.qpos.tobytes()) == before
+
+
+def test_a_replay_goes_on_whatever_happens_and_tells_what_it_saw(grasp: Motion) -> None:
+    recorded = run_motion(grasp, scripted(grasp, held_width=BALL["diameter"]), LIMITS)
+    for width, ends in (
+        (BALL["diameter"], {PhaseEnd.DONE}),
+        (0.0, {PhaseEnd.DONE, PhaseEnd.MISSED, PhaseEnd.SLIPPED}),
+    ):
+        robot = scripted(grasp, held_width=width)
+        again = replay(recorded, robot)
+        assert names(again) == names(recorded)
+        assert {phase.end for phase in again.phases} == ends
+        sent = [phase.targets[-1] for phase in recorded.phases if phase.targets is not None]
+        np.testing.assert_array_equal(robot.joints, sent[-1])
+    assert ended(again, "grip") is PhaseEnd.MISSED
+    assert ended(again, "lift") is PhaseEnd.SLIPPED
 
 
 def test_a_replay_ends_in_the_same_bytes(world: SimulatedWorld, start: Snapshot) -> None:

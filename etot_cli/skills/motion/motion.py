@@ -98,6 +98,9 @@ class Wait:
 
 Phase = Move | Hand | Wait
 
+SETTLE = "settle"
+"""Name of the wait after a phase that failed."""
+
 
 @dataclass(frozen=True)
 class FramedPose:
@@ -167,7 +170,8 @@ class PhaseTrace:
     ``start_s`` and ``end_s``: time within the action [s]; ``opening``: sensed at its end [m];
     ``joints``: sensed at its end (n,) [rad]; ``command``: opening that the gripper was sent to as
     the phase began [m], None for none; ``targets``: the joint targets sent, (m, n) at the control
-    period, None without any; ``waited_s``: time held still after them [s].
+    period, None without any; ``waited_s``: time held still after them [s]; ``holding``: the phase's
+    guard, an opening below which what was held is gone [m], None for none.
 
     ``touching`` and ``presses`` say who was in contact when a phase was stopped or a move that may
     be stopped came to its end; only a simulated robot knows. They serve the account of a failure;
@@ -183,6 +187,7 @@ class PhaseTrace:
     command: float | None = None
     targets: Vector | None = None
     waited_s: float = 0.0
+    holding: float | None = None
     touching: tuple[str, ...] = ()
     presses: tuple[Press, ...] = ()
 
@@ -195,8 +200,8 @@ class Trace:
 
     @property
     def seconds(self) -> float:
-        """Time that the motion took [s]."""
-        return self.phases[-1].end_s if self.phases else 0.0
+        """Time that the motion took, without what came to rest after a failure [s]."""
+        return max((item.end_s for item in self.phases if item.name != SETTLE), default=0.0)
 
     def phase(self, name: str) -> PhaseTrace | None:
         """The last phase of that name; None where it was not reached."""
