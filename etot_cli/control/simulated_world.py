@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cached_property
 
 import mujoco
 
 from etot_cli.control.physics_world import Performed, PhysicsWorld
 from etot_cli.skills.action import Action
-from etot_cli.skills.belief import Belief, build_twin
+from etot_cli.skills.belief import Belief, Twin, build_twin
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.skills.motions import plan_motions
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.specs.scene import Scene
+from etot_cli.world.model import build_world
 from etot_cli.world.relations import read_scene
 from etot_cli.world.snapshot import Snapshot, restore
 
@@ -32,6 +34,11 @@ class SimulatedWorld(PhysicsWorld):
         super().__init__(scene, seed, keep_frames=keep_frames)
         self.twin = build_twin(self.world, self.deadline)
         self._believed = mujoco.MjData(self.world.model)
+
+    @cached_property
+    def seen_twin(self) -> Twin:
+        """The twin for states that are only seen, in which furniture may stand elsewhere."""
+        return build_twin(build_world(self.world.scene, loose_furniture=True), self.deadline)
 
     def believe(self, start: Snapshot, salt: str = "") -> Belief:
         """The twin in a stored state; the random choices depend on seed and ``salt`` alone."""

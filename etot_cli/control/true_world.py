@@ -45,11 +45,11 @@ class TrueWorld(PhysicsWorld):
         keep_frames: bool = False,
     ) -> None:
         super().__init__(scene, twin.seed, keep_frames=keep_frames)
-        self._twin, self._number, self._when = twin.twin, number, look
+        self._twin, self._number, self._when = twin.seen_twin, number, look
         # Planning for this world ends when planning in the twin does.
         self.deadline = twin.deadline
         self._perception = twin.world.scene.perception
-        self._believed = mujoco.MjData(twin.world.model)
+        self._believed = mujoco.MjData(self._twin.world.model)
 
     def believe(self, start: Snapshot, salt: str) -> Belief:
         """What the robot takes a stored state of this world for, after a look at it."""

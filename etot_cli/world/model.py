@@ -86,12 +86,17 @@ class World:
         return np.array(ids, dtype=np.int64)
 
 
-def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
+def build_world(
+    scene: specs.Scene, *, dressed: bool = False, loose_furniture: bool = False
+) -> World:
     """Compiles a scene.
 
     Args:
         scene: what is built.
         dressed: for pictures; the same bodies and joints, with materials, floor and wall.
+        loose_furniture: where fastened things stand is state (``mocap_pos``, ``mocap_quat``), for a
+            belief that has them elsewhere than they are. Not for stepping: MuJoCo then takes
+            contacts between furniture and its own doors and drawers for none.
 
     Raises:
         WorldError: a file or the combination of objects cannot be compiled.
@@ -99,6 +104,9 @@ def build_world(scene: specs.Scene, *, dressed: bool = False) -> World:
     """
     robot = load_robot(scene.robot, scene.directory)
     mj, drafts = _drafted(scene, robot)
+    if loose_furniture:
+        for name, (entry, _) in drafts.items():
+            mj.body(name).mocap = not entry.free
     if dressed:
         from etot_cli.world.build.dressing import dress
 

@@ -42,6 +42,16 @@ class Snapshot:
         return hashlib.sha256(self.physics).hexdigest()
 
 
+def copy_configuration(source: mujoco.MjData, target: mujoco.MjData) -> None:
+    """Puts all joints, and furniture whose place is state, where they are in ``source``.
+
+    Derived quantities of ``target`` are left as they are.
+    """
+    target.qpos[:] = source.qpos
+    target.mocap_pos[:] = source.mocap_pos
+    target.mocap_quat[:] = source.mocap_quat
+
+
 def save(world: World, data: mujoco.MjData, memory: Memory) -> Snapshot:
     """Stores the state of ``data``."""
     state = np.empty(mujoco.mj_stateSize(world.model, STATE))

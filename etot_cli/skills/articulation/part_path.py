@@ -14,6 +14,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Passage
 from etot_cli.skills.motion.kinematics import JUMP, Pose, straight
 from etot_cli.world.index import Part
+from etot_cli.world.snapshot import copy_configuration
 
 Vector = NDArray[np.float64]
 
@@ -111,7 +112,7 @@ class PartTravel:
         """Pose of the part's frame at a joint value [m or rad]."""
         if value not in self._poses:
             world, data = self.belief.world, self.belief.scratch
-            data.qpos[:] = self.belief.data.qpos
+            copy_configuration(self.belief.data, data)
             data.joint(self.part.joint).qpos[0] = value
             mujoco.mj_kinematics(world.model, data)
             body = data.body(self.part.body)

@@ -25,6 +25,7 @@ from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
 from etot_cli.world.index import Part
+from etot_cli.world.snapshot import copy_configuration
 from etot_cli.world.state import CLOSED_AT, OPEN_AT
 
 NEARLY_CLOSED, NEARLY_OPEN = 0.03, 0.12
@@ -249,6 +250,7 @@ def belief_after(belief: Belief, part: Part, move: PreparedMove) -> Belief:
     data = mujoco.MjData(model)
     checker.freeze(belief.data)
     checker.set_joint(part.joint, move.reached)
+    copy_configuration(belief.data, data)
     data.qpos[:], data.ctrl[:] = checker.configuration, belief.data.ctrl
     data.qpos[belief.world.robot.qpos] = move.retreat[-1]
     data.ctrl[belief.world.robot.ctrl] = move.retreat[-1]

@@ -15,6 +15,7 @@ from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
+from etot_cli.world.snapshot import copy_configuration
 
 Vector = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ class CollisionChecker:
 
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
-        self._data.qpos[:] = data.qpos
+        copy_configuration(data, self._data)
         self._live = data
         self._riders.clear()
 

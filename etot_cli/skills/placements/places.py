@@ -34,6 +34,7 @@ from etot_cli.skills.placements.relief import (
     under,
 )
 from etot_cli.skills.placements.support import Support
+from etot_cli.world.snapshot import copy_configuration
 
 Vector = NDArray[np.float64]
 Cells = NDArray[np.int64]
@@ -435,7 +436,7 @@ class PlaceFinder:
     def _hand_shapes(self) -> list[Shape]:
         """The hand's solids, opened to let go, around the object's origin as it is held now."""
         belief, world, data = self._belief, self._belief.world, self._belief.scratch
-        data.qpos[:] = belief.data.qpos
+        copy_configuration(belief.data, data)
         world.robot.set_opening(data, belief.opening + SNUG_RELEASE)
         mujoco.mj_kinematics(world.model, data)
         return shapes_of(data, world.geoms_of("gripper"), self._origin(data))

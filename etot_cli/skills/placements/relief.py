@@ -21,6 +21,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.support import Support
+from etot_cli.world.snapshot import copy_configuration
 
 Vector = NDArray[np.float64]
 Cells = NDArray[np.int64]
@@ -194,7 +195,7 @@ def swept_shapes(belief: Belief) -> list[Shape]:
     """What doors and drawers pass through over their whole travel, in base-frame poses."""
     world, data = belief.world, belief.scratch
     found = []
-    data.qpos[:] = belief.data.qpos
+    copy_configuration(belief.data, data)
     for entry in world.entries.values():
         for part in entry.parts:
             body = world.model.body(part.body).id
