@@ -6,6 +6,7 @@
     ├── PlanSyntaxError      a plan or an action is not written as it must be (exit 2)
     ├── WorldError           the physics world is broken (NaN, compile error) (exit 2)
     └── ServiceError         something outside is not there (OpenGL, a server) (exit 3)
+        └── RobotStoppedError   a robot stopped at a limit or an error of its own (exit 1)
 
 "No solution" is never an exception: it is a result with a cause.
 """
@@ -59,3 +60,11 @@ class ServiceError(EtotError):
     """A service or device that the command needs is not available."""
 
     exit_code = 3
+
+
+class RobotStoppedError(ServiceError):
+    """A robot stopped at one of its limits, or with an error of its own; it is there, but will not
+    go on.
+    """
+
+    exit_code = 1

@@ -44,6 +44,35 @@ class JointLimitsSpec(Spec):
     jerk: Annotated[float, Field(gt=1.0, le=100_000.0)] = 250.0
 
 
+Corner = tuple[Finite, Finite, Finite]
+
+
+class WorkspaceSpec(Spec):
+    """A box that the tool point stays in, base frame [m]."""
+
+    low: Corner = (-1.0, -1.0, 0.0)
+    high: Corner = (1.0, 1.0, 1.5)
+
+
+class DriverSpec(Spec):
+    """How a real arm is reached, and the limits that etot keeps to on it.
+
+    ``speed``: no joint is moved faster [rad/s]; ``torque``: a joint that reads more counts as
+    blocked [N m]; ``sensitivity`` of the controller's own collision detection, 1 (least) to 5;
+    ``pulses_open`` and ``pulses_closed``: the gripper's positions at its largest opening and closed;
+    ``gripper_speed`` [pulses/s].
+    """
+
+    address: str = ""
+    speed: Annotated[float, Field(gt=0.01, le=4.0)] = 0.8
+    torque: tuple[Annotated[float, Field(gt=0.1, le=1000.0)], ...] = ()
+    sensitivity: Annotated[int, Field(ge=1, le=5)] = 3
+    workspace: WorkspaceSpec = WorkspaceSpec()
+    pulses_open: Finite = 850.0
+    pulses_closed: Finite = 0.0
+    gripper_speed: Annotated[int, Field(ge=100, le=5000)] = 2000
+
+
 class RobotSpec(Spec):
     """Which joints, actuators and sites of an MJCF model make up the arm.
 
@@ -62,6 +91,7 @@ class RobotSpec(Spec):
     reach: Annotated[float, Field(gt=0.1, le=5.0)] = 0.7
     limits: JointLimitsSpec = JointLimitsSpec()
     gripper: GripperSpec
+    driver: DriverSpec = DriverSpec()
     directory: str = ""
     """Folder of the YAML; set by the loader."""
 

@@ -1,0 +1,1 @@
+"""Robots behind the protocol of :mod:`etot_cli.execution.protocols`."""
