@@ -59,7 +59,7 @@ class DriverSpec(Spec):
 
     ``speed``: no joint is moved faster [rad/s]; ``torque``: a joint that reads more counts as
     blocked [N m]; ``sensitivity`` of the controller's own collision detection, 1 (least) to 5;
-    ``pulses_open`` and ``pulses_closed``: the gripper's positions at its largest opening and closed;
+    ``pulses_open`` and ``pulses_closed``: where the gripper is at its largest opening and closed;
     ``gripper_speed`` [pulses/s].
     """
 
