@@ -66,6 +66,14 @@ VlmModelName = Annotated[
     str | None,
     typer.Option("--model", metavar="NAME", help="The server's model. [env: ETOT_VLM_MODEL]"),
 ]
+VlmHints = Annotated[
+    bool | None,
+    typer.Option(
+        "--hints/--no-hints",
+        help="With --reasoner vlm: tell the model what the simulator knows of a failure's cause. "
+        "[default: hints in simulation, none where a camera sees a real robot]",
+    ),
+]
 VlmRecord = Annotated[
     Path | None,
     typer.Option("--record", metavar="DIR", help="Write every exchange with the model there."),

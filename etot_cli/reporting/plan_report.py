@@ -226,6 +226,8 @@ class VlmModel(Model):
     url: str
     model: str
     judge: Literal["state", "vlm", "both"]
+    hints: bool
+    """Whether it was told what the simulator knows of the causes of failures."""
     replayed: bool
     """Its answers came from a cassette."""
     prompts: dict[str, str]
@@ -374,6 +376,7 @@ def vlm_model(account: VlmAccount | None) -> VlmModel | None:
             "url": account.url,
             "model": account.model,
             "judge": account.judge,
+            "hints": account.hints,
             "replayed": account.replayed,
             "prompts": dict(account.prompts),
             "total": asdict(account.total),

@@ -14,6 +14,7 @@ from etot_cli.world.opengl import NO_OPENGL, open_context
 
 Image = NDArray[np.uint8]
 """RGB, (height, width, 3)."""
+Vector = tuple[float, float, float]
 
 MAX_GEOMS = 10_000
 """Things drawn at once; MuJoCo's own renderer has room for as many."""
@@ -83,6 +84,13 @@ class OffscreenRenderer:
             self._scene,
         )  # fmt: skip
 
+    def eye(self) -> tuple[Vector, Vector, Vector, Vector]:
+        """Position [m] and the unit vectors to the right, up and ahead of the camera."""
+        left, right = self._scene.camera  # for glasses; what is drawn is their mean
+        position = (np.array(left.pos) + np.array(right.pos)) / 2
+        up, ahead = np.array(left.up, dtype=float), np.array(left.forward, dtype=float)
+        return _vector(position), _vector(np.cross(ahead, up)), _vector(up), _vector(ahead)
+
     def color(self) -> Image:
         """The picture (height, width, 3)."""
         return self._draw()[0]
@@ -150,6 +158,11 @@ class OffscreenRenderer:
         mujoco.mjr_render(self._rectangle, self._scene, self._buffers)
         mujoco.mjr_readPixels(image, depth, self._rectangle, self._buffers)
         return np.ascontiguousarray(image[::-1]), depth[::-1]  # OpenGL counts from the bottom
+
+
+def _vector(values: NDArray[np.floating]) -> Vector:
+    x, y, z = (round(float(value), 6) for value in values)
+    return x, y, z
 
 
 def _within_disc(direction: NDArray[np.float64], number: int, samples: int) -> NDArray[np.float64]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import WorldError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
-from etot_cli.world.offscreen import Image, OffscreenRenderer
+from etot_cli.world.offscreen import Image, OffscreenRenderer, Vector
 
 DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
 DEFAULT_FOV_DEG = 45.0
@@ -94,6 +94,14 @@ class WorldRenderer:
         """For every pixel (height, width) the id of the geom seen there; -1 where there is none."""
         self._place(qpos)
         return self._renderer.depth_and_geoms()[1]
+
+    def eye(self, qpos: NDArray[Any]) -> tuple[Vector, Vector, Vector, Vector]:
+        """Position [m] and the unit vectors to the right, up and ahead of the camera, base frame.
+
+        ``qpos`` (nq,) matters where something carries the camera.
+        """
+        self._place(qpos)
+        return self._renderer.eye()
 
     def visible_pixels(self, qpos: NDArray[Any]) -> dict[str, NDArray[np.bool_]]:
         """For every object that is seen, the mask (height, width) of its pixels."""

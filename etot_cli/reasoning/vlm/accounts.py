@@ -134,6 +134,8 @@ class VlmAccount:
     url: str
     model: str
     judge: str
+    hints: bool
+    """Whether it was told what the simulator knows of failures."""
     replayed: bool
     prompts: Mapping[str, str]
     total: RoleAccount

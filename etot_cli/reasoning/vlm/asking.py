@@ -8,6 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from etot_cli.errors import ServiceError
 from etot_cli.reasoning.protocol import ReasonerStopped, StopReason
+from etot_cli.reasoning.vlm import describe
 from etot_cli.reasoning.vlm.chat import Answer, Picture, Question, Trouble, Turn
 from etot_cli.reasoning.vlm.client import ChatClient
 from etot_cli.reasoning.vlm.notes import Notebook, NoteKind
@@ -67,7 +68,7 @@ class Asker:
 
         Args:
             role: a prompt's name.
-            values: fields of the prompt.
+            values: fields of the prompt, but for ``pictures``, which is filled in here.
             pictures: what the model sees; cut to the configured number, the last one kept.
             schema: of the answer.
             read: reads a reply; it is called once per reply.
@@ -134,10 +135,12 @@ class Asker:
         if len(shown) > self.pictures:
             # The last picture shows the result; the first ones lead up to it.
             shown = (*shown[: self.pictures - 1], shown[-1]) if self.pictures else ()
+        # What the text says of the pictures is what is sent, whatever was cut.
+        text = template.fill({**values, "pictures": describe.pictures(shown)})
         return Question(
             role,
             f"{system.label},{template.label}",
-            (Turn("system", system.text.strip()), Turn("user", template.fill(values), shown)),
+            (Turn("system", system.text.strip()), Turn("user", text, shown)),
             schema,
             self.seed,
         )

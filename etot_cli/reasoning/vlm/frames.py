@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import cv2
@@ -20,6 +21,16 @@ SMALLEST_MARKED = 12
 """Objects of which less is visible get no mark [px]."""
 
 
+@dataclass(frozen=True, slots=True)
+class Eye:
+    """A camera: ``position`` [m] and unit vectors to the right, up and ahead of it; base frame."""
+
+    position: tuple[float, float, float]
+    right: tuple[float, float, float]
+    up: tuple[float, float, float]
+    ahead: tuple[float, float, float]
+
+
 class FrameSource(Protocol):
     """Where pictures come from: a renderer, or the camera of a robot."""
 
@@ -27,27 +38,46 @@ class FrameSource(Protocol):
         """The desk as it is; empty when no picture can be had."""
         ...
 
-    def rollout(self, record: RolloutRecord, count: int) -> Sequence[Picture]:
+    def rollout(
+        self, record: RolloutRecord, count: int, *, marks: bool = False, hints: bool = True
+    ) -> Sequence[Picture]:
         """Before an action, its key moments, and after it: ``count`` pictures at most.
 
-        Empty for a record of which no pictures exist.
+        Of an action that never began there is only the picture before. Empty for a record of
+        which no pictures exist. Without ``hints`` neither the choice of moments nor their captions
+        tell what the record knows of contacts and causes.
         """
         ...
 
     def marks(self, scene: SceneState) -> Mapping[int, str]:
-        """Numbers drawn on the pictures that ``view`` gives with marks, and what they stand for."""
+        """Numbers drawn on pictures with marks, and what they stand for.
+
+        A thing has the same number in every scene of a run.
+        """
+        ...
+
+    def eye(self, scene: SceneState) -> Eye | None:
+        """Where the pictures are taken from; None where that is not known."""
         ...
 
 
 def moments(
-    record: RolloutRecord, key_times: Sequence[float], duration: float, count: int
+    record: RolloutRecord,
+    key_times: Sequence[float],
+    duration: float,
+    count: int,
+    *,
+    hints: bool = True,
 ) -> list[tuple[float, str]]:
     """Moments between start and end of an action that tell most, as (time [s], what happens).
 
     The failure itself comes first, then contacts with the objects to blame or displaced, the
-    hardest first, then the skill's own phases. In order of time.
+    hardest first, then the skill's own phases. In order of time. Without ``hints`` the skill's
+    phases alone, and where these are too few, even distances.
     """
     wanted: list[tuple[float, str]] = []
+    if not hints:
+        record = replace(record, cause=None, contacts=())
     cause = record.cause
     blamed = set(cause.objects) if cause is not None else set()
     blamed |= {name for name, way in record.displacement.items() if way > 0.03}
@@ -63,6 +93,8 @@ def moments(
         (event.time_s + AFTERMATH_S, f"{event.first} touches {event.second}") for event in touching
     ]
     wanted += [(time, "the gripper acts") for time in key_times]
+    if not hints:
+        wanted += [(duration * part / (count + 1), "on the way") for part in range(1, count + 1)]
     chosen: list[tuple[float, str]] = []
     for time, what in wanted:
         if len(chosen) >= count:

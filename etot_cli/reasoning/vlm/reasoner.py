@@ -7,6 +7,7 @@ simulation the world's exact state has the last word on success and harm unless 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.acceptance import doubts_of
 from etot_cli.reasoning.protocol import (
@@ -20,7 +21,6 @@ from etot_cli.reasoning.protocol import (
 )
 from etot_cli.reasoning.vlm import describe, schemas
 from etot_cli.reasoning.vlm.asking import Asker, Reading
-from etot_cli.reasoning.vlm.chat import Picture
 from etot_cli.reasoning.vlm.comparing import settle, verdict_of
 from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.grounding import ground
@@ -29,14 +29,18 @@ from etot_cli.reasoning.vlm.probe import check_sight
 from etot_cli.reasoning.vlm.reading.names import Names
 from etot_cli.reasoning.vlm.reading.plans import read_plans
 from etot_cli.reasoning.vlm.reading.states import ReadComparison, read_comparison, read_scene
+from etot_cli.reasoning.vlm.reading.steps import names_pose
 from etot_cli.reasoning.vlm.reflecting import Reflection
 from etot_cli.reasoning.vlm.settings import Judge
+from etot_cli.reasoning.vlm.sight import Seen, Sight
 from etot_cli.skills.action import Action
 from etot_cli.specs.wording import describe as describe_condition
 from etot_cli.world.state import RolloutRecord, SceneState
 
 MAX_BRANCHES = 16
 """More proposals than this are not branching but guessing; the first ones are kept."""
+BEFORE_AND_AFTER = 2
+"""Pictures of which a comparison needs no more."""
 
 
 class VlmReasoner:
@@ -50,7 +54,8 @@ class VlmReasoner:
             then the model judges alone.
         nominal: tells records of the nominal world from those of varied ones, where there are no
             pictures to tell by; None takes all for nominal.
-        marks: number the objects in the first picture.
+        marks: number the objects in pictures; None numbers them where names do not tell them apart.
+        hints: a failure is told with the simulator's own account of its cause.
         probe: before the first question, find out whether the model sees pictures at all.
     """
 
@@ -62,18 +67,18 @@ class VlmReasoner:
         judge: Judge = "both",
         state: Reasoner | None = None,
         nominal: Callable[[RolloutRecord], bool] | None = None,
-        marks: bool = False,
+        marks: bool | None = None,
+        hints: bool = True,
         probe: bool = False,
     ) -> None:
         self._asker = asker
-        self._frames = frames if asker.pictures else None
         self._judge: Judge = judge if state is not None else "vlm"
         self._state = state
         self._nominal = nominal
-        self._marks = marks
-        self._probe = probe and self._frames is not None
+        self._sight = Sight(frames, count=asker.pictures, marks=marks, hints=hints)
+        self._probe = probe and not self._sight.blind
         self._instruction = ""
-        self._reflection = Reflection(asker, self._frames)
+        self._reflection = Reflection(asker, self._sight, hints=hints)
 
     # -- priori branching ----------------------------------------------------------------------
 
@@ -87,32 +92,26 @@ class VlmReasoner:
         if self._probe:
             check_sight(self._asker)
             self._probe = False
-        marks = {}
-        pictures = []
-        if self._frames is not None:
-            marks = dict(self._frames.marks(scene)) if self._marks else {}
-            pictures = list(self._frames.view(scene, marks=self._marks))
-        names = Names.of_scene(scene, marks)
+        desk = self._sight.desk(scene)
+        names = Names.of_scene(scene, desk.marks)
         values = {
+            **desk.words,
             "instruction": self._instruction,
-            "objects": describe.object_list(scene),
-            "catalogue": describe.catalogue(scene),
             "relations": describe.relations(scene),
-            "marks": describe.marks_line(marks),
         }
 
         def read_parse(reply: str) -> Reading[str]:
             seen = read_scene(reply, names)
             return Reading(seen.understanding or None)
 
-        understanding = self._asker.ask("scene", values, pictures, schemas.SCENE, read_parse)
+        understanding = self._asker.ask("scene", values, desk.pictures, schemas.SCENE, read_parse)
         values["understanding"] = understanding or "(nothing was said)"
         doubt = doubts_of(assignment, scene)(scene)
         proposals = _Proposals(scene, names, doubt)
-        self._asker.ask("branches", values, pictures, schemas.BRANCHES, proposals.read,
+        self._asker.ask("branches", values, desk.pictures, schemas.BRANCHES, proposals.read,
                         objects=values["objects"])  # fmt: skip
         if proposals.branches:
-            return list(proposals.branches.values())[:MAX_BRANCHES]
+            return self._without_idle_poses(list(proposals.branches.values()))[:MAX_BRANCHES]
         if proposals.goal_holds:
             return []
         why = self._asker.notes.last("branches")
@@ -121,6 +120,26 @@ class VlmReasoner:
             "the model proposed no plan that is well formed in this scene"
             + (f"; its last answer to the question 'branches': {why}" if why else ""),
         )
+
+    def _without_idle_poses(self, branches: list[Branch]) -> list[Branch]:
+        """Branches that differ in nothing but ways to hold become one, unless the task names such.
+
+        A grasp that is left open is looked for in every pose; a branch for each would only
+        simulate the same plan twice.
+        """
+        if names_pose(self._instruction):
+            return branches
+        groups: dict[tuple[Action, ...], list[Branch]] = {}
+        for branch in branches:
+            open_ended = tuple(replace(action, pose=None) for action in branch.actions)
+            groups.setdefault(open_ended, []).append(branch)
+        kept = []
+        for actions, group in groups.items():
+            kept.append(group[0] if len(group) == 1 else replace(group[0], actions=actions))
+            if len(group) > 1:
+                text = "branches that differ in the way to hold, for which nobody asked, are one"
+                self._asker.notes.add(NoteKind.DROPPED, "branches", text)
+        return kept
 
     # -- judging -------------------------------------------------------------------------------
 
@@ -137,10 +156,10 @@ class VlmReasoner:
             return by_state
         if self._nominal is not None and by_state is not None and not self._nominal(record):
             return by_state
-        pictures = [] if self._frames is None else list(self._frames.rollout(record, 2))
-        if not pictures and self._frames is not None and by_state is not None:
+        shown = self._sight.action(record, BEFORE_AND_AFTER)
+        if not shown.pictures and not self._sight.blind and by_state is not None:
             return by_state
-        seen = self._compare(action, record, pictures)
+        seen = self._compare(action, record, shown)
         if by_state is None:
             return verdict_of(seen, action, record)
         seen, settled = settle(seen, record, by_state)
@@ -158,17 +177,15 @@ class VlmReasoner:
             )
         return by_model if self._judge == "vlm" else by_state
 
-    def _compare(
-        self, action: Action, record: RolloutRecord, pictures: Sequence[Picture]
-    ) -> ReadComparison:
-        names = Names.of_scene(record.after)
+    def _compare(self, action: Action, record: RolloutRecord, shown: Seen) -> ReadComparison:
+        names = Names.of_scene(record.after, shown.marks)
         values = {
+            **shown.words,
             "action": describe.written(action),
             "instruction": self._instruction,
-            "objects": describe.object_list(record.after),
             # Without pictures, words have to do.
-            "events": "" if pictures else (
-                f"What changed:\n{describe.changes(record)}\n{describe.events(record)}"
+            "events": "" if shown.pictures else (
+                f"{describe.changes(record)}\n{describe.events(record)}"
             ),
         }  # fmt: skip
 
@@ -178,7 +195,7 @@ class VlmReasoner:
                 return Reading(None, ("it does not say how the objects are after the action",))
             return Reading(seen)
 
-        found = self._asker.ask("compare", values, pictures, schemas.COMPARISON, read,
+        found = self._asker.ask("compare", values, shown.pictures, schemas.COMPARISON, read,
                                 action=action, objects=values["objects"])  # fmt: skip
         return found or ReadComparison({}, {})
 

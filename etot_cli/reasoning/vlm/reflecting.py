@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.reasoning.vlm import describe, schemas
 from etot_cli.reasoning.vlm.asking import Asker, Reading
-from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.grounding import ground, purpose_reasons, relocated
 from etot_cli.reasoning.vlm.notes import NoteKind
 from etot_cli.reasoning.vlm.reading.jsons import find_object, text_field
@@ -18,6 +18,7 @@ from etot_cli.reasoning.vlm.reading.plans import read_revision
 from etot_cli.reasoning.vlm.reading.steps import step_at
 from etot_cli.reasoning.vlm.reading.text import bare, lines_of
 from etot_cli.reasoning.vlm.reading.verdicts import read_verdict
+from etot_cli.reasoning.vlm.sight import Sight
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import DESK, CauseKind
 
@@ -38,12 +39,14 @@ class Reflection:
 
     Args:
         asker: puts questions to the model.
-        frames: pictures of what failed; None for words alone.
+        sight: pictures of what failed.
+        hints: tell what the record knows of the cause; False leaves that to the model.
     """
 
-    def __init__(self, asker: Asker, frames: FrameSource | None) -> None:
+    def __init__(self, asker: Asker, sight: Sight, *, hints: bool) -> None:
         self._asker = asker
-        self._frames = frames
+        self._sight = sight
+        self._hints = hints
 
     def revise(self, failed: FailedStep, instruction: str) -> Branch | None:
         """The revised branch, or None.
@@ -52,14 +55,12 @@ class Reflection:
             ReasonerStopped: a limit was reached, or the service is gone.
         """
         action = failed.branch.actions[failed.index]
-        pictures = []
-        if self._frames is not None:
-            pictures = list(self._frames.rollout(failed.record, self._asker.pictures))
-        objects = describe.object_list(failed.start)
-        reader = _RevisionReader(failed)
+        shown = self._sight.action(failed.record)
+        reader = _RevisionReader(failed, shown.marks, hints=self._hints)
+        values = {**shown.words, **self._values(failed, instruction, bool(shown.pictures))}
         answer = self._asker.ask(
-            "reflect", _values(failed, instruction, objects), pictures, schemas.REVISION,
-            reader.read, action=action, objects=objects,
+            "reflect", values, shown.pictures, schemas.REVISION, reader.read,
+            action=action, objects=values["objects"],
         )  # fmt: skip
         if answer is None:
             return None
@@ -75,6 +76,25 @@ class Reflection:
             return None
         actions = _with_keepout(answer.actions, failed)
         return Branch(actions, (answer.diagnosis or "revised by the model")[:MAX_REASON])
+
+    def _values(self, failed: FailedStep, instruction: str, pictured: bool) -> dict[str, str]:
+        outcome, cause = failed.verdict.outcome.value, failed.verdict.cause
+        verdict = f"It counts as {outcome}."
+        if self._hints:
+            text = "no cause is on record" if cause is None else cause.text
+            verdict = f"It counts as {outcome}: {text}."
+        return {
+            "instruction": instruction,
+            # The plan to be corrected begins there, not before the action that failed.
+            "catalogue": describe.catalogue(failed.start),
+            "relations": describe.relations(failed.start),
+            "plan": describe.numbered(failed.branch.actions),
+            "number": str(failed.index + 1),
+            "action": describe.written(failed.branch.actions[failed.index]),
+            "verdict": verdict,
+            "changes": describe.changes(failed.record) if self._hints or not pictured else "",
+            "events": describe.events(failed.record) if self._hints else "",
+        }
 
     def _is_trick(self, failed: FailedStep, answer: _Answer, instruction: str) -> bool:
         """The screen against propping up and steadying; only what moves bystanders can do that."""
@@ -99,12 +119,15 @@ class Reflection:
 
 
 class _RevisionReader:
-    """Reads replies to one reflection; a "none" that the record speaks against is asked twice."""
+    """Reads replies to one reflection; a "none" that the record speaks against is asked twice.
 
-    def __init__(self, failed: FailedStep) -> None:
+    Without ``hints`` the record is not spoken of.
+    """
+
+    def __init__(self, failed: FailedStep, marks: Mapping[int, str], *, hints: bool) -> None:
         self._failed = failed
-        self._names = Names.of_scene(failed.start)
-        self._questioned = False
+        self._names = Names.of_scene(failed.start, marks)
+        self._questioned = not hints
 
     def read(self, reply: str) -> Reading[_Answer]:
         found = read_revision(reply)
@@ -113,15 +136,15 @@ class _RevisionReader:
         if not found.plans:
             if not found.none:
                 return Reading(None, found.problems or (NEITHER,))
-            blame = _in_the_way(self._failed)
-            if blame and not self._questioned:
+            doubt = _doubt(self._failed)
+            if doubt and not self._questioned:
                 self._questioned = True
-                doubt = (
-                    f"the record names {' and '.join(blame)}, which can be moved; if putting it in "
-                    "a safe place first, or another order of the same actions, keeps the purpose, "
-                    "give that plan; if not, answer again that there is none"
-                )
-                return Reading(None, (doubt,), NoteKind.QUESTIONED)
+                return Reading(
+                    None,
+                    (f"{doubt} keeps the purpose, give that plan; if not, answer again that there "
+                     "is none",),
+                    NoteKind.QUESTIONED,
+                )  # fmt: skip
             return Reading(_Answer(None, diagnosis))
         grounded = ground(found.plans[-1], self._failed.start, self._names)
         reasons = list(grounded.reasons)
@@ -132,17 +155,34 @@ class _RevisionReader:
         return Reading(_Answer(grounded.actions, diagnosis))
 
 
-def _in_the_way(failed: FailedStep) -> tuple[str, ...]:
-    """Movable things, other than those of the action itself, that the record blames."""
+def _doubt(failed: FailedStep) -> str:
+    """What the record says against there being no correction, as a condition; empty when nothing.
+
+    It blames a movable thing that is not of the action itself, or one to which an earlier step of
+    the plan did something.
+    """
     cause = failed.verdict.cause
     if cause is None or cause.kind in (CauseKind.SLIP, CauseKind.UNREACHABLE):
-        return ()
-    action = failed.branch.actions[failed.index]
-    own = {action.target.split(".")[0], failed.record.before.holding}
+        return ""
+    actions = failed.branch.actions[: failed.index + 1]
+    target = actions[-1].target.split(".")[0]
     infos = failed.start.infos
-    return tuple(
-        name for name in cause.objects if name in infos and infos[name].movable and name not in own
-    )
+    others = [name for name in cause.objects
+              if name in infos and name not in (target, failed.record.before.holding)]  # fmt: skip
+    movable = [name for name in others if infos[name].movable]
+    if movable:
+        return (
+            f"the record names {' and '.join(movable)}, which can be moved; if putting it in "
+            "a safe place first, or another order of the same actions,"
+        )
+    earlier = {action.target.split(".")[0]: action for action in actions[:-1]}
+    for name in others:
+        if name in earlier and target in infos and infos[target].movable:
+            return (
+                f"the record names {name}, and {earlier[name]} came before; if putting {target} in "
+                "a safe place before that step, or another order of the same actions,"
+            )
+    return ""
 
 
 def _with_keepout(actions: tuple[Action, ...], failed: FailedStep) -> tuple[Action, ...]:
@@ -159,24 +199,6 @@ def _with_keepout(actions: tuple[Action, ...], failed: FailedStep) -> tuple[Acti
             action = replace(action, safe=True, keepout=discs)
         result.append(action)
     return tuple(result)
-
-
-def _values(failed: FailedStep, instruction: str, objects: str) -> dict[str, str]:
-    action = failed.branch.actions[failed.index]
-    verdict = failed.verdict
-    text = "no cause is on record" if verdict.cause is None else verdict.cause.text
-    return {
-        "instruction": instruction,
-        "objects": objects,
-        "catalogue": describe.catalogue(failed.start),
-        "relations": describe.relations(failed.start),
-        "plan": describe.numbered(failed.branch.actions),
-        "number": str(failed.index + 1),
-        "action": describe.written(action),
-        "verdict": f"It counts as {verdict.outcome.value}: {text}.",
-        "changes": describe.changes(failed.record),
-        "events": describe.events(failed.record),
-    }
 
 
 def _prose(reply: str) -> str:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from etot_cli.control.simulated import Simulated, Simulator, StateToken, WorldOutcome
 from etot_cli.reasoning.vlm.chat import KEY_LENGTH, Picture
-from etot_cli.reasoning.vlm.frames import SMALLEST_MARKED, draw_marks, moments
+from etot_cli.reasoning.vlm.frames import SMALLEST_MARKED, Eye, draw_marks, moments
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.specs.scene import Scene
@@ -21,6 +21,7 @@ from etot_cli.world.recorder import Trajectory
 from etot_cli.world.render import WorldRenderer, first_camera
 from etot_cli.world.state import RolloutRecord, SceneState
 
+NEVER_BEGAN = "Before the action, which never began: no motion was found for it, nothing moved"
 DIGEST_DECIMALS = 2
 """Configurations that differ by less show the same picture [m or rad]."""
 
@@ -63,41 +64,56 @@ class RenderedFrames:
 
     def view(self, scene: SceneState, *, marks: bool = False) -> list[Picture]:
         """The desk in a scene state, the arm at rest."""
-        qpos = self._configuration(scene)
-        pixels = self._renderer.frame(qpos)
-        if marks:
-            numbers = {name: number for number, name in self.marks(scene).items()}
-            pixels = draw_marks(pixels, self._renderer.visible_pixels(qpos), numbers)
         caption = "The desk now" + (", with numbered marks" if marks else "")
-        return [Picture(f"{caption}:", pixels, self._digest(qpos, "marks" if marks else ""))]
+        return [self._picture(caption, self._configuration(scene), scene, marks=marks)]
 
     def marks(self, scene: SceneState) -> dict[int, str]:
-        """Numbers from 1 for the objects that can be seen, in scene order."""
+        """Numbers in scene order, from 1, of the objects that can be seen."""
         masks = self._renderer.visible_pixels(self._configuration(scene))
-        seen = [name for name in scene.states if name in masks
-                and int(masks[name].sum()) >= SMALLEST_MARKED]  # fmt: skip
-        return dict(enumerate(seen, 1))
+        return {
+            number: name
+            for number, name in enumerate(scene.states, 1)
+            if name in masks and int(masks[name].sum()) >= SMALLEST_MARKED
+        }
 
-    def rollout(self, record: RolloutRecord, count: int) -> list[Picture]:
+    def eye(self, scene: SceneState) -> Eye:
+        """The camera of the pictures."""
+        return Eye(*self._renderer.eye(self._configuration(scene)))
+
+    def rollout(
+        self, record: RolloutRecord, count: int, *, marks: bool = False, hints: bool = True
+    ) -> list[Picture]:
         """Before, key moments, after; empty for an action of another world."""
         outcome = self._outcomes.get(id(record))
         if outcome is None or count <= 0:
             return []
         trajectory = outcome.trajectory
+        before = record.before
         if not isinstance(trajectory, Trajectory) or not len(trajectory.times):
-            return [self.view(record.before)[0]]
+            return [self._picture(NEVER_BEGAN, self._configuration(before), before, marks=marks)]
         times = trajectory.times - trajectory.times[0]
+        if len(times) == 1:
+            return [self._picture(NEVER_BEGAN, trajectory.qpos[0], before, marks=marks)]
         rows = [(0, "Before the action")]
-        inner = moments(record, trajectory.key_times, float(times[-1]), max(count - 2, 0))
-        for time, what in inner:
+        duration = float(times[-1])
+        for time, what in moments(
+            record, trajectory.key_times, duration, max(count - 2, 0), hints=hints
+        ):
             rows.append((int(np.argmin(np.abs(times - time))), f"After {time:.1f} s, {what}"))
-        if len(times) > 1 and count > 1:
-            rows.append((len(times) - 1, "After the action"))
+        rows.append((len(times) - 1, "After the action"))
         return [
-            Picture(f"{what}:", self._renderer.frame(trajectory.qpos[row]),
-                    self._digest(trajectory.qpos[row], ""))
-            for row, what in rows
-        ]  # fmt: skip
+            self._picture(what, trajectory.qpos[row], before, marks=marks)
+            for row, what in rows[-count:]
+        ]
+
+    def _picture(
+        self, caption: str, qpos: NDArray[np.floating], scene: SceneState, *, marks: bool
+    ) -> Picture:
+        pixels = self._renderer.frame(qpos)
+        if marks:
+            numbers = {name: number for number, name in enumerate(scene.states, 1)}
+            pixels = draw_marks(pixels, self._renderer.visible_pixels(qpos), numbers)
+        return Picture(f"{caption}:", pixels, self._digest(qpos, "marks" if marks else ""))
 
     def _digest(self, qpos: NDArray[np.floating], extra: str) -> str:
         rounded = np.round(np.asarray(qpos, dtype=np.float64), DIGEST_DECIMALS) + 0.0

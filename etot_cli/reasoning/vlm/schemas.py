@@ -1,4 +1,7 @@
-"""JSON Schemas of the answers, in the subset that strict servers accept: everything required."""
+"""JSON Schemas of the answers, in the subset that strict servers accept: everything required.
+
+Models write the fields in this order, so what is seen and why comes before what follows from it.
+"""
 
 from __future__ import annotations
 
@@ -33,9 +36,11 @@ _STEP = _object(
 )
 _STATES = _list(_object(object=_TEXT, state=_TEXT))
 
-SCENE = _object(objects=_STATES, understanding=_TEXT)
+SCENE = _object(seen=_TEXT, objects=_STATES, understanding=_TEXT)
 BRANCHES = _object(
-    branches=_list(_object(reason=_TEXT, steps=_list(_STEP))), goal_holds={"type": "boolean"}
+    reasoning=_TEXT,
+    branches=_list(_object(reason=_TEXT, steps=_list(_STEP))),
+    goal_holds={"type": "boolean"},
 )
 COMPARISON = _object(
     before=_STATES,

@@ -49,6 +49,8 @@ class VlmSession:
         self._client = ChatClient(settings)
         self._frames = RenderedFrames(scene, settings.image_width) if settings.images else None
         self._unseen = Unseen()
+        # Where no state is known, as on a real robot, there is nothing to hint at.
+        self._hints = settings.hints if settings.hints is not None else state is not None
         self.reasoner: Reasoner = VlmReasoner(
             Asker(self._client, prompts, self._notes, seed),
             frames=self._frames,
@@ -56,6 +58,7 @@ class VlmSession:
             state=state,
             nominal=None if self._frames is not None else self._unseen.knows,
             marks=settings.marks,
+            hints=self._hints,
             probe=settings.probe,
         )
 
@@ -74,6 +77,7 @@ class VlmSession:
             url=public_url(self._client.url),
             model=self._client.model,
             judge=self._settings.judge,
+            hints=self._hints,
             replayed=self._client.replaying,
             prompts=self._prompts,
             total=self._client.accounts.total,

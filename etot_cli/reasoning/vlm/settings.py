@@ -101,8 +101,11 @@ class VlmSettings(BaseSettings):
     """How closely the server looks at a frame; None leaves it to the server."""
     image_bytes: Annotated[int, Field(ge=2_000, le=50_000_000)] = 1_500_000
     """Encoded size of one frame at most."""
-    marks: bool = False
-    """Draw numbered marks on the objects."""
+    marks: bool | None = None
+    """Draw numbered marks on the objects; None draws them where names do not tell objects apart."""
+    hints: bool | None = None
+    """Tell the model what the simulator knows of a failure; None tells it where the world's state
+    is known, in simulation."""
     probe: bool = True
     """Before a run, ask once for the colours of a picture, to find out whether the model sees."""
     prompts: Path | None = None
@@ -247,7 +250,8 @@ KNOWN_PRICES: dict[str, tuple[float, float]] = {
 }
 """List prices; they change, ``ETOT_VLM_PRICE_INPUT`` and ``…_OUTPUT`` override them."""
 
-_FLAGS = {"url": "--vlm-url", "model": "--model", "judge": "--judge", "record": "--record",
+_FLAGS = {"url": "--vlm-url", "model": "--model", "judge": "--judge", "hints": "--hints",
+          "record": "--record",
           "replay": "--replay", "max_calls": "--max-calls", "max_cost": "--max-cost"}  # fmt: skip
 
 

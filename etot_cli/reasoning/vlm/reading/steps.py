@@ -85,6 +85,11 @@ def read_verb(text: str) -> tuple[Verb, str] | None:
     return None
 
 
+def names_pose(text: str) -> bool:
+    """Whether a text speaks of ways to hold at all, of one or of both."""
+    return bool(_SIDEWAYS.search(text) or _FROM_ABOVE.search(text))
+
+
 def read_pose(text: str) -> GraspPose | None:
     """The grasp pose that a text asks for; None when none or both."""
     sideways, above = bool(_SIDEWAYS.search(text)), bool(_FROM_ABOVE.search(text))
