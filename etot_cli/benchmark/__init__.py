@@ -1,1 +1,1 @@
-"""Methods, ablations and trials over tasks, shipped ones and random ones."""
+"""Methods, tasks and trials: who succeeds how often, and at what cost."""

@@ -1,0 +1,1 @@
+"""The methods that are compared: all share everything but the planning idea."""

@@ -1,0 +1,110 @@
+"""Runs the trials that are still to be done, as many at a time as there are jobs."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from dataclasses import dataclass
+from typing import Protocol
+
+from etot_cli.benchmark.running.engine import Engine
+from etot_cli.benchmark.running.journal import Journal
+from etot_cli.benchmark.trial import TrialKey, TrialResult, TrialStatus
+
+AHEAD = 2
+"""Trials handed to the engine per job: one that runs and one that is ready."""
+LOOK_S = 0.5
+"""Between two looks at the clock, so that signals are answered while nothing finishes [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrialWork:
+    """A trial to be done: ``seed`` and ``draw`` give its world."""
+
+    key: TrialKey
+    seed: int
+    draw: int = 0
+
+
+class RunObserver(Protocol):
+    """Watches a run."""
+
+    def trial_finished(self, result: TrialResult, done: int, total: int, left_s: float) -> None:
+        """A trial has ended; ``left_s``: the time that the rest may take [s]."""
+        ...
+
+
+Perform = Callable[[TrialWork], TrialResult]
+"""Carries a trial out, in a worker; a function of a module."""
+
+
+def run_trials(
+    work: Sequence[TrialWork],
+    perform: Perform,
+    engine: Engine,
+    journal: Journal,
+    jobs: int,
+    observer: RunObserver | None = None,
+) -> bool:
+    """Runs what the journal does not have yet, and writes every result to it at once.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: finished trials are kept, running ones are dropped.
+
+    Args:
+        work: all trials of the run, in the order in which they are begun.
+        perform: carries one out.
+        engine: where.
+        journal: what has been done already, and where results go.
+        jobs: calls that the engine runs at the same time.
+        observer: told of every trial.
+
+    Returns:
+        Whether all trials are done; False when interrupted.
+    """
+    done = journal.results
+    waiting = deque(item for item in work if item.key not in done)
+    clock = _Clock(len(waiting))
+    running: dict[Future[TrialResult], TrialWork] = {}
+    try:
+        while waiting or running:
+            while waiting and len(running) < AHEAD * jobs:
+                item = waiting.popleft()
+                running[engine.submit(perform, item)] = item
+            finished, _ = wait(running, LOOK_S, FIRST_COMPLETED)
+            for future in finished:
+                result = _result(future, running.pop(future))
+                journal.add(result)
+                clock.count += 1
+                if observer is not None:
+                    observer.trial_finished(result, len(journal.results), len(work), clock.left_s())
+    except KeyboardInterrupt:
+        return False
+    return True
+
+
+def _result(future: Future[TrialResult], item: TrialWork) -> TrialResult:
+    """What a trial came to; whatever went wrong with it is its result, never the run's end."""
+    error = future.exception()
+    if error is None:
+        return future.result()
+    return TrialResult(
+        key=item.key,
+        seed=item.seed,
+        status=TrialStatus.ERROR,
+        reason=f"{type(error).__name__}: {error}",
+    )
+
+
+class _Clock:
+    """Tells the time left from the pace so far."""
+
+    def __init__(self, total: int) -> None:
+        self._begun = time.monotonic()
+        self._total = total
+        self.count = 0
+
+    def left_s(self) -> float:
+        spent = time.monotonic() - self._begun
+        return spent / self.count * (self._total - self.count) if self.count else 0.0

@@ -1,0 +1,1 @@
+"""Rates with their intervals, and methods compared on the same trials."""
