@@ -63,7 +63,8 @@ def restore(world: World, data: mujoco.MjData, snapshot: Snapshot) -> None:
     """Writes a stored state into ``data`` and brings all derived quantities up to date.
 
     The warm start is part of the state, and ``mj_forward`` overwrites it; it is put back so that
-    stepping continues bit-identically.
+    stepping continues bit-identically. Nothing is asleep afterwards: what ``data`` was used for
+    before has no say in how it goes on.
 
     Raises:
         WorldError: the snapshot belongs to another model.
@@ -71,6 +72,7 @@ def restore(world: World, data: mujoco.MjData, snapshot: Snapshot) -> None:
     state = np.frombuffer(snapshot.physics)
     if state.size != mujoco.mj_stateSize(world.model, STATE):
         raise WorldError("a stored state does not belong to this world")
+    mujoco.mj_resetData(world.model, data)
     mujoco.mj_setState(world.model, data, state, STATE)
     mujoco.mj_forward(world.model, data)
     mujoco.mj_setState(world.model, data, state, STATE)

@@ -18,12 +18,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import mujoco
 import yaml
 
 from etot_cli.benchmark.problems.things import bowl, solid
 from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.control import physics_world
 from etot_cli.planning.result import SilentObserver
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
@@ -32,7 +34,7 @@ from tests.measure.markdown import replace_section, table
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "performance.md"
-RATIO_LIMIT = 1.5
+RATIO_LIMIT = 1.3
 SHARE_OF_BOUND = 0.9
 WORLDS_LIMIT = 1.9
 CROWDS = (5, 30)
@@ -69,24 +71,32 @@ def task_file(name: str) -> Path:
 
 
 def overhead(tasks: list[str], runs: int) -> tuple[str, bool]:
-    """Wall time of a whole plan over the time inside mj_step, ``--jobs 1``, no rendering."""
+    """Wall time of a whole plan over bare stepping, ``--jobs 1``, no rendering.
+
+    What bare stepping costs is measured in turn with the plan, on the same search with nothing
+    asleep.
+    """
     rows, good = [], True
     for task in tasks:
-        ratios, rates = [], []
+        ratios, asleep, rates = [], [], []
         for _ in range(runs):
             with Meter() as meter:
                 report = run_plan(PlanOptions(task=task_file(task), jobs=1))
-            wall = report.statistics.wall_s
-            ratios.append(wall / meter.inside_s)
+            with Meter() as bare, mock.patch.object(physics_world, "SLEEP_BELOW", 0.0):
+                awake = run_plan(PlanOptions(task=task_file(task), jobs=1))
+            wall, steps = report.statistics.wall_s, report.statistics.steps
+            ratios.append(wall / steps / (bare.inside_s / awake.statistics.steps))
+            asleep.append(wall / meter.inside_s)
             rates.append(report.statistics.simulated_s / wall)
         ratio = statistics.median(ratios)
         good &= ratio <= RATIO_LIMIT
         rows.append(
             [task, str(report.statistics.nodes_evaluated), f"{report.statistics.simulated_s:.0f}",
-             f"{ratio:.2f}", f"{statistics.median(rates):.0f}", met(ratio <= RATIO_LIMIT)]
+             f"{ratio:.2f}", f"{statistics.median(asleep):.2f}", f"{statistics.median(rates):.0f}",
+             met(ratio <= RATIO_LIMIT)]
         )  # fmt: skip
-    heads = ["task", "nodes", "simulated s", "wall / mj_step", "simulated s per wall s",
-             f"at most {RATIO_LIMIT}"]  # fmt: skip
+    heads = ["task", "nodes", "simulated s", "wall / bare stepping", "wall / mj_step as it is",
+             "simulated s per wall s", f"at most {RATIO_LIMIT}"]  # fmt: skip
     return table(heads, rows), good
 
 

@@ -26,6 +26,7 @@ from etot_cli.reasoning.builtin.goal import (
     in_final_order,
 )
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
+from etot_cli.reasoning.builtin.relations import is_open
 from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
 from etot_cli.reasoning.protocol import Branch, ReasonerStopped, StopReason
@@ -160,13 +161,16 @@ def _branch(
 
 
 def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tuple[str, ...]:
-    """Parts that are to be opened in so many words and never closed again."""
-    found: dict[str, bool] = {}
+    """Parts that are to be opened in so many words and never closed again, and those that stand
+    open and that no word is about.
+    """
+    parts = (part for info in scene.infos.values() for part in info.parts)
+    found = {part.address: True for part in parts if is_open(scene, part)}
     for step in steps:
         if isinstance(step, Open | Close):
             for part in choice.parts(step, scene):
                 found[part.address] = isinstance(step, Open)
-    return tuple(address for address, is_open in found.items() if is_open)
+    return tuple(address for address, open_ in found.items() if open_)
 
 
 def _in_order(
