@@ -340,8 +340,11 @@ def test_open_enough_and_ajar() -> None:
     plum = scenes.ball("plum", (0.4, 0.3))
     wide = scenes.scene(plum, scenes.drawers("chest", (0.6, -0.2), {"top": 0.7}))
     ajar = scenes.scene(plum, scenes.drawers("chest", (0.6, -0.2), {"top": 0.2}))
-    cycle = "[PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
-    assert plans("Put the plum into the chest.", wide) == [cycle]
+    insertion = "[PICK UP, plum] [PUT INTO, chest]"
+    cycle = f"{insertion} [CLOSE, chest]"
+    assert plans("Put the plum into the chest.", wide) == [insertion]
+    assert plans("Put the plum into the chest and close it.", wide) == [cycle]
+    assert plans("Put the plum into the chest. Ensure the chest is closed.", wide) == [cycle]
     assert plans("Put the plum into the chest.", ajar) == [f"[OPEN, chest] {cycle}"]
 
 

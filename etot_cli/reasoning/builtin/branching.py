@@ -26,12 +26,11 @@ from etot_cli.reasoning.builtin.goal import (
     in_final_order,
 )
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
-from etot_cli.reasoning.builtin.relations import is_open
 from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
 from etot_cli.reasoning.protocol import Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action, GraspPose
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import STAYS_OPEN_AT, SceneState
 
 MAX_CHOICES = 4096
 """Ways of resolving a goal that are looked at: half a second's work, and more branches than could
@@ -162,10 +161,10 @@ def _branch(
 
 def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tuple[str, ...]:
     """Parts that are to be opened in so many words and never closed again, and those that stand
-    open and that no word is about.
+    open far enough and that no word is about.
     """
     parts = (part for info in scene.infos.values() for part in info.parts)
-    found = {part.address: True for part in parts if is_open(scene, part)}
+    found = {part.address: True for part in parts if scene.openness(part) >= STAYS_OPEN_AT}
     for step in steps:
         if isinstance(step, Open | Close):
             for part in choice.parts(step, scene):
