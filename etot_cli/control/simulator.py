@@ -124,6 +124,13 @@ class ActionSimulator:
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start
 
+    def begin_from(self, snapshot: Snapshot, scene: SceneState) -> None:
+        """Lets the twin start from a state of its own instead of the scene's; it has no worlds
+        beside it then.
+        """
+        self._ensure_pool()
+        self._start = _pack([snapshot]), scene
+
     def submit(
         self, state: StateToken, action: Action, until_s: float = NEVER
     ) -> Future[Simulated]:

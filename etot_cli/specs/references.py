@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from etot_cli.specs.disturbance import Disturbance, Role
 from etot_cli.specs.document import DataPath
 from etot_cli.specs.objects import (
+    FURNITURE,
     Box,
     Cabinet,
     Cup,
@@ -21,7 +23,6 @@ from etot_cli.specs.scene import RESERVED_NAMES, ROBOT_VIEWPOINT, Scene
 from etot_cli.specs.task import BESIDE_KEYS, Condition, Task
 
 DESK = "desk"
-CHOSEN = "chosen"
 
 
 def movable_parts(item: ObjectBase) -> tuple[str, ...]:
@@ -124,21 +125,49 @@ def task_problems(task: Task) -> list[Problem]:
     for key, conditions in (("success", task.success), ("goal", task.goal or ())):
         for index, condition in enumerate(conditions):
             problems.extend(_condition_problems((key, index), condition, task.scene))
-    if task.disturbance is not None:
-        given, scene, path = task.disturbance, task.scene, ("disturbance",)
-        names = [CHOSEN, *scene.objects]
-        problems.extend(_check((*path, "move"), given.move, names, "object", scene))
-        if given.on is not None:
-            problems.extend(_check((*path, "on"), given.on, surfaces(scene), "surface", scene))
-        if given.inside is not None:
-            valid = containers(scene)
-            problems.extend(_check((*path, "inside"), given.inside, valid, "container", scene))
-        if given.at is not None and not _above_desk(given.at, scene):
-            message = f"found {list(given.at)}, expected x y on the desk"
-            problems.append(Problem((*path, "at"), message))
-        if given.move in (given.on, given.inside):
-            problems.append(Problem(path, f"{given.move!r} cannot be put on or into itself"))
+    given = task.disturbance
+    listed = given if isinstance(given, tuple) else None
+    added: dict[str, ObjectBase] = {}
+    for index, item in enumerate(task.disturbances):
+        path: DataPath = ("disturbance",) if listed is None else ("disturbance", index)
+        problems.extend(_disturbance_problems(path, item, task.scene, added))
+        if item.add is not None and item.object is not None:
+            added[item.add] = item.object
     return problems
+
+
+def _disturbance_problems(
+    path: DataPath, given: Disturbance, scene: Scene, added: Mapping[str, ObjectBase]
+) -> Iterator[Problem]:
+    """Checks one of them; ``added`` are the objects that came with those before it."""
+    objects = {**scene.objects, **added}
+    scene = scene.model_copy(update={"objects": objects})
+    place: Disturbance | ObjectBase = given
+    if given.add is not None:
+        if given.add in RESERVED_NAMES or given.add in objects:
+            taken = "reserved" if given.add in RESERVED_NAMES else "in the scene already"
+            yield Problem((*path, "add"), f"{given.add!r} is {taken}; give another name")
+        assert given.object is not None  # the model has seen to it
+        place, path = given.object, (*path, "object")
+    elif given.part is not None:
+        yield from _check((*path, "part"), given.part, openable(scene), "part that opens", scene)
+        return
+    else:
+        names = [*Role, *(name for name, item in objects.items() if not _fastened(item))]
+        yield from _check((*path, given.deed), given.name, names, "loose object", scene)
+    if place.on is not None:
+        yield from _check((*path, "on"), place.on, surfaces(scene), "surface", scene)
+    if place.inside is not None:
+        yield from _check((*path, "inside"), place.inside, containers(scene), "container", scene)
+    if place.at is not None and not _above_desk(place.at[:2], scene):
+        message = f"found {list(place.at)}, expected x y on the desk"
+        yield Problem((*path, "at"), message)
+    if given.name in (given.on, given.inside):
+        yield Problem(path, f"{given.name!r} cannot be put on or into itself")
+
+
+def _fastened(item: ObjectBase) -> bool:
+    return isinstance(item, FURNITURE) if item.fixed is None else item.fixed
 
 
 def _above_desk(point: tuple[float, float], scene: Scene) -> bool:

@@ -104,6 +104,13 @@ class Variation(Spec):
     """Relative."""
     size: Share | None = None
     """Relative, of movable things; as far as sizes are perceived wrongly when None."""
+    servo: Share = 0.10
+    """Relative, of the gains of the arm's servos (``execute`` only)."""
+    gripper_force: Share = 0.15
+    """Relative (``execute`` only)."""
+    delay_s: Annotated[float, Field(ge=0.0, le=0.2)] = 0.02
+    """How much later than sent a command takes effect, at most; uniform from 0 (``execute``
+    only)."""
     keep: tuple[str, ...] = ()
     """Objects that get no pose of their own drawn; they still move with what carries them."""
 

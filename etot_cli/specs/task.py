@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
 from etot_cli.specs.base import Name, Spec, Title
 from etot_cli.specs.bounds import MAX_WORLDS
+from etot_cli.specs.disturbance import MAX_DISTURBANCES, Disturbance
 from etot_cli.specs.quantity import Coordinate, Meaning
 from etot_cli.specs.scene import Scene
 
@@ -68,31 +69,6 @@ class Condition(Spec):
         return self
 
 
-class Disturbance(Spec):
-    """What a person does to the scene while the robot acts (used by ``execute``).
-
-    After the robot has finished its ``after_action``-th action, or right when it commits to the
-    object (``when: committed``), ``move`` (an object name, or ``chosen`` for the object the robot
-    has committed to) is put ``inside`` or ``on`` another object, or ``at`` a place on the desk.
-    """
-
-    when: Literal["committed", "after_action"] = "committed"
-    after_action: Annotated[int, Field(ge=0, le=50)] = 0
-    move: Name = "chosen"
-    inside: Reference | None = None
-    on: Reference | None = None
-    at: tuple[Coordinate, Coordinate] | None = None
-
-    @model_validator(mode="after")
-    def _one_destination(self) -> Disturbance:
-        given = [item for item in (self.inside, self.on, self.at) if item is not None]
-        if len(given) != 1:
-            raise ValueError("give one of 'inside', 'on' and 'at', where the object is put")
-        if self.when == "committed" and self.after_action:
-            raise ValueError("'after_action' needs 'when: after_action'")
-        return self
-
-
 class Task(Spec):
     """A task: the planner sees ``instruction`` (or ``goal``) and ``scene``; ``success`` is the
     evaluator's alone.
@@ -103,11 +79,32 @@ class Task(Spec):
     scene: Scene
     success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
     goal: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
-    disturbance: Disturbance | None = None
+    disturbance: (
+        Annotated[
+            Annotated[Disturbance, Tag("one")]
+            | Annotated[
+                tuple[Disturbance, ...],
+                Field(min_length=1, max_length=MAX_DISTURBANCES),
+                Tag("list"),
+            ],
+            # Deciding by the form keeps errors to the one that was meant.
+            Discriminator(lambda value: "list" if isinstance(value, list | tuple) else "one"),
+        ]
+        | None
+    ) = None
+    """What somebody does while the robot acts: one thing, or a list of them."""
     worlds: Annotated[int, Field(ge=1, le=MAX_WORLDS)] = 1
     """In how many varied worlds ``plan`` tries every action, unless told otherwise."""
     file: str = ""
     """The task file as the user named it; set by the loader, refused in YAML."""
+
+    @property
+    def disturbances(self) -> tuple[Disturbance, ...]:
+        """All that somebody does, in order."""
+        given = self.disturbance
+        if given is None:
+            return ()
+        return (given,) if isinstance(given, Disturbance) else given
 
     @field_validator("instruction")
     @classmethod

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
-from etot_cli.specs.objects import Mjcf, MjcfPart
+from etot_cli.specs.objects import Mjcf, MjcfPart, ObjectBase
 from etot_cli.world.build.objects import resting_quaternion
 from etot_cli.world.index import ObjectEntry, Part, Region
 from etot_cli.world.model import World
@@ -18,6 +18,9 @@ from etot_cli.world.state import DESK
 GAP = 0.0005
 """Objects start this far above their support [m], and settle."""
 DROP_STEP = 0.002
+MAX_RAISE = 0.6
+"""What is put where others are is lifted clear of them by this at most [m]: higher than any piece
+of furniture."""
 PENETRATION = 0.0002
 """Overlap that still counts as touching [m]."""
 
@@ -39,8 +42,30 @@ def place_objects(world: World, data: mujoco.MjData) -> None:
         data.joint(name).qpos[:3] = [3.0 + rank, 3.0, 1.0]
     mujoco.mj_kinematics(model, data)
     for name in _supports_first(world, free):
-        _place(world, data, name)
+        place_object(world, data, name, world.scene.objects[name])
     mujoco.mj_forward(model, data)
+
+
+def place_object(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
+    """Writes the pose that ``spec`` gives a free object, among the others as they now stand.
+
+    Raises:
+        WorldError: it does not fit there.
+    """
+    _place(world, data, name, spec)
+
+
+def raise_clear(world: World, data: mujoco.MjData, name: str) -> bool:
+    """Lifts an object straight up until it overlaps nothing; False where that is too far."""
+    own = set(world.geoms_of(name).tolist())
+    pose = data.joint(name).qpos
+    for _ in range(int(MAX_RAISE / DROP_STEP)):
+        mujoco.mj_kinematics(world.model, data)
+        mujoco.mj_collision(world.model, data)
+        if not _penetrates(data, own):
+            return True
+        pose[2] += DROP_STEP
+    return False
 
 
 def _initial_joint(spec: Any, part: Part) -> float:
@@ -90,8 +115,7 @@ def _supports_first(world: World, names: list[str]) -> list[str]:
     return ordered
 
 
-def _place(world: World, data: mujoco.MjData, name: str) -> None:
-    spec = world.scene.objects[name]
+def _place(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
     pose = data.joint(name).qpos
     pose[3:] = resting_quaternion(spec)
     if spec.at is not None and len(spec.at) == 3:
@@ -99,7 +123,7 @@ def _place(world: World, data: mujoco.MjData, name: str) -> None:
         mujoco.mj_kinematics(world.model, data)
         return
     if spec.inside is not None:
-        _place_inside(world, data, name, spec.inside)
+        _place_inside(world, data, name, spec)
         return
     support = spec.on or DESK
     if spec.at is not None:
@@ -166,7 +190,8 @@ def geom_bounds(
     return position - extent, position + extent
 
 
-def _place_inside(world: World, data: mujoco.MjData, name: str, address: str) -> None:
+def _place_inside(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
+    address = spec.inside or ""
     region = world.regions.get(address)
     if region is None:
         part = world.parts.get(address)
@@ -176,7 +201,7 @@ def _place_inside(world: World, data: mujoco.MjData, name: str, address: str) ->
             f"{name}: nothing can be inside {address!r}; containers are "
             f"{', '.join(sorted(world.regions)) or 'none'}"
         )
-    spec, entry = world.scene.objects[name], world.entries[name]
+    entry = world.entries[name]
     body = data.body(region.body)
     rotation = body.xmat.reshape(3, 3)
     floor = np.array(region.center) - np.array([0, 0, region.half[2]])

@@ -287,7 +287,7 @@ success:
         ),
         (
             TASK + "  - upright: cup\ndisturbance: {move: ball}",
-            "task.yaml:8: disturbance: give one of 'inside', 'on' and 'at'",
+            "task.yaml:8: disturbance: give one of 'inside', 'on', 'at' and 'by' with 'move'",
         ),
         (
             TASK + "  - upright: cup\ndisturbance: {move: ball, inside: cup, after_action: 2}",
@@ -295,7 +295,7 @@ success:
         ),
         (
             TASK + "  - upright: cup\ndisturbance: {when: now, inside: cup}",
-            "disturbance.when: found 'now', expected committed or after_action",
+            "disturbance.when: found 'now', expected planned or committed or after_action or",
         ),
         (
             TASK + "  - upright: cup\nworlds: 0",

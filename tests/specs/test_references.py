@@ -52,7 +52,14 @@ def test_what_carries_contains_and_opens(tmp_path: Path) -> None:
         ("- all: [{upright: cup}, {open: x}]", "success[0].all[1].open: the scene has no part"),
         ("- upright: cup\ngoal: [{present: x}]", "goal[0].present: the scene has no object 'x'"),
         ("- upright: cup\ndisturbance: {move: bal, inside: cup}", "disturbance.move: the scene has "
-         "no object 'bal'; expected one of chosen, ball"),
+         "no loose object 'bal'; expected one of chosen, target, ball"),
+        ("- upright: cup\ndisturbance: [{remove: ball}, {part: one.x, to: 1}]",
+         "disturbance[1].part: the scene has no part that opens 'one.x'"),
+        ("- upright: cup\ndisturbance: {knock_over: oven}", "'oven' is no loose object"),
+        ("- upright: cup\ndisturbance: {add: cup, object: {kind: sphere, diameter: 0.1, on: box}}",
+         "disturbance.add: 'cup' is in the scene already"),
+        ("- upright: cup\ndisturbance: {add: it, object: {kind: sphere, diameter: 0.05, on: x}}",
+         "disturbance.object.on: the scene has no surface 'x'"),
         ("- upright: cup\ndisturbance: {inside: box}", "disturbance.inside: 'box' is no container"),
         ("- upright: cup\ndisturbance: {on: ball}", "disturbance.on: 'ball' is no surface"),
         ("- upright: cup\ndisturbance: {move: cup, inside: cup}", "cannot be put on or into"),
@@ -72,6 +79,10 @@ def test_bad_references_in_tasks(conditions: str, message: str, tmp_path: Path) 
         "- open: oven\n- closed: oven.door\n- not: {any: [{present: ball}, {upright: one}]}",
         "- present: ball\ndisturbance: {move: ball, on: rack.high}",
         "- present: ball\ndisturbance: {when: after_action, after_action: 2, at: [0.4, 0.1]}",
+        "- present: ball\ndisturbance: [{when: planned, part: oven, to: 1}, {drop: ball, on: one}]",
+        "- present: ball\ndisturbance: {when: during_action, share: 0.2, move: ball, by: [0.1, 0]}",
+        "- present: ball\ndisturbance: [{add: it, object: {kind: sphere, diameter: 0.1, on: desk}},"
+        " {when: planned, remove: it}]",
     ],
 )
 def test_good_references(conditions: str, tmp_path: Path) -> None:

@@ -1,0 +1,79 @@
+"""One motion on a robot, as the loop needs it: time counted from its start, and foreseen."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.control.robot import Contacts, Guards, Robot, RobotState
+from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
+from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits, time_line, time_path
+
+Vector = NDArray[np.float64]
+
+
+class FromNow:
+    """A robot whose clock begins with the motion, whatever its own clock says.
+
+    Args:
+        robot: who moves.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._begun = robot.state().time_s
+
+    def state(self) -> RobotState:
+        """What it senses now."""
+        sensed = self._robot.state()
+        return RobotState(
+            sensed.joints, sensed.targets, sensed.opening, sensed.time_s - self._begun
+        )
+
+    def follow(self, targets: Vector, guards: Guards) -> PhaseEnd:
+        """As the robot does."""
+        return self._robot.follow(targets, guards)
+
+    def set_opening(self, opening: float) -> None:
+        """As the robot does."""
+        self._robot.set_opening(opening)
+
+    def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
+        """As the robot does."""
+        return self._robot.wait(seconds, guards, until_rest=until_rest)
+
+    def contacts(self) -> Contacts:
+        """As the robot says."""
+        return self._robot.contacts()
+
+
+def duration(motion: Motion, start: Vector, limits: JointLimits) -> float:
+    """How long a motion takes if nothing stops it, waits for rest left out [s].
+
+    Args:
+        motion: what is to be done.
+        start: joint targets (n,) that it begins from [rad].
+        limits: of the joint targets.
+    """
+    total, here = 0.0, start
+    for phase in motion.phases:
+        if isinstance(phase, Move):
+            whole = np.vstack([here[None], phase.path])
+            if phase.length is None or phase.tool_speed is None:
+                sent = time_path(whole, limits)
+            else:
+                sent = time_line(whole, phase.length, phase.tool_speed, limits)
+            total += len(sent) * CONTROL_PERIOD + phase.dwell
+            here = whole[-1]
+        elif isinstance(phase, Hand) or not phase.until_rest:
+            total += phase.seconds
+    return total
+
+
+def last_command(traces: tuple[Trace, ...], before: float | None) -> float | None:
+    """The opening that the gripper was last sent to [m]; ``before`` where no phase sent any."""
+    for trace in reversed(traces):
+        for phase in reversed(trace.phases):
+            if phase.command is not None:
+                return phase.command
+    return before

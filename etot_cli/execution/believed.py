@@ -1,0 +1,204 @@
+"""The twin as it is believed to be: brought into the state that a look shows.
+
+What the look leaves open is settled by the twin's own physics: an object seen a few millimetres
+inside its support, or beside the wall that it leans on, comes to rest where it can be. Relations
+(on, inside, in the hand) are read there, never in the world that was looked at.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from etot_cli.control.physics_world import PhysicsWorld
+from etot_cli.control.robot import Guards, RobotState
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.errors import WorldError
+from etot_cli.execution.observation import Mark, Observation
+from etot_cli.skills.belief import Belief, build_twin
+from etot_cli.specs.scene import Scene
+from etot_cli.world.relations import initial_memory, read_scene
+from etot_cli.world.robot_index import ROBOT_PREFIX
+from etot_cli.world.snapshot import Memory, Snapshot, save
+from etot_cli.world.state import SceneState
+
+AWAY = (3.0, 3.0)
+"""Where what is not there any more waits in the twin, x y [m]: on the floor beyond every desk."""
+CREEP_STEPS = 120
+"""Physics steps without momentum, in which overlaps come apart and gaps of 4 mm close."""
+SETTLE_S = 0.4
+"""Time for what then still is not at rest, at most [s]."""
+GRIP_STEPS = 250
+"""Physics steps in which the fingers close on what is held: half a second, as a real grip takes."""
+HELD_GAP = 0.002
+"""Fingers that stay this much further open than they were told hold something [m]."""
+NEAR_FINGERS = 0.025
+"""What is held is seen at most this far from both fingers [m]: perception errs by less."""
+
+
+class BelievedTwin:
+    """A twin of a scene that is put into one observed state after another.
+
+    Args:
+        scene: what is believed of shapes, masses and frictions.
+        seed: of the motions' random choices.
+
+    Raises:
+        WorldError: the scene cannot be built.
+    """
+
+    def __init__(self, scene: Scene, seed: int) -> None:
+        self._physics = PhysicsWorld(scene, seed, keep_frames=False)
+        self.world = self._physics.world
+        self.limits = self._physics.limits
+        self.scene = scene
+        self._twin = build_twin(self.world, self._physics.deadline)
+        self._data = self._physics.data
+        self._believed = mujoco.MjData(self.world.model)
+        self._memory: Memory | None = None
+
+    def see(self, observation: Observation, command: float | None) -> tuple[Snapshot, SceneState]:
+        """The twin's state after a look.
+
+        Args:
+            observation: what was seen and sensed.
+            command: the opening that the gripper was last sent to [m]; None for wide open.
+
+        Returns:
+            The stored state, to plan from, and the same state as relations see it.
+        """
+        world, data = self.world, self._data
+        mujoco.mj_resetData(world.model, data)
+        self._put(observation)
+        held = self._held(observation.robot, command)
+        closed = held is not None
+        self._hand(observation.robot, command, closed=closed)
+        if held is not None:
+            self._grip(held)
+        self._creep(held)
+        robot = SimulatedRobot(world, data)
+        robot.wait(SETTLE_S, Guards(), until_rest=True)
+        data.time = 0.0
+        data.qvel[:] = 0.0
+        mujoco.mj_forward(world.model, data)
+        if self._memory is None:
+            self._memory = initial_memory(world, data)
+        scene, self._memory = read_scene(world, data, self._memory)
+        return save(world, data, self._memory), scene
+
+    def remember(self, memory: Memory) -> None:
+        """Takes over what relations remember from the episode's start, for objects known here."""
+        known = {name: up for name, up in memory.up.items() if name in self.world.entries}
+        own = {} if self._memory is None else self._memory.up
+        self._memory = Memory({**own, **known}, memory.toppled, memory.inside, memory.opened)
+
+    @property
+    def memory(self) -> Memory | None:
+        """What relations remember; None before the first look."""
+        return self._memory
+
+    def belief(self, scene: SceneState, salt: str) -> Belief:
+        """The state of the last look, to work a motion out in."""
+        self._believed.qpos[:] = self._data.qpos
+        self._believed.qvel[:] = 0.0
+        self._believed.ctrl[:] = self._data.ctrl
+        mujoco.mj_forward(self.world.model, self._believed)
+        return Belief(self._twin, self._believed, self._physics.random(salt), scene)
+
+    def working_data(self) -> mujoco.MjData:
+        """The state of the last look, to be stepped; the next look overwrites it."""
+        return self._data
+
+    def _put(self, observation: Observation) -> None:
+        world, data = self.world, self._data
+        robot, sensed = world.robot, observation.robot
+        data.qpos[robot.qpos] = sensed.joints
+        data.ctrl[robot.ctrl] = sensed.targets
+        robot.set_opening(data, min(max(sensed.opening, 0.0), robot.spec.gripper.opening))
+        missing = [name for name, item in world.entries.items() if item.free]
+        for rank, (name, entry) in enumerate(world.entries.items()):
+            for part in entry.parts:
+                value = observation.parts.get(f"{name}.{part.info.name}", part.lower)
+                low, high = sorted((part.lower, part.upper))
+                data.joint(part.joint).qpos[0] = min(max(value, low), high)
+            sighting = observation.objects.get(name)
+            if not entry.free or sighting is None:
+                continue
+            missing.remove(name)
+            pose = data.joint(name).qpos
+            pose[:3], pose[3:] = sighting.position, sighting.quaternion
+            if sighting.mark is Mark.LOST:
+                pose[:3] = (AWAY[0] + rank, AWAY[1], 0.0)
+        if missing:
+            raise WorldError(f"the look says nothing of {', '.join(missing)}")
+        mujoco.mj_forward(world.model, data)
+
+    def _held(self, robot: RobotState, command: float | None) -> str | None:
+        """What is in the hand: the object between fingers that did not close as far as told."""
+        if command is None or robot.opening < command + HELD_GAP:
+            return None
+        world, data = self.world, self._data
+        sides: tuple[list[int], list[int]] = ([], [])
+        for geom in range(world.model.ngeom):
+            side = world.robot.finger_side.get(int(world.model.geom_bodyid[geom]))
+            if side is not None and world.model.geom_contype[geom]:
+                sides[side].append(geom)
+        near = {}
+        for name, entry in world.entries.items():
+            if entry.free and entry.info.movable:
+                geoms = world.geoms_of(name)
+                near[name] = max(
+                    min(
+                        mujoco.mj_geomDistance(world.model, data, one, int(two), 0.1, None)
+                        for one in side
+                        for two in geoms
+                    )
+                    for side in sides
+                )
+        nearest = min(near, key=near.__getitem__, default="")
+        return nearest if nearest and near[nearest] <= NEAR_FINGERS else None
+
+    def _hand(self, robot: RobotState, command: float | None, *, closed: bool) -> None:
+        """Sends the twin's gripper where the robot's was sent."""
+        gripper = self.world.robot.spec.gripper
+        opening = 0.0 if closed else robot.opening
+        share = min(max(opening / gripper.opening, 0.0), 1.0)
+        self._data.ctrl[self.world.robot.gripper_ctrl] = gripper.command_closed + share * (
+            gripper.command_open - gripper.command_closed
+        )
+
+    def _grip(self, name: str) -> None:
+        """Closes the fingers on what is held, which only gives way between them."""
+        world, data = self.world, self._data
+        joint = data.joint(name)
+        tool = data.site_xmat[world.robot.tool_site].reshape(3, 3)
+        left, right = (data.geom_xpos[pad].copy() for pad in world.robot.pads)
+        across = left - right
+        norm = float(np.linalg.norm(across))
+        across = across / norm if norm > 1e-6 else tool[:, 1].copy()
+        start = joint.qpos.copy()
+        others = np.ones(world.model.nv, dtype=bool)
+        others[world.model.joint(name).dofadr[0] + np.arange(6)] = False
+        for finger in world.robot.fingers.joints:
+            others[world.model.joint(ROBOT_PREFIX + finger).dofadr[0]] = False
+        for _ in range(GRIP_STEPS):
+            mujoco.mj_step(world.model, data)
+            offset = float((joint.qpos[:3] - start[:3]) @ across)
+            joint.qpos[:3] = start[:3] + offset * across
+            joint.qpos[3:] = start[3:]
+            joint.qvel[:3] = float(joint.qvel[:3] @ across) * across
+            joint.qvel[3:] = 0.0
+            data.qvel[others] = 0.0
+        mujoco.mj_forward(world.model, data)
+
+    def _creep(self, held: str | None) -> None:
+        """Steps without momentum, so that what overlaps comes apart without being flung away."""
+        model, data = self.world.model, self._data
+        for _ in range(CREEP_STEPS):
+            mujoco.mj_step(model, data)
+            data.qvel[:] = 0.0
+        if not np.isfinite(data.qpos).all():
+            raise WorldError("the twin cannot be brought into the state that was seen")
+
+
+__all__ = ["BelievedTwin"]

@@ -1,0 +1,89 @@
+"""The standard planner of the loop: the tree search over the twin, from what is believed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from etot_cli.control.simulator import ActionSimulator, open_simulator
+from etot_cli.execution.protocols import Planned
+from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.result import SearchObserver, SearchStatus
+from etot_cli.planning.search import search
+from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.protocol import Assignment, Reasoner
+from etot_cli.skills.action import Action
+from etot_cli.skills.motion.motion import Motion
+from etot_cli.specs.scene import Scene
+from etot_cli.world.snapshot import Snapshot
+from etot_cli.world.state import SceneState
+
+
+@dataclass
+class TreePlanner:
+    """Implements :class:`etot_cli.execution.protocols.Planner`.
+
+    Args:
+        assignment: what is asked for.
+        scene: what the twin is built from; the twin is built when it is first needed.
+        seed: of the motions' random choices.
+        limits: of each search.
+        without: mechanisms that the searches go without.
+        jobs: nodes simulated at the same time.
+        reasoner: makes the one that proposes, judges and reflects.
+        observer: told of every step of every search.
+    """
+
+    assignment: Assignment
+    scene: Scene
+    seed: int = 0
+    limits: Limits = field(default_factory=Limits)
+    without: frozenset[Ablation] = frozenset()
+    jobs: int = 1
+    reasoner: Callable[[], Reasoner] = BuiltinReasoner
+    observer: SearchObserver | None = None
+    _simulator: ActionSimulator | None = None
+
+    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+        """Searches for a plan from the believed state; nothing is assumed about what was done."""
+        if self._simulator is None:
+            self._simulator = open_simulator(
+                self.scene, seed=self.seed, jobs=self.jobs, worlds=1, record=False
+            )
+        self._simulator.begin_from(start, scene)
+        result = search(
+            self.assignment,
+            self._simulator,
+            self.reasoner(),
+            limits=self.limits,
+            without=self.without,
+            observer=self.observer,
+        )
+        if result.status is SearchStatus.INTERRUPTED:
+            raise KeyboardInterrupt
+        path = () if result.leaf is None else result.leaf.path
+        motions = [result.rollouts[node.id].motion for node in path]
+        numbers = result.statistics
+        return Planned(
+            result.plan,
+            tuple(motion if isinstance(motion, Motion) else None for motion in motions),
+            result.status.value,
+            result.stopped or _why_not(result.status),
+            {
+                "nodes": float(numbers.nodes_evaluated),
+                "reflections": float(numbers.reflections),
+                "simulated_s": numbers.simulated_s,
+                "wall_s": numbers.wall_s,
+            },
+        )
+
+    def close(self) -> None:
+        """Ends worker processes; idempotent."""
+        if self._simulator is not None:
+            self._simulator.close()
+
+
+def _why_not(status: SearchStatus) -> str | None:
+    if status is SearchStatus.INFEASIBLE:
+        return "every branch and every correction fails in the twin"
+    return None

@@ -1,0 +1,153 @@
+"""The world that a simulated robot acts in: of its own making, and never the planner's twin.
+
+Poses, sizes, masses, frictions, servo gains, gripper force and delays are drawn from the scene's
+``variation``. The planner learns of it by looking, and in no other way.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from etot_cli.control.physics_world import SETTLE_AT_START
+from etot_cli.control.robot import Guards
+from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.skills.motion.ready import ready_pose
+from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.specs.scene import Scene, SceneObject
+from etot_cli.specs.vary import vary
+from etot_cli.world.model import build_world
+from etot_cli.world.placing import place_objects
+from etot_cli.world.recorder import Recorder, Trajectory
+from etot_cli.world.relations import initial_memory, read_scene
+from etot_cli.world.snapshot import Memory
+from etot_cli.world.state import SceneState
+
+AWAY = (3.0, 3.0)
+"""What is not on the scene waits on the floor there, x y [m]: beyond every desk."""
+AWAY_SPACING = 1.0
+
+
+class ExecutionWorld:
+    """A varied scene in one state, which only goes forward.
+
+    Args:
+        scene: the nominal scene.
+        seed: what is drawn depends on it alone.
+        added: objects that will come onto the scene later, by name.
+        keep_frames: keep configurations for rendering.
+
+    Raises:
+        WorldError: the scene cannot be built.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        seed: int,
+        added: Mapping[str, SceneObject] | None = None,
+        *,
+        keep_frames: bool = False,
+    ) -> None:
+        self.added = dict(added or {})
+        varied = vary(scene, seed)
+        self.rng = np.random.default_rng([seed % 2**64, len(varied.objects)])
+        waiting = {
+            name: item.model_copy(update={"on": None, "inside": None, "at": self._away(rank)})
+            for rank, (name, item) in enumerate(self.added.items())
+        }
+        self.world = build_world(
+            varied.model_copy(update={"objects": {**varied.objects, **waiting}})
+        )
+        self.data = mujoco.MjData(self.world.model)
+        self.absent = set(waiting)
+        self.delay = self._vary_robot(scene)
+        self.memory = Memory()
+        self.keep_frames = keep_frames
+        self.recorder: Recorder | None = None
+        self.steps = 0
+        self._begin()
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time since this world began [s]."""
+        return float(self.data.time)
+
+    def read(self) -> SceneState:
+        """The true state: for the evaluator, and for eyes that add their own error."""
+        mujoco.mj_forward(self.world.model, self.data)
+        scene, self.memory = read_scene(self.world, self.data, self.memory)
+        there = [name for name in scene.states if name not in self.absent]
+        return SceneState(
+            infos={name: scene.infos[name] for name in there},
+            states={name: scene.states[name] for name in there},
+            desk_top=scene.desk_top,
+            desk_bounds=scene.desk_bounds,
+            holding=scene.holding,
+            forward=scene.forward,
+        )
+
+    def robot(self) -> SimulatedRobot:
+        """The arm in it, as it now stands; counts its own steps."""
+        return SimulatedRobot(self.world, self.data, self.recorder)
+
+    def watch(self) -> None:
+        """Begins the record of a motion."""
+        self.recorder = Recorder(self.world, self.data, keep_frames=self.keep_frames)
+
+    def watched(self) -> tuple[Mapping[str, float], Trajectory | None]:
+        """Displacements [m] and configurations since :meth:`watch`."""
+        if self.recorder is None:
+            return {}, None
+        return self.recorder.displacement(), self.recorder.trajectory()
+
+    def random(self, *salt: object) -> np.random.Generator:
+        """Random numbers that depend on the state and ``salt`` alone."""
+        digest = hashlib.sha256(self.data.qpos.tobytes() + "/".join(map(str, salt)).encode())
+        return np.random.default_rng(int.from_bytes(digest.digest()[:8], "little"))
+
+    def take_away(self, name: str) -> None:
+        """Takes a free object off the scene."""
+        rank = list(self.world.entries).index(name)
+        joint = self.data.joint(name)
+        joint.qpos[:3] = self._away(rank)
+        joint.qvel[:] = 0.0
+        self.absent.add(name)
+        mujoco.mj_forward(self.world.model, self.data)
+
+    @staticmethod
+    def _away(rank: int) -> tuple[float, float, float]:
+        return (AWAY[0] + AWAY_SPACING * rank, AWAY[1], 0.0)
+
+    def _begin(self) -> None:
+        world, data = self.world, self.data
+        place_objects(world, data)
+        gripper = world.robot.spec.gripper
+        world.robot.set_opening(data, gripper.opening)
+        ready = ready_pose(world, data)
+        data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
+        data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
+        mujoco.mj_forward(world.model, data)
+        SimulatedRobot(world, data).wait(SETTLE_AT_START, Guards(), until_rest=True)
+        data.time = 0.0
+        mujoco.mj_forward(world.model, data)
+        self.memory = initial_memory(world, data)
+
+    def _vary_robot(self, scene: Scene) -> int:
+        """Draws servo gains, gripper force and the delay, in control periods."""
+        model, robot, bounds = self.world.model, self.world.robot, scene.variation
+        # Force and damping in proportion: a servo as stable as before, only stiffer or softer.
+        gains = 1.0 + bounds.servo * self.rng.uniform(-1.0, 1.0, len(robot.ctrl))
+        model.actuator_gainprm[robot.ctrl, 0] *= gains
+        model.actuator_biasprm[robot.ctrl, 1:3] *= gains[:, None]
+        force = 1.0 + bounds.gripper_force * self.rng.uniform(-1.0, 1.0)
+        model.actuator_gainprm[robot.gripper_ctrl] *= force
+        model.actuator_biasprm[robot.gripper_ctrl] *= force
+        model.actuator_forcerange[robot.gripper_ctrl] *= force
+        return round(bounds.delay_s * self.rng.uniform() / CONTROL_PERIOD)
+
+
+__all__ = ["ExecutionWorld"]
