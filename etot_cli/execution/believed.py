@@ -50,6 +50,8 @@ class BelievedTwin:
     def __init__(self, scene: Scene, seed: int) -> None:
         self._physics = PhysicsWorld(scene, seed, keep_frames=False)
         self.world = self._physics.world
+        # What is put in place without momentum must not fall asleep there.
+        self.world.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         self.limits = self._physics.limits
         self.scene = scene
         self._twin = build_twin(self.world, self._physics.deadline)
