@@ -165,7 +165,7 @@ def _render(
             if owner in ("robot", "gripper"):
                 model.geom_rgba[geom, 3] = 0.0
                 model.geom_group[geom] = 5
-    _aim(model, name, camera)
+    aim(model, name, camera)
     view = mujoco.MjvCamera()
     view.type = mujoco.mjtCamera.mjCAMERA_FIXED
     view.fixedcamid = model.camera(name).id
@@ -177,7 +177,7 @@ def _render(
     return color, depth, ids
 
 
-def _aim(model: mujoco.MjModel, name: str, camera: Camera) -> None:
+def aim(model: mujoco.MjModel, name: str, camera: Camera) -> None:
     """Sets the camera's intrinsics so that pixel centres lie at whole image coordinates."""
     index = model.camera(name).id
     pixel = model.cam_sensorsize[index] / (camera.width, camera.height)

@@ -1,0 +1,1 @@
+"""Cameras behind the protocol of :mod:`etot_cli.execution.protocols`."""
