@@ -17,6 +17,7 @@ import typer
 
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
 from etot_cli.cli.interrupts import asked_to_stop, finish, listen
+from etot_cli.cli.memory import check_address_space, is_lack_of_memory, spare_threads
 from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
@@ -30,11 +31,16 @@ class _Answer(int):
     """An exit code that a command has chosen, and said why; Typer has codes of its own."""
 
 
-def interruptible(command: Callable[..., int]) -> Callable[..., int]:
-    """A command whose exit code can be told from those of the machinery around it."""
+def interruptible(command: Callable[..., int], *, light: bool = False) -> Callable[..., int]:
+    """A command whose exit code can be told from those of the machinery around it.
+
+    Unless it is ``light``, it loads libraries that need address space.
+    """
 
     @functools.wraps(command)
     def wrapped(*given: Any, **named: Any) -> int:
+        if not light:
+            check_address_space()
         return _Answer(command(*given, **named))
 
     return wrapped
@@ -52,7 +58,7 @@ app.command()(interruptible(plan))
 app.command()(interruptible(simulate))
 app.command()(interruptible(reconstruct))
 app.command()(interruptible(new))
-app.command()(interruptible(tasks))
+app.command()(interruptible(tasks, light=True))
 
 
 BAD_NAMES = frozenset({errno.ENAMETOOLONG, errno.ELOOP, errno.ENOENT, errno.ENOTDIR, errno.EISDIR,
@@ -97,6 +103,8 @@ def run(arguments: Sequence[str]) -> int:
     try:
         code = app(list(arguments), prog_name="etot", standalone_mode=False)
     except EtotError as error:
+        if is_lack_of_memory(error):
+            return _no_room()
         _complain(str(error))
         return _interrupted() if asked_to_stop() else error.exit_code
     except typer.TyperException as error:  # a flag or argument that cannot be used
@@ -104,9 +112,6 @@ def run(arguments: Sequence[str]) -> int:
         return error.exit_code
     except (KeyboardInterrupt, typer.Abort):
         return _interrupted()
-    except MemoryError:
-        _complain("there is not enough memory for this; --jobs 1 and --worlds 1 need least")
-        return MISSING
     except OSError as error:
         # Files that belong to the input are read with messages of their own.
         _complain(f"the system refuses: {error}")
@@ -114,6 +119,8 @@ def run(arguments: Sequence[str]) -> int:
     except Exception as error:
         if asked_to_stop():  # an interrupt while a library was loaded, in that library's words
             return _interrupted()
+        if is_lack_of_memory(error):  # libraries have words of their own for it
+            return _no_room()
         # a defect: whatever it is, a person gets a sentence
         return _confess(error, detailed="-v" in arguments or "--verbose" in arguments)
     if code == INTERRUPTED and not isinstance(code, _Answer):
@@ -126,6 +133,7 @@ def main() -> None:
     output, _ = protect()
     try:
         listen()
+        spare_threads()
         code = run(sys.argv[1:])
         finish()
     except KeyboardInterrupt:  # in the moments around a command
@@ -141,6 +149,11 @@ def main() -> None:
 def _complain(message: str) -> None:
     # What is quoted of files and replies must not speak to the terminal.
     print(f"error: {visible(message)}", file=sys.stderr)
+
+
+def _no_room() -> int:
+    _complain("there is not enough memory for this; --jobs 1 and --worlds 1 need least")
+    return MISSING
 
 
 def _interrupted() -> int:

@@ -161,6 +161,11 @@ def plan(
     for file in export or ():
         if not file.name.endswith(EXPORTS):
             raise typer.BadParameter(f"--export {file}: expected a name with {', '.join(EXPORTS)}")
+    if export:
+        from etot_cli.reporting.files import check_place
+
+        for file in export:
+            check_place(file)
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
 

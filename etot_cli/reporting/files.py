@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import tempfile
+from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from types import ModuleType
@@ -70,9 +71,7 @@ class Claim:
     def release(self) -> None:
         """Lets the folder go, and removes what of it was made for nothing; idempotent."""
         handle, self._handle = self._handle, None
-        for folder in self._created:
-            with contextlib.suppress(OSError):  # there is something in it
-                folder.rmdir()
+        _remove(self._created)
         self._created = []
         if handle is not None:
             os.close(handle)
@@ -110,19 +109,31 @@ def claim_folder(command: str, name: str, out: Path | None, *, force: bool = Fal
     raise EtotError(f"{RESULTS / command} holds {MAX_SAME_SECOND} runs of this second already")
 
 
+def check_place(path: Path) -> None:
+    """Notices before the work that a file cannot be written after it; leaves nothing behind.
+
+    Raises:
+        EtotError: it is a folder, or its folder takes no file.
+    """
+    try:
+        if path.is_dir():
+            raise EtotError(f"cannot write {printable(path)}: it is a folder")
+        made: list[Path] = []
+        try:
+            _make_folder(path.parent, made)
+            with tempfile.TemporaryFile(dir=path.parent):
+                pass
+        finally:
+            _remove(made)
+    except (OSError, ValueError) as error:
+        raise EtotError(f"cannot write {printable(path)}: {_reason(error)}") from None
+
+
 def _make(path: Path, *, exclusive: bool = False) -> Claim:
     """The folder, made where it is missing, checked by writing to it."""
-    missing = []
+    missing: list[Path] = []
     try:
-        # Fails where the working directory has been removed. "a/.." of a missing a is nothing.
-        present = Path(os.path.abspath(path))  # noqa: PTH100
-        while not present.exists() and present != present.parent:
-            missing.append(present)
-            present = present.parent
-        if not present.is_dir():
-            raise EtotError(f"cannot write to {path}: {present} is not a folder")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.mkdir(exist_ok=not exclusive)
+        _make_folder(path, missing, exclusive=exclusive)
         claim = Claim(path, missing)
     except FileExistsError:
         if exclusive:
@@ -138,6 +149,25 @@ def _make(path: Path, *, exclusive: bool = False) -> Claim:
         claim.release()
         raise EtotError(f"cannot write to {path}: {_reason(error)}") from None
     return claim
+
+
+def _make_folder(path: Path, made: list[Path], *, exclusive: bool = False) -> None:
+    """Makes a folder and what is missing above it; ``made`` learns of each, from the lowest up."""
+    # Fails where the working directory has been removed. "a/.." of a missing a is nothing.
+    present = Path(os.path.abspath(path))  # noqa: PTH100
+    while not present.exists() and present != present.parent:
+        made.append(present)
+        present = present.parent
+    if not present.is_dir():
+        raise EtotError(f"cannot write to {path}: {present} is not a folder")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.mkdir(exist_ok=not exclusive)
+
+
+def _remove(folders: Sequence[Path]) -> None:
+    for folder in folders:
+        with contextlib.suppress(OSError):  # there is something in it, or it was never made
+            folder.rmdir()
 
 
 def _reason(error: OSError | ValueError) -> str:

@@ -107,7 +107,8 @@ def read_report(path: Path, model: type[M]) -> M:
     try:
         text = read_bytes(path, MAX_REPORT_BYTES, "a plan report")
     except SpecError as error:
-        raise PlanSyntaxError(f"{path}: cannot be read: {error.message}") from None
+        said = error.message.removeprefix("cannot be read: ")
+        raise PlanSyntaxError(f"{path}: cannot be read: {said}") from None
     try:
         return model.model_validate_json(text)
     except ValidationError as error:

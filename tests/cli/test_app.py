@@ -146,6 +146,8 @@ def test_options_reach_the_search(etot: Etot) -> None:
         (["simulate", "toy.yaml"], "--plan"),
         (["simulate", "toy.yaml", "--plan", "[JUMP, cup]"], "unknown action 'JUMP'"),
         (["simulate", "toy.yaml", "--plan", "none.json"], "none.json: cannot be read"),
+        (["simulate", "toy.yaml", "--plan", ""], "'' is neither a plan such as"),
+        (["simulate", "toy.yaml", "--plan", " "], "' ' is neither a plan such as"),
         (["levitate"], "levitate"),
     ],
 )
@@ -157,6 +159,53 @@ def test_unusable_input_is_one_clear_message(
     assert answer.out == ""
     assert answer.err.startswith("error: ") and answer.err.count("\n") == 1
     assert message in answer.err
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "plan loop.yaml",
+        "plan loop.yaml/task.yaml",
+        "plan toy.yaml --out loop.yaml",
+        "plan toy.yaml --out loop.yaml/x",
+        "plan toy.yaml --export loop.yaml/a.xml",
+        "simulate toy.yaml --plan loop.json",
+        "reconstruct loop.yaml",
+    ],
+)
+def test_links_that_lead_nowhere_are_one_clear_message(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    command: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shipped = Path(__file__).parents[2] / "tasks" / "task3.yaml"
+    command = command.replace("toy.yaml", str(shipped))
+    for name in ("loop.yaml", "loop.json"):
+        Path(name).symlink_to(name)
+    assert run(command.split()) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: ") and said.count("\n") == 1
+    assert "loop." in said and said.count("cannot be read") <= 1
+
+
+@pytest.mark.parametrize("place", ["folder.xml", "file/a.xml", "/proc/a.xml"])
+def test_an_export_that_cannot_be_is_noticed_before_the_search(etot: Etot, place: str) -> None:
+    Path("folder.xml").mkdir()
+    Path("file").touch()
+    searched: list[object] = []
+    answer = etot("plan", "toy.yaml", "--export", place, rule=lambda *given: searched.append(given))
+    assert answer.code == 2 and "cannot write" in answer.err and not searched
+    assert not Path("results").exists()
+
+
+def test_an_export_makes_its_folder_only_when_it_is_written(etot: Etot) -> None:
+    export = ("plan", "toy.yaml", "--export", "a/b/c.xml")
+    assert etot(*export, branches=("bad",), rule=fails("bad")).code == 1
+    assert not Path("a").exists()
+    assert etot(*export).code == 0
+    assert Path("a/b/c.xml").is_file()
 
 
 def test_no_command_shows_the_help(etot: Etot) -> None:

@@ -78,7 +78,8 @@ def kill_one(job: Job, number: str, after_s: float, folder: Path) -> list[str]:
     mark = f"{os.getpid()}-{time.monotonic_ns()}"
     process = subprocess.Popen(
         [*ETOT, *job.arguments, "--out", str(out)], cwd=ROOT, stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, text=True, env={**os.environ, MARK: mark, "TMPDIR": str(scratch)},
+        stderr=subprocess.STDOUT, text=True,
+        env={**os.environ, MARK: mark, "TMPDIR": str(scratch), "PYTHONFAULTHANDLER": "1"},
     )  # fmt: skip
     wrong = []
     try:
@@ -91,9 +92,10 @@ def kill_one(job: Job, number: str, after_s: float, folder: Path) -> list[str]:
         try:
             said, _ = process.communicate(timeout=STOP_S)
         except subprocess.TimeoutExpired:
-            process.kill()
+            process.send_signal(signal.SIGABRT)  # Python shows where it is
             said, _ = process.communicate()
-            wrong.append(f"runs on {STOP_S:g} s after {number}")
+            wrong.append(f"runs on {STOP_S:g} s after {number}: {said[-4000:]}")
+            return [*wrong, *_left(mark)]
         if number != "SIGKILL" and process.returncode not in (0, 1, 130, -getattr(signal, number)):
             wrong.append(f"exit code {process.returncode} after {number}: {said[-200:]}")
         elapsed = time.monotonic() - begun

@@ -9,6 +9,7 @@ import time
 import tracemalloc
 import zipfile
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -173,6 +174,37 @@ def test_decomposition_ends(folder: Path, monkeypatch: pytest.MonkeyPatch) -> No
     begun = time.monotonic()
     with pytest.raises(WorldError, match="within 1 s"):
         pieces.convex_pieces(np.asarray(spikes), np.asarray(ball.faces, dtype=np.int64))
+    assert time.monotonic() - begun < 2 * QUICK_S
+
+
+def _doubled() -> bytes:
+    """A ball of 20,000 faces, each of them many times over."""
+    ball = trimesh.creation.icosphere(subdivisions=2, radius=0.05)
+    faces = np.tile(ball.faces, (20_000 // len(ball.faces) + 1, 1))
+    return bytes(trimesh.Trimesh(ball.vertices, faces, process=False).export(file_type="stl"))
+
+
+def _round() -> bytes:
+    """A disc on a point, its rim one polygon of 50,000 corners."""
+    turns = np.linspace(0.0, 2 * np.pi, 50_000, endpoint=False)
+    lines = [f"v {0.05 * np.cos(turn):.6f} {0.05 * np.sin(turn):.6f} 0" for turn in turns]
+    rim = " ".join(str(number) for number in range(1, len(turns) + 1))
+    return "\n".join([*lines, "v 0 0 0.05", f"f {rim}", "f 1 20000 50001"]).encode()
+
+
+@pytest.mark.parametrize(("name", "content"), [("doubled.stl", _doubled), ("round.obj", _round)])
+def test_meshes_that_keep_decomposition_busy(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, content: Callable[[], bytes]
+) -> None:
+    """Whether they can be used or not: that is known within the bound."""
+    monkeypatch.setenv("ETOT_CACHE", str(folder / "cache"))
+    monkeypatch.setenv("ETOT_MESH_SECONDS", "2")
+    (folder / name).write_bytes(content())
+    begun = time.monotonic()
+    try:
+        scene(folder, kind="mesh", file=name, at=[0.4, 0.0])
+    except EtotError as error:
+        assert name in str(error)
     assert time.monotonic() - begun < 2 * QUICK_S
 
 

@@ -80,18 +80,8 @@ def _stored(cached: Path) -> list[Vertices] | None:
 
 
 def _decompose(vertices: Vertices, faces: Faces) -> list[Vertices]:
-    import trimesh
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        hull = ConvexHull(vertices)
-    except QhullError as error:
-        raise WorldError("the mesh has no volume: all its points lie in one plane") from error
-    mesh = trimesh.Trimesh(vertices, faces)
-    if mesh.is_watertight and mesh.volume >= CONVEX_ENOUGH * hull.volume:
-        return [vertices[hull.vertices]]
     seconds = _seconds()
-    # CoACD knows no limits and answers no signal: in a process of its own it can be ended.
+    # Qhull and CoACD know no limits and answer no signal: a process of their own can be ended.
     try:
         pool = WorkerPool(1, _begin)
     except (OSError, RuntimeError, MemoryError) as error:
@@ -131,10 +121,23 @@ def _begin() -> None:
     with contextlib.suppress(OSError, ValueError):
         pages = int(Path("/proc/self/statm").read_text().split()[0])
         limit = pages * resource.getpagesize() + MEMORY_BYTES
-        resource.setrlimit(resource.RLIMIT_AS, (limit, resource.getrlimit(resource.RLIMIT_AS)[1]))
+        given, most = resource.getrlimit(resource.RLIMIT_AS)
+        if given == resource.RLIM_INFINITY or limit < given:
+            resource.setrlimit(resource.RLIMIT_AS, (limit, most))
 
 
 def _split(vertices: Vertices, faces: Faces) -> list[Vertices]:
+    import trimesh
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(vertices)
+    except QhullError as error:
+        raise WorldError("the mesh has no volume: all its points lie in one plane") from error
+    mesh = trimesh.Trimesh(vertices, faces)
+    if mesh.is_watertight and mesh.volume >= CONVEX_ENOUGH * hull.volume:
+        return [vertices[hull.vertices]]
+
     import coacd
 
     coacd.set_log_level("error")

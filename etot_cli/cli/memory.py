@@ -1,0 +1,68 @@
+"""Room for the libraries, looked at before they are loaded.
+
+Some of them answer a lack of address space by hanging, by aborting, or by errors that name neither
+the lack nor a remedy; so what cannot work is refused first, and what they say later is recognised.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+from etot_cli.errors import EtotError, ServiceError
+
+NEEDED_MIB = 512
+"""Address space in which a small task can be planned: libraries and models take 480 to 500 MiB."""
+MIB = 1 << 20
+_LACK = re.compile(
+    r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"
+    r"can't start new thread|memory allocation (still )?failed"
+)
+
+
+def address_space() -> int | None:
+    """Bytes of address space that this process may use; None without a limit."""
+    try:
+        import resource
+    except ImportError:  # Windows knows no such limit
+        return None
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return None if limit == resource.RLIM_INFINITY else limit
+
+
+def spare_threads() -> None:
+    """Keeps the linear algebra to one thread where address space is limited.
+
+    Each of its threads reserves a share before it has anything to do, so that what a run needs
+    would grow with the processor's cores. To be called before numpy is imported.
+    """
+    if address_space() is not None:
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def check_address_space() -> None:
+    """Refuses a limit in which the libraries cannot work.
+
+    Raises:
+        ServiceError: naming the limit and what is needed.
+    """
+    limit = address_space()
+    if limit is not None and limit < NEEDED_MIB * MIB:
+        raise ServiceError(
+            f"the address space is limited to {limit // MIB} MiB, and at least {NEEDED_MIB} MiB "
+            "are needed; raise the limit (ulimit -v)"
+        )
+
+
+def is_lack_of_memory(error: BaseException) -> bool:
+    """Whether an error came of there being no room, in whatever words a library says so.
+
+    Errors of this program quote servers and files, so they count only for what they came from.
+    """
+    seen: BaseException | None = error
+    while seen is not None:
+        said = not isinstance(seen, EtotError) and _LACK.search(str(seen))
+        if said or isinstance(seen, MemoryError):
+            return True
+        seen = seen.__cause__ or seen.__context__
+    return False
