@@ -24,8 +24,9 @@ def plan_motions(
     Args:
         belief: the twin in the state from which the action starts.
         action: what is to be done.
-        rehearsed: a motion for the same action in a state much like this one; what it holds the
-            object by comes first, retargeted to where the object is believed to be.
+        rehearsed: a motion for the same action in a state much like this one. Its grasp, its place
+            or its hold on a part comes first, retargeted to where object, target or part is
+            believed to be.
 
     Yields:
         Motions; where there is none, the reason as the only item.
@@ -34,12 +35,12 @@ def plan_motions(
         problem = pick_precondition(belief, action)
         return iter([problem]) if problem else pick_motions(belief, action, rehearsed)
     if action.verb in PUTS:
-        return put_motions(belief, action)
+        return put_motions(belief, action, rehearsed)
     holding = belief.held()
     if holding is not None:
         text = f"the hand still holds {holding}"
         return iter([failed(CauseKind.PRECONDITION, [holding], text)])
-    return articulation_motions(belief, action)
+    return articulation_motions(belief, action, rehearsed)
 
 
 def outcome_of(

@@ -38,8 +38,13 @@ EXIT_SPACING = 3
 """Ways out are worked out for every so many waypoints along the part's path."""
 
 
-def articulation_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcome]:
-    """Motions that open or close a part, best first; the reason where there is none."""
+def articulation_motions(
+    belief: Belief, action: Action, rehearsed: Motion | None = None
+) -> Iterator[Motion | SkillOutcome]:
+    """Motions that open or close a part, best first; the reason where there is none.
+
+    The hold of a ``rehearsed`` motion comes first, wherever the part now is.
+    """
     part = belief.world.parts.get(action.target)
     if part is None:
         yield _no_part(belief, action)
@@ -49,7 +54,8 @@ def articulation_motions(belief: Belief, action: Action) -> Iterator[Motion | Sk
     if (opening and fraction >= ALREADY_OPEN) or (not opening and fraction <= ALREADY_CLOSED):
         yield Motion(str(action), ())
         return
-    search = PartSearch(belief, part, opening)
+    tool_at = None if rehearsed is None else rehearsed.tool_at
+    search = PartSearch(belief, part, opening, None if tool_at is None else tool_at.pose)
     found = False
     for move in search.moves():
         phases = _phases(belief, move)

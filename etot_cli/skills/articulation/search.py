@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 
 import mujoco
+import numpy as np
 
 from etot_cli.skills.articulation.grips import Grip, grips, spun
 from etot_cli.skills.articulation.part_path import (
@@ -24,6 +25,7 @@ from etot_cli.skills.articulation.part_path import (
 from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.index import Part
 from etot_cli.world.snapshot import copy_configuration
 from etot_cli.world.state import CLOSED_AT, OPEN_AT
@@ -42,6 +44,9 @@ MAX_HINDERED = 24
 """... and of those that something is in the way of, once nothing else is left."""
 MAX_SINGLE = 3
 """Things that the search is repeated without, one at a time."""
+ALIKE, ALIKE_COSINE = 0.02, 0.9
+"""Two holds are alike when the tool is this close [m] and points and closes in much the same
+directions (cosine): neighbouring candidates differ by more."""
 MAX_FIRST_STEPS = 3
 """Moves that leave a part ajar which a second move is looked for from."""
 
@@ -69,10 +74,14 @@ class PartSearch:
         belief: state that the moves begin in.
         part: door or drawer.
         opening: whether it is to be opened, else closed.
+        rehearsed: tool pose at an earlier first contact, in the part's frame; the hold like it
+            comes first.
     """
 
-    def __init__(self, belief: Belief, part: Part, opening: bool) -> None:
-        self.part, self.opening = part, opening
+    def __init__(
+        self, belief: Belief, part: Part, opening: bool, rehearsed: Pose | None = None
+    ) -> None:
+        self.part, self.opening, self._rehearsed = part, opening, rehearsed
         self.hindrances = Hindrances(belief.world)
         self.has_hold = False
         """Something to hold or to push was found that the hand has room at."""
@@ -161,13 +170,17 @@ class PartSearch:
         An opening hand grips rather than pushes, a closing one pushes rather than grips.
         """
         face = self.part.inner if self.opening else self.part.outer
-        pushed = () if face is None else pushes(self._travel, face)
-        gripped = sorted(
-            (grip for grasp in self.part.grasps for grip in grips(self._travel, grasp)),
-            key=lambda grip: grip.cost,
-        )
-        kinds: list[Iterable[Contact]] = [gripped, pushed]
-        for kind in kinds if self.opening else reversed(kinds):
+        pushed: list[Contact] = [] if face is None else [*pushes(self._travel, face)]
+        gripped: list[Contact] = [
+            *sorted(
+                (grip for grasp in self.part.grasps for grip in grips(self._travel, grasp)),
+                key=lambda grip: grip.cost,
+            )
+        ]
+        kinds = [gripped, pushed]
+        if not self.opening:
+            kinds.reverse()
+        for kind in (self._again(chain(*kinds)), *kinds):
             for contact in kind:
                 met = self._room(contact)
                 if isinstance(contact, Grip) and (met is None or not met.free):
@@ -177,6 +190,23 @@ class PartSearch:
                         contact, met = narrow, squeezed
                 if met is not None:
                     yield _Hold(contact, met)
+
+    def _again(self, contacts: Iterable[Contact]) -> list[Contact]:
+        """The contact that is most like the rehearsed one, if any is."""
+        if self._rehearsed is None:
+            return []
+        part, wanted = self._travel.at(self._travel.value), self._rehearsed
+        ranked: list[tuple[float, float, int, Contact]] = []
+        for number, contact in enumerate(contacts):
+            tool = part.inverse() @ contact.touching(part)
+            off = float(np.linalg.norm(tool.position - wanted.position))
+            cosine = float(tool.rotation[:, 2] @ wanted.rotation[:, 2])
+            if contact.grip:
+                # With the fingers exchanged it is the same hold; closed ones may turn any way.
+                cosine = min(cosine, abs(float(tool.rotation[:, 1] @ wanted.rotation[:, 1])))
+            if off <= ALIKE and cosine >= ALIKE_COSINE:
+                ranked.append((round(off, 4), -cosine, number, contact))
+        return [min(ranked, key=lambda item: item[:3])[3]] if ranked else []
 
     def _room(self, contact: Contact) -> Passage | None:
         """What the hand meets at a contact and before it; None where it has no room."""

@@ -31,8 +31,13 @@ CLEAR_OF_RODS = 0.12
 own world model failed on exactly this (section "Failure case analysis")."""
 
 
-def put_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcome]:
-    """Motions that put the held object down, best first; the reason where there is none."""
+def put_motions(
+    belief: Belief, action: Action, rehearsed: Motion | None = None
+) -> Iterator[Motion | SkillOutcome]:
+    """Motions that put the held object down, best first; the reason where there is none.
+
+    The place of a ``rehearsed`` motion comes first, relative to where its target now is.
+    """
     name = belief.held()
     if name is None:
         yield failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
@@ -40,7 +45,7 @@ def put_motions(belief: Belief, action: Action) -> Iterator[Motion | SkillOutcom
     attached = belief.attach(name)
     way = placements_on if action.verb is Verb.PUT_ON else placements_into
     found, out_of_reach = False, False
-    for placement in way(belief, action, name):
+    for placement in way(belief, action, name, _again(belief, action, rehearsed)):
         if isinstance(placement, SkillOutcome):
             yield placement
             return
@@ -82,6 +87,14 @@ def _motion(
         object_at=framed(*_target_frame(belief, action.target), tool @ attached.in_tool),
         details={"release": placement.release, "drop": placement.drop},
     )  # fmt: skip
+
+
+def _again(belief: Belief, action: Action, rehearsed: Motion | None) -> Pose | None:
+    """Where an earlier motion let go, carried over to where the target is."""
+    if rehearsed is None or rehearsed.object_at is None:
+        return None
+    _, target = _target_frame(belief, action.target)
+    return target @ rehearsed.object_at.pose
 
 
 def _clear(belief: Belief, name: str, placement: Placement) -> tuple[Vector, float]:

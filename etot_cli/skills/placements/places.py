@@ -8,7 +8,7 @@ that, for the best places only (``placement.py``).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property
 
@@ -79,6 +79,9 @@ STABLE, STABLE_SHARE = 0.006, 0.35
 floor: more than a placement errs [m], and so much of the thing's own half width."""
 MAX_PILED = 150
 """Places on top of others whose stability is looked at, the most promising."""
+NEAR = 0.02
+"""A rehearsed place that no longer does is moved by so much at most [m]: what was drawn and seen
+wrongly together; farther away another place may be better."""
 DIRECTIONS = 16
 """Sides from which that is looked at."""
 NEXT_ROOM = 1.1
@@ -120,6 +123,7 @@ class Request:
         preference: extra cost of places.
         at: places x, y that are looked at besides those of a grid, base frame [m].
         absent: objects taken for not being there.
+        rehearsed: where it was let go in a scene much like this one; looked at first.
     """
 
     attached: Attached
@@ -129,6 +133,7 @@ class Request:
     preference: Preference | None = None
     at: tuple[tuple[float, float], ...] = ()
     absent: frozenset[str] = field(default_factory=frozenset)
+    rehearsed: Pose | None = None
 
 
 @dataclass(frozen=True)
@@ -188,8 +193,7 @@ class PlaceFinder:
         self._entry = belief.world.entries[name]
         self.relief: Relief = relief(belief, support, {name, *request.absent})
         self._on_desk = support.owner is None
-        self._cells = self._grid()
-        self._points = self.relief.points(self._cells)
+        self._look_at(self._grid())
 
     def places(self, *, as_held: bool = False) -> Iterator[Place]:
         """The places, the best first; worked out as they are asked for.
@@ -197,6 +201,9 @@ class PlaceFinder:
         Args:
             as_held: only those where the object is not laid down.
         """
+        rehearsed = self._request.rehearsed
+        if rehearsed is not None and not as_held:
+            yield from self._again(rehearsed)
         groups = orientations(self._belief, self._request.attached, self._support)
         if as_held:
             groups = [group for group in groups if not group.laid]
@@ -210,7 +217,28 @@ class PlaceFinder:
                     tables.append(table)
                 yield from self._of_quality(tables[index], quality)
 
+    def _again(self, rehearsed: Pose) -> Iterator[Place]:
+        """Good places as near to a rehearsed one as they get, the nearest first."""
+        relief, cells = self.relief, self._cells
+        there = np.round(self._support.local(rehearsed.position[None, :2]) / relief.cell)
+        count = int(NEAR / relief.cell)
+        steps = np.arange(-count, count + 1)
+        around = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+        offsets: Cells = there.astype(np.int64) + around
+        within = self._support.inside(np.asarray(offsets * relief.cell))
+        self._look_at(offsets[within] + relief.middle)
+        table = self._judge(rehearsed.rotation)
+        away = np.linalg.norm(self._points - rehearsed.position[:2], axis=1)
+        table = replace(table, cost=np.where(np.isfinite(table.cost), away, np.inf))
+        for quality in (Quality.GOOD, Quality.DROPPED):
+            yield from self._of_quality([table], quality, look_ahead=False)
+        self._look_at(cells)
+
     # -- judging all places ------------------------------------------------------------------------
+
+    def _look_at(self, cells: Cells) -> None:
+        """The cells (m, 2) that are judged from here on."""
+        self._cells, self._points = cells, self.relief.points(cells)
 
     def _grid(self) -> Cells:
         """Cells (m, 2) of the floor that are looked at, the middle among them."""
@@ -333,13 +361,15 @@ class PlaceFinder:
 
     # -- the best ones -----------------------------------------------------------------------------
 
-    def _of_quality(self, table: Sequence[_Turned], quality: Quality) -> Iterator[Place]:
+    def _of_quality(
+        self, table: Sequence[_Turned], quality: Quality, *, look_ahead: bool = True
+    ) -> Iterator[Place]:
         found = [
             (float(turned.cost[index]), turn, int(index))
             for turn, turned in enumerate(table)
             for index in np.nonzero(turned.kind == quality)[0]
         ]
-        if quality is Quality.GOOD and found and not self._on_desk:
+        if look_ahead and quality is Quality.GOOD and found and not self._on_desk:
             room = self._room_left(table, found)
             found = [(cost + room[index], turn, index) for cost, turn, index in found]
         if self._support.from_front:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.places import Preference, Request
@@ -21,8 +22,12 @@ Placements = Iterator[Placement | SkillOutcome]
 """Best first; the reason as the only item where there is none."""
 
 
-def placements_on(belief: Belief, action: Action, name: str) -> Placements:
-    """Ways to put the held object ``name`` on a surface, each at another place."""
+def placements_on(
+    belief: Belief, action: Action, name: str, rehearsed: Pose | None = None
+) -> Placements:
+    """Ways to put the held object ``name`` on a surface, each at another place, those near where it
+    was let go in rehearsal first.
+    """
     support = surface_support(belief, action.target)
     if support is None:
         text = f"{action.target} has no flat top to put something on"
@@ -35,17 +40,20 @@ def placements_on(belief: Belief, action: Action, name: str) -> Placements:
         strict=action.safe,
         preference=_preference(belief, action, name),
         at=tuple(where.point for where in action.where if where.point is not None),
+        rehearsed=rehearsed,
     )
     yield from _placements(belief, request)
 
 
-def placements_into(belief: Belief, action: Action, name: str) -> Placements:
+def placements_into(
+    belief: Belief, action: Action, name: str, rehearsed: Pose | None = None
+) -> Placements:
     """Ways to put the held object ``name`` into a container; a rod stands where it must."""
     support = container_support(belief, action.target)
     if support is None:
         yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
         return
-    yield from _placements(belief, Request(belief.attach(name), support))
+    yield from _placements(belief, Request(belief.attach(name), support, rehearsed=rehearsed))
 
 
 def _placements(belief: Belief, request: Request) -> Placements:
