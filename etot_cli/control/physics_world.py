@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from dataclasses import dataclass
 
 import mujoco
@@ -51,6 +52,10 @@ class Performed:
     trajectory: Trajectory | None
     motion: Motion | None = None
     trace: Trace | None = None
+    physics_s: float = 0.0
+    """Time spent stepping, all attempts together [s]."""
+    kinematics_s: float = 0.0
+    """Time spent on everything else, which is looking for grasps, places and ways [s]."""
 
 
 class PhysicsWorld:
@@ -68,6 +73,8 @@ class PhysicsWorld:
         self.seed = seed
         self.keep_frames = keep_frames
         self.total_steps = 0
+        self.stepping_s = 0.0
+        """Time spent stepping motions so far [s]."""
 
     def start(self) -> tuple[Snapshot, SceneState]:
         """The settled initial state."""
@@ -126,10 +133,12 @@ class PhysicsWorld:
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
         robot = SimulatedRobot(world, data, recorder, self.deadline)
+        begun = time.perf_counter()
         if recorded is None:
             trace = run_motion(motion, robot, self.limits)
         else:
             trace = replay(recorded, robot)
+        self.stepping_s += time.perf_counter() - begun
         self.total_steps += robot.steps
         after, end = self._awake(start.memory)
         outcome = outcome_of(belief, action, motion, trace, after)

@@ -46,6 +46,10 @@ class Simulated:
     outcomes: Sequence[WorldOutcome]
     end: StateToken
     wall_s: float
+    physics_s: float = 0.0
+    """Of the processes' time, all worlds together: stepping [s]."""
+    kinematics_s: float = 0.0
+    """The same: looking for grasps, places and ways [s]."""
 
 
 class Simulator(Protocol):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import time
+from dataclasses import dataclass, replace
 
 from etot_cli.control.physics_world import Performed, PhysicsWorld
 from etot_cli.control.simulated_world import SimulatedWorld
@@ -74,9 +75,15 @@ class Worlds:
             rehearsed: in a varied world, the motion that the twin ended up with.
         """
         self._twin.deadline.at_s = until_s
+        world = self._all[index]
+        begun, stepped = time.perf_counter(), world.stepping_s
         if index == 0:
-            return self._twin.perform(snapshot, action)
-        return self._others[index - 1].perform(snapshot, action, rehearsed)
+            performed = self._twin.perform(snapshot, action)
+        else:
+            performed = self._others[index - 1].perform(snapshot, action, rehearsed)
+        physics_s = world.stepping_s - stepped
+        whole_s = time.perf_counter() - begun
+        return replace(performed, physics_s=physics_s, kinematics_s=whole_s - physics_s)
 
     def unperformed(self, index: int, snapshot: Snapshot, cause: Cause) -> Performed:
         """The record of an action that was not carried out in a world."""

@@ -87,6 +87,10 @@ class Statistics:
     """Physics time, all worlds together [s]."""
     wall_s: float = 0.0
     """Time from the start of the search to its end [s]."""
+    physics_s: float = 0.0
+    """Processes' time spent stepping; with several jobs more than the clock shows [s]."""
+    kinematics_s: float = 0.0
+    """The same, spent looking for grasps, places and ways [s]."""
     steps: int = 0
     """Physics steps, all worlds together."""
 

@@ -245,6 +245,8 @@ class _Search:
         self._statistics.nodes_evaluated += 1
         self._statistics.simulated_s += node.simulated_s
         self._statistics.steps += node.steps
+        self._statistics.physics_s += simulated.physics_s
+        self._statistics.kinematics_s += simulated.kinematics_s
 
     def _revise(self, node: PlanNode) -> None:
         """Takes a failed node out and reflects on every branch that ran through it."""

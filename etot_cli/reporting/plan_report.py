@@ -171,6 +171,10 @@ class StatisticsModel(Model):
     wall_s: Seconds
     reasoning_s: Seconds = 0.0
     """Of wall_s, what the reasoner took; the rest is kinematics and physics."""
+    physics_s: Seconds = 0.0
+    """Time that processes spent stepping physics, those of all jobs added up."""
+    kinematics_s: Seconds = 0.0
+    """The same, looking for grasps, places and ways: inverse kinematics and collision checks."""
     steps: Count
     """Physics steps, all worlds together."""
     limit: (
@@ -394,6 +398,8 @@ def statistics_model(result: SearchResult) -> StatisticsModel:
         reflections=cost.reflections,
         simulated_s=seconds(cost.simulated_s),
         wall_s=seconds(cost.wall_s),
+        physics_s=seconds(cost.physics_s),
+        kinematics_s=seconds(cost.kinematics_s),
         steps=cost.steps,
         limit=None if result.limit is None else result.limit.value,
     )

@@ -173,6 +173,12 @@ class Summary:
             f"{cost.simulated_s:.1f} s simulated in {cost.wall_s:.1f} s"
         )
         self._say(Text(line, style="dim"), 2)
+        if self._verbosity is Verbosity.VERBOSE and cost.physics_s + cost.kinematics_s > 0:
+            line = (
+                f"processes: physics {cost.physics_s:.1f} s, inverse kinematics "
+                f"{cost.kinematics_s:.1f} s; reasoning {cost.reasoning_s:.1f} s"
+            )
+            self._say(Text(line, style="dim"), 2)
         if report.vlm is not None:
             self._model(report.vlm)
         survival = report.survival

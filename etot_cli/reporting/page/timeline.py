@@ -20,6 +20,23 @@ SMALLEST_S = 0.005
 """Shorter parts are not worth a line [s]."""
 
 
+def _simulating(wall_s: float, statistics: object) -> list[dict[str, Any]]:
+    """The time of simulating, shared out as the processes shared theirs, which run side by side."""
+    physics = getattr(statistics, "physics_s", 0.0)
+    kinematics = getattr(statistics, "kinematics_s", 0.0)
+    worked = physics + kinematics
+    if worked <= 0.0:
+        return [{"name": "simulating", "seconds": wall_s, "note": ""}]
+    return [
+        {"name": "physics", "seconds": wall_s * physics / worked, "note": "stepping"},
+        {
+            "name": "inverse kinematics",
+            "seconds": wall_s * kinematics / worked,
+            "note": "grasps, places and ways",
+        },
+    ]
+
+
 def time_parts(timing: TimingModel, statistics: object = None) -> dict[str, Any]:
     """What the template's time bar takes: ``time_parts`` and ``time_total``."""
     phases = dict(timing.phases)
@@ -29,10 +46,7 @@ def time_parts(timing: TimingModel, statistics: object = None) -> dict[str, Any]
     if search is not None and reasoning is not None:
         del phases["search"]
         parts.append({"name": "reasoning", "seconds": reasoning, "note": ""})
-        simulating = max(0.0, search - reasoning)
-        parts.append(
-            {"name": "simulating", "seconds": simulating, "note": "kinematics, paths and physics"}
-        )
+        parts += _simulating(max(0.0, search - reasoning), statistics)
     for name, seconds in phases.items():
         parts.append({"name": PHASE_WORDS.get(name, name), "seconds": seconds, "note": ""})
     rest = timing.wall_s - sum(part["seconds"] for part in parts)
