@@ -15,6 +15,7 @@ from typing import Annotated, Any
 
 import typer
 
+from etot_cli.cli.execute import execute
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
 from etot_cli.cli.interrupts import asked_to_stop, finish, listen
 from etot_cli.cli.memory import check_address_space, is_lack_of_memory, spare_threads
@@ -56,6 +57,7 @@ app = typer.Typer(
 )
 app.command()(interruptible(plan))
 app.command()(interruptible(simulate))
+app.command()(interruptible(execute))
 app.command()(interruptible(reconstruct))
 app.command()(interruptible(new))
 app.command()(interruptible(tasks, light=True))

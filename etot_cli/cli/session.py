@@ -15,6 +15,7 @@ from etot_cli.cli.exits import INTERRUPTED, NO, OK
 from etot_cli.cli.interrupts import uninterrupted
 
 if TYPE_CHECKING:
+    from etot_cli.execution.trial import ExecutionObserver
     from etot_cli.planning.result import SearchObserver
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
@@ -77,6 +78,22 @@ class Session:
         else:
             with live:
                 yield live
+
+    @contextmanager
+    def execution_observer(self) -> Iterator[ExecutionObserver | None]:
+        """Shows trials: in place on a terminal, else a line per event, or nothing."""
+        from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
+        from etot_cli.reporting.style import Verbosity, make_console
+
+        console = make_console(sys.stderr)
+        detailed = self._verbosity is Verbosity.VERBOSE
+        if self._verbosity is Verbosity.QUIET:
+            yield None
+        elif self._json or not console.is_terminal or console.is_dumb_terminal:
+            yield ExecutionLog(sys.stderr, detailed=detailed)
+        else:
+            with ExecutionView(console, f"etot execute {self._subject}") as view:
+                yield view
 
     def log(self) -> PlainLog | None:
         """Plain progress lines on standard error; None when quiet."""

@@ -99,6 +99,8 @@ class Loop:
         while True:
             if status.status != FEASIBLE:
                 return Ended.FAILED, f"no plan: {status.reason or status.status}"
+            if self._options.dry_run:
+                return Ended.PLANNED, "there is a plan; nothing was moved (dry run)"
             ended, reason = self._follow_plan()
             if ended is not None:
                 return ended, reason
@@ -152,7 +154,7 @@ class Loop:
             expected = self._scene
             self._snapshot, self._scene = self._twin.see(seen, self._command)
         differs = () if expected is None else differences(expected, self._scene)
-        look = Look(self._robot_s(), why, seen, differs, self._errors(seen), spent())
+        look = Look(self._robot_s(), why, seen, differs, self._scene, self._errors(seen), spent())
         self._looks.append(look)
         self._observer.looked(look)
         return differs
@@ -359,7 +361,8 @@ class Loop:
         evaluation = None
         if ended in (Ended.CARRIED_OUT, Ended.FAILED) and final is not None:
             evaluation = evaluate(self._task.success, final, self._harm)
-        status = {Ended.INTERRUPTED: "interrupted", Ended.LOST: "lost"}.get(ended, "failure")
+        told = (Ended.INTERRUPTED, Ended.LOST, Ended.PLANNED)
+        status = ended.value if ended in told else "failure"
         if ended is Ended.CARRIED_OUT and evaluation is not None:
             status = "success" if evaluation.success else "failure"
             if status == "failure":

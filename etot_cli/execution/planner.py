@@ -18,6 +18,9 @@ from etot_cli.specs.scene import Scene
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import SceneState
 
+KEPT = 3
+"""Twins that are kept: the task's own, and those of scenes onto which something came."""
+
 
 @dataclass
 class TreePlanner:
@@ -87,3 +90,45 @@ def _why_not(status: SearchStatus) -> str | None:
     if status is SearchStatus.INFEASIBLE:
         return "every branch and every correction fails in the twin"
     return None
+
+
+class TreePlanners:
+    """Makes tree planners for scenes, and keeps them: a twin is built once.
+
+    Args:
+        assignment: what is asked for.
+        seed: of the motions' random choices.
+        limits: of each search.
+        without: mechanisms that the searches go without.
+    """
+
+    def __init__(
+        self,
+        assignment: Assignment,
+        *,
+        seed: int = 0,
+        limits: Limits | None = None,
+        without: frozenset[Ablation] = frozenset(),
+    ) -> None:
+        self._assignment, self._seed = assignment, seed
+        self._limits, self._without = limits or Limits(), without
+        self._made: list[TreePlanner] = []
+
+    def __call__(self, scene: Scene) -> TreePlanner:
+        """The planner of a twin of this scene."""
+        known = next((planner for planner in self._made if planner.scene == scene), None)
+        if known is not None:
+            return known
+        made = TreePlanner(
+            self._assignment, scene, seed=self._seed, limits=self._limits, without=self._without
+        )
+        self._made.append(made)
+        for old in self._made[:-KEPT]:
+            old.close()
+        del self._made[:-KEPT]
+        return made
+
+    def close(self) -> None:
+        """Ends worker processes; idempotent."""
+        for planner in self._made:
+            planner.close()

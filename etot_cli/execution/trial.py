@@ -36,6 +36,8 @@ class Ended(StrEnum):
 
     CARRIED_OUT = "carried_out"
     """The last plan was carried out, and nothing looked wrong."""
+    PLANNED = "planned"
+    """There is a plan, and nothing was to be moved."""
     FAILED = "failure"
     INTERRUPTED = "interrupted"
     LOST = "lost"
@@ -67,7 +69,9 @@ class TrialOptions:
     max_robot_s: float = MAX_SIMULATED_S
     perception: str = "state"
     record: bool = False
-    """Keep configurations of both worlds for rendering."""
+    """Keep configurations for rendering."""
+    dry_run: bool = False
+    """Connect, look and plan, but move nothing."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +91,8 @@ class Look:
     why: str
     observation: Observation
     differs: tuple[Difference, ...] = ()
+    scene: SceneState | None = None
+    """What is believed after it."""
     error_m: Mapping[str, float] = field(default_factory=dict)
     """How far each object was seen from where it truly was [m]; empty where the truth is not
     known."""
@@ -150,7 +156,8 @@ class Trial:
     seed: int
     number: int
     status: str
-    """``success``, ``failure``, ``interrupted``, or ``lost`` where a device was."""
+    """``success``, ``failure``, ``planned`` in a dry run, ``interrupted``, or ``lost``, where a
+    device was."""
     reason: str
     """Why it ended, in a sentence."""
     robot: str
@@ -220,6 +227,18 @@ class TrialObserver(Protocol):
         ...
 
 
+class ExecutionObserver(TrialObserver, Protocol):
+    """Watches all trials; those that run beside each other are only told of when they end."""
+
+    def trial_started(self, number: int, total: int) -> None:
+        """A trial begins; its number from 0."""
+        ...
+
+    def trial_ended(self, trial: Trial, total: int) -> None:
+        """It is over."""
+        ...
+
+
 class SilentTrial:
     """Watches and says nothing."""
 
@@ -252,8 +271,8 @@ class Cell:
     world: ExecutionWorld | None = None
 
 
-def simulated_cell(task: Task, options: TrialOptions) -> Cell:
-    """A simulated robot in a world of its own, seen with the scene's perception error.
+def simulated_world(task: Task, options: TrialOptions) -> ExecutionWorld:
+    """The world of one trial, drawn by the seed and the trial's number.
 
     Raises:
         WorldError: the scene cannot be built.
@@ -264,7 +283,16 @@ def simulated_cell(task: Task, options: TrialOptions) -> Cell:
         if options.disturb and item.add is not None and item.object is not None
     }
     seed = world_seed(options.seed, "execute", options.number)
-    world = ExecutionWorld(task.scene, seed, added, keep_frames=options.record)
+    return ExecutionWorld(task.scene, seed, added, keep_frames=options.record)
+
+
+def simulated_cell(task: Task, options: TrialOptions) -> Cell:
+    """A simulated robot in a world of its own, seen with the scene's perception error.
+
+    Raises:
+        WorldError: the scene cannot be built.
+    """
+    world = simulated_world(task, options)
     return Cell(SimulatedDevice(world), StateEyes(world, task.scene.perception), world)
 
 
@@ -319,4 +347,4 @@ def run_trial(
     return loop.trial(*ended)
 
 
-__all__ = ["Cell", "Trial", "TrialOptions", "run_trial", "simulated_cell"]
+__all__ = ["Cell", "Trial", "TrialOptions", "run_trial", "simulated_cell", "simulated_world"]

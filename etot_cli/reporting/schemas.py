@@ -6,6 +6,7 @@ import json
 import sys
 from pathlib import Path
 
+from etot_cli.reporting.execute_report import ExecuteReport
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.models import Model
 from etot_cli.reporting.motion_report import TrajectoryModel
@@ -17,6 +18,7 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 REPORTS: dict[str, type[Model]] = {
     "etot.plan-1.json": PlanReport,
     "etot.simulate-1.json": SimulateReport,
+    "etot.execute-1.json": ExecuteReport,
     "etot.reconstruct-1.json": ReconstructReport,
     "etot.trajectory-1.json": TrajectoryModel,
 }

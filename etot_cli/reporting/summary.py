@@ -12,6 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.text import Text
 
+from etot_cli.reporting.execute_report import CLASSES, ExecuteReport, HappenedModel, TrialModel
 from etot_cli.reporting.failures import Failure, distinct_failures
 from etot_cli.reporting.plan_report import DoubtModel, NodeModel, PlanReport, VlmModel
 from etot_cli.reporting.simulate_report import SimulateReport
@@ -101,6 +102,87 @@ class Summary:
             word = "the same, to the byte, as" if same else "another than"
             self._say(f"the end state is {word} when it was planned", 2)
         self._files(path, report.files)
+
+    def execute(self, report: ExecuteReport, path: Path) -> None:
+        """How the trials went."""
+        many = report.options.trials > 1
+        told = f"{report.successes} of {counted(len(report.trials), 'trial')} succeeded"
+        if self._verbosity is Verbosity.QUIET:
+            why = report.reason or " ".join(item.action for item in report.trials[-1].actions)
+            self._line(f"{report.status}: {f'{told}; ' if many else ''}{why}")
+            return
+        words = {"success": "the task is done", "failure": "the task is not done"}
+        if report.options.dry_run:
+            words["success"] = "there is a plan; nothing was moved"
+        instead = told if many and not report.interrupted else words.get(report.status, "")
+        self._headline(report.status, report.task.instruction, instead)
+        if many:
+            for trial in report.trials:
+                self._trial(trial)
+            failed = sum(trial.status == "failure" for trial in report.trials)
+            if failed:
+                self._attribution(report, failed)
+        elif report.trials:
+            self._only_trial(report.trials[0])
+        elif report.reason:
+            self._say(report.reason, 2)
+        self._files(path, report.files)
+
+    def _trial(self, trial: TrialModel) -> None:
+        line = Text(f"{trial.number:>3} ", style="dim")
+        line.append_text(badge(_as_verdict(trial.status), self._unicode))
+        notes = [counted(len(trial.actions), "action")]
+        if trial.replans:
+            notes.append(counted(trial.replans, "replan"))
+        line.append(f" {', '.join(notes)}")
+        if trial.status not in ("success", "planned"):
+            kind = f" ({trial.failure_class.replace('_', ' ')})" if trial.failure_class else ""
+            line.append(f"  {trial.reason}{kind}")
+        self._say(line, 2, 6)
+
+    def _attribution(self, report: ExecuteReport, failed: int) -> None:
+        self._say("Whose failure it was", 2)
+        for name in (*CLASSES, "none"):
+            count = getattr(report.attribution, name)
+            word = "nobody's" if name == "none" else name.replace("_", " ")
+            self._say(f"{word:<12} {count:>3}  {100 * count / failed:.0f} %", 4)
+
+    def _only_trial(self, trial: TrialModel) -> None:
+        widest = _widest([item.action for item in trial.actions])
+        happened = list(trial.disturbances)
+        for plan in trial.plans:
+            # What was done before a plan was made is what it was made for.
+            self._happened(happened, plan.after_actions if plan.index else -1)
+            if plan.index:
+                self._say(f"planned anew: {plan.reason}", 2, 4)
+            for item in trial.actions:
+                if item.plan != plan.index:
+                    continue
+                self._happened(happened, item.index)
+                self._action(
+                    item.index + 1, item.status, item.action, item.safe, item.changes, widest
+                )
+                if item.status != "success":
+                    kind = item.status if item.cause is None else f"{item.cause.kind}"
+                    self._why(item.status, kind, item.cause.text if item.cause else "", 6)
+        self._happened(happened, len(trial.actions))
+        for condition in trial.conditions:
+            self._condition(condition.condition, condition.held)
+        if trial.status not in ("success", "planned"):
+            self._say(trial.reason, 2)
+            if trial.failure_class:
+                self._say(f"failure of: {trial.failure_class.replace('_', ' ')}", 2)
+        numbers = (
+            f"{counted(len(trial.actions), 'action')}, {counted(trial.replans, 'replan')}, "
+            f"{counted(len(trial.looks), 'look')}, {trial.robot_s:.1f} s of the robot's time; "
+            + ", ".join(f"{key} {value:.1f} s" for key, value in trial.timing.items())
+        )
+        self._say(Text(numbers, style="dim"), 2)
+
+    def _happened(self, left: list[HappenedModel], after_actions: int) -> None:
+        """Tells what somebody did up to then, each thing once."""
+        while left and left[0].after_actions <= after_actions:
+            self._say(f"somebody: {left.pop(0).text}", 2, 4)
 
     def _headline(self, status: str, instruction: str, instead: str = "") -> None:
         line = badge(status, self._unicode)
@@ -243,6 +325,11 @@ def _refused(doubt: DoubtModel) -> str:
         return f"the model says that nothing is to be done, but {doubt.why}"
     plan = " ".join(doubt.actions)
     return f"the model's plan {plan} works, but it is not what was asked for: {doubt.why}"
+
+
+def _as_verdict(status: str) -> str:
+    """How a trial's status looks."""
+    return {"planned": "success", "lost": "failure"}.get(status, status)
 
 
 def _widest(names: Sequence[str]) -> int:

@@ -11,6 +11,7 @@ PHASE_WORDS = {
     "world": "building the world",
     "search": "searching",
     "simulate": "simulating",
+    "execute": "executing",
     "render": "rendering",
     "reconstruct": "reconstructing",
     "write": "writing files",

@@ -1,0 +1,241 @@
+"""``etot execute``: carries a task out in closed loop, once or several times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from etot_cli.commands import rooms as doors
+from etot_cli.commands.plan import task_model
+from etot_cli.errors import EtotError, ServiceError
+from etot_cli.execution.devices import SIMULATED, DeviceRequest, check_names, open_cell
+from etot_cli.execution.planner import TreePlanners
+from etot_cli.execution.trial import (
+    ExecutionObserver,
+    Trial,
+    TrialObserver,
+    TrialOptions,
+    run_trial,
+)
+from etot_cli.planning.options import Limits
+from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reporting.execute_report import (
+    ExecuteOptionsModel,
+    ExecuteReport,
+    attribution_of,
+    trial_model,
+)
+from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.specs.task import Task
+from etot_cli.world.workers import WorkerLostError, WorkerPool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExecuteOptions:
+    """What ``etot execute`` is asked to do."""
+
+    task: Path
+    seed: int = 0
+    trials: int = 1
+    jobs: int = 1
+    """Trials that run side by side."""
+    disturb: bool = True
+    replan: bool = True
+    robot: str = SIMULATED
+    perception: str = "state"
+    dry_run: bool = False
+    yes: bool = False
+    grasp_url: str | None = None
+    record: bool = False
+    limits: Limits = field(default_factory=Limits)
+
+    def trial(self, number: int) -> TrialOptions:
+        """The options of one trial."""
+        return TrialOptions(
+            seed=self.seed,
+            number=number,
+            disturb=self.disturb,
+            replan=self.replan,
+            perception=self.perception,
+            record=self.record,
+            dry_run=self.dry_run,
+        )
+
+
+@dataclass(slots=True)
+class Execution:
+    """The report, and what pages and films need besides it."""
+
+    report: ExecuteReport
+    task: Task | None
+    trials: list[Trial]
+
+    @property
+    def lost(self) -> bool:
+        """Whether a device was lost."""
+        return any(trial.status == "lost" for trial in self.trials)
+
+
+def run_execute(
+    options: ExecuteOptions,
+    observer: ExecutionObserver | None = None,
+    rooms: doors.Rooms | None = None,
+) -> Execution:
+    """Carries a task out.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: the robot is stopped and the report says
+    ``interrupted``.
+
+    Args:
+        options: the task, the robot and how often.
+        observer: told of everything.
+        rooms: the rooms below; this package's own when None.
+
+    Raises:
+        EtotError: the input is unusable or something that is needed is missing.
+    """
+    watch = Stopwatch()
+    task: Task | None = None
+    trials: list[Trial] = []
+    interrupted = False
+    try:
+        rooms = rooms or doors.default_rooms()
+        check_names(options.robot, options.perception)
+        if options.jobs > 1 and options.robot.partition(":")[0] != SIMULATED:
+            raise EtotError(f"--jobs {options.jobs}: there is one robot {options.robot}")
+        with watch.phase("load"):
+            task = rooms.load_task(options.task)
+        with watch.phase("execute"):
+            for trial in _trials(options, task, observer):
+                trials.append(trial)
+                if observer is not None:
+                    observer.trial_ended(trial, options.trials)
+                if trial.status in ("interrupted", "lost"):
+                    break
+    except KeyboardInterrupt:
+        interrupted = True
+    trials.sort(key=lambda trial: trial.number)
+    return Execution(_report(options, task, trials, interrupted, watch), task, trials)
+
+
+def _trials(
+    options: ExecuteOptions, task: Task, observer: ExecutionObserver | None
+) -> Iterator[Trial]:
+    if min(options.jobs, options.trials) > 1:
+        yield from _side_by_side(options, task)
+        return
+    with closing(_Runner(options, task)) as runner:
+        for number in range(options.trials):
+            if observer is not None:
+                observer.trial_started(number, options.trials)
+            yield runner.run(number, observer)
+
+
+def _side_by_side(options: ExecuteOptions, task: Task) -> Iterator[Trial]:
+    """Trials in worker processes, as they end.
+
+    Raises:
+        ServiceError: a trial's process was lost twice.
+    """
+    with closing(WorkerPool(options.jobs, _begin, (options, task))) as pool:
+        waiting: set[Future[Trial]] = {
+            pool.submit(_run_one, number) for number in range(options.trials)
+        }
+        while waiting:
+            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+            for future in done:
+                try:
+                    yield future.result()
+                except WorkerLostError as error:
+                    raise ServiceError(f"a trial was lost: {error}") from None
+
+
+class _Runner:
+    """Runs trials of one task, one after the other, with planners that they share."""
+
+    def __init__(self, options: ExecuteOptions, task: Task) -> None:
+        self._options, self._task = options, task
+        self._planners = TreePlanners(
+            Assignment(task.instruction, task.goal), seed=options.seed, limits=options.limits
+        )
+
+    def run(self, number: int, observer: TrialObserver | None = None) -> Trial:
+        options = self._options
+        trial = options.trial(number)
+        request = DeviceRequest(
+            task=self._task, options=trial, robot=options.robot, perception=options.perception,
+            dry_run=options.dry_run, yes=options.yes, grasp_url=options.grasp_url,
+        )  # fmt: skip
+        return run_trial(self._task, self._planners, trial, observer, open_cell(request))
+
+    def close(self) -> None:
+        self._planners.close()
+
+
+_runners: list[_Runner] = []
+"""Of a worker process: the one it was begun with."""
+
+
+def _begin(options: ExecuteOptions, task: Task) -> None:
+    _runners[:] = [_Runner(options, task)]
+
+
+def _run_one(number: int) -> Trial:
+    return _runners[0].run(number)
+
+
+def _report(
+    options: ExecuteOptions,
+    task: Task | None,
+    trials: list[Trial],
+    interrupted: bool,
+    watch: Stopwatch,
+) -> ExecuteReport:
+    interrupted = interrupted or any(trial.status == "interrupted" for trial in trials)
+    successes = sum(trial.success for trial in trials)
+    good = sum(trial.success or trial.status == "planned" for trial in trials)
+    status: Literal["success", "failure"] = "failure"
+    if trials and good == options.trials:
+        status = "success"
+    limits = options.trial(0)
+    return ExecuteReport(
+        status="interrupted" if interrupted else status,
+        reason="" if status == "success" else _reason(trials, interrupted),
+        seed=options.seed,
+        interrupted=interrupted,
+        versions=versions(),
+        timing=watch.timing(),
+        task=task_model(options.task, task),
+        files={},
+        options=ExecuteOptionsModel(
+            robot=options.robot,
+            perception=options.perception,
+            dry_run=options.dry_run,
+            disturb=options.disturb,
+            replan=options.replan,
+            trials=options.trials,
+            jobs=options.jobs,
+            max_replans=limits.max_replans,
+            max_actions=limits.max_actions,
+            max_robot_s=limits.max_robot_s,
+            max_nodes=options.limits.max_nodes,
+            grasp_url=options.grasp_url,
+        ),
+        successes=successes,
+        trials=[trial_model(trial, task.success if task else ()) for trial in trials],
+        attribution=attribution_of(trials),
+    )
+
+
+def _reason(trials: list[Trial], interrupted: bool) -> str:
+    failed = next((one for one in trials if one.status not in ("success", "planned")), None)
+    if failed is not None:
+        return failed.reason
+    return "stopped before it began" if interrupted else "not all trials were run"
+
+
+__all__ = ["ExecuteOptions", "Execution", "run_execute"]

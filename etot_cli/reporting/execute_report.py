@@ -1,0 +1,325 @@
+"""The report of ``etot execute``: schema ``etot.execute/1``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from pydantic import Field
+
+from etot_cli.execution.trial import Carried, Difference, Look, PlanMade, Trial
+from etot_cli.reporting.evidence import MovedModel, moved_models
+from etot_cli.reporting.models import (
+    ActionModel,
+    CauseModel,
+    Count,
+    Metres,
+    Model,
+    Report,
+    Seconds,
+    action_fields,
+    cause_model,
+    seconds,
+)
+from etot_cli.skills.motion.motion import Trace
+from etot_cli.specs.task import Condition
+from etot_cli.specs.wording import describe
+from etot_cli.world.state import RolloutRecord
+
+FailureClassName = Literal["execution", "perception", "world_model", "planning"]
+CLASSES: tuple[FailureClassName, ...] = ("execution", "perception", "world_model", "planning")
+
+
+class ExecuteOptionsModel(Model):
+    """How the trials were run."""
+
+    robot: str
+    perception: str
+    dry_run: bool
+    disturb: bool
+    replan: bool
+    trials: Count
+    jobs: Count
+    max_replans: Count
+    max_actions: Count
+    max_robot_s: Seconds
+    max_nodes: Count
+    grasp_url: str | None
+
+
+class DifferenceModel(Model):
+    """An object that was not as it was before."""
+
+    object: str
+    text: str
+    distance_m: Metres
+
+
+class SightingModel(Model):
+    """Where an object was seen: body pose, base frame."""
+
+    object: str
+    position: tuple[Metres, Metres, Metres]
+    quaternion: tuple[float, float, float, float]
+    mark: Literal["seen", "held", "hidden", "lost"]
+    error_m: Metres | None
+    """From where it truly was; null where the truth is not known."""
+
+
+class LookModel(Model):
+    """One look at the scene."""
+
+    index: Count
+    time_s: Seconds
+    """The robot's time since the trial began."""
+    why: str
+    objects: list[SightingModel]
+    parts: dict[str, float]
+    """Joint values of doors and drawers, m or rad."""
+    differs: list[DifferenceModel]
+    """What was not as it was believed to be before this look."""
+    wall_s: Seconds
+
+
+class PhaseModel(Model):
+    """What became of a phase of a motion."""
+
+    name: str
+    end: Literal["done", "blocked", "missed", "slipped", "out_of_time"]
+    start_s: Seconds
+    end_s: Seconds
+    """Within the motion."""
+    opening_m: Metres
+    """Of the gripper, sensed at the phase's end."""
+
+
+class AttemptModel(Model):
+    """A motion that was run for an action."""
+
+    phases: list[PhaseModel]
+
+
+class CarriedModel(ActionModel):
+    """One action that was carried out, or could not be."""
+
+    index: Count
+    plan: Count
+    """The plan that it belongs to."""
+    status: Literal["success", "failure", "unsafe"]
+    cause: CauseModel | None
+    changes: list[str]
+    """Objects whose state changed, by the looks before and after."""
+    moved: list[MovedModel]
+    attempts: list[AttemptModel]
+    looks: list[Count]
+    """The looks from before the action to after it."""
+    begin_s: Seconds
+    end_s: Seconds
+    """The robot's time since the trial began."""
+    failure_class: FailureClassName | None
+
+
+class PlanMadeModel(Model):
+    """A plan, and why it was made."""
+
+    index: Count
+    reason: str
+    after_actions: Count
+    """Actions that had been carried out by then."""
+    look: Count
+    """The look that it was made from."""
+    status: str
+    stopped: str | None
+    """Why there is no plan; null with one."""
+    actions: list[str]
+    account: dict[str, float]
+    """The planner's numbers: nodes, reflections, simulated_s, …"""
+    wall_s: Seconds
+
+
+class HappenedModel(Model):
+    """Something that somebody did to the scene."""
+
+    text: str
+    after_actions: Count
+    time_s: Seconds
+
+
+class ConditionModel(Model):
+    """One of the task's success conditions in the final state."""
+
+    condition: str
+    held: bool
+
+
+class TrialModel(Model):
+    """One trial."""
+
+    number: Count
+    status: Literal["success", "failure", "planned", "interrupted", "lost"]
+    """Planned: there is a plan, and nothing was to be moved. Lost: a device was."""
+    reason: str
+    """Why it ended."""
+    success: bool
+    harm: list[str]
+    """What the robot harmed, in words."""
+    failure_class: FailureClassName | None
+    replans: Count
+    actions: list[CarriedModel]
+    looks: list[LookModel]
+    plans: list[PlanMadeModel]
+    disturbances: list[HappenedModel]
+    conditions: list[ConditionModel]
+    """Evaluated on the true final state where it is known; empty where the trial came to no end."""
+    device: str
+    """What the robot said it is."""
+    robot_s: Seconds
+    """Time that the robot acted."""
+    timing: dict[str, Seconds]
+    """Wall time of planning, motions (working them out), execution and looking."""
+
+
+class AttributionModel(Model):
+    """Failed trials by whose failure it was; docs/execute.md tells how that is decided."""
+
+    execution: Count
+    perception: Count
+    world_model: Count
+    planning: Count
+    none: Count
+    """Failed, and nobody's failure: somebody took away what was needed."""
+
+
+class ExecuteReport(Report):
+    """What came of carrying a task out."""
+
+    schema_: Literal["etot.execute/1"] = Field(default="etot.execute/1", alias="schema")
+    status: Literal["success", "failure", "interrupted"]
+    """Success when every trial succeeded, or with dry_run has a plan."""
+    reason: str
+    """Why it is no success, in a sentence; empty when it is."""
+    options: ExecuteOptionsModel
+    successes: Count
+    trials: list[TrialModel]
+    attribution: AttributionModel
+
+
+def trial_model(trial: Trial, success: Sequence[Condition]) -> TrialModel:
+    """A trial as it stands in reports."""
+    held = trial.evaluation.conditions if trial.evaluation is not None else ()
+    return TrialModel.model_validate(
+        {
+            "number": trial.number,
+            "status": trial.status,
+            "reason": trial.reason,
+            "success": trial.success,
+            "harm": list(trial.harm),
+            "failure_class": None if trial.failure_class is None else trial.failure_class.value,
+            "replans": trial.replans,
+            "actions": [_carried(index, item) for index, item in enumerate(trial.actions)],
+            "looks": [_look(index, item) for index, item in enumerate(trial.looks)],
+            "plans": [_plan(index, item) for index, item in enumerate(trial.plans)],
+            "disturbances": [
+                HappenedModel(
+                    text=item.text, after_actions=item.after_actions, time_s=seconds(item.time_s)
+                )
+                for item in trial.disturbances
+            ],
+            "conditions": [
+                ConditionModel(condition=describe(item), held=done)
+                for item, done in zip(success, held, strict=False)
+            ],
+            "device": trial.robot,
+            "robot_s": seconds(trial.robot_s),
+            "timing": {key: seconds(value) for key, value in trial.timing.items()},
+        }
+    )
+
+
+def attribution_of(trials: Sequence[Trial]) -> AttributionModel:
+    """Failed trials counted by class."""
+    failed = [trial for trial in trials if trial.status == "failure"]
+    counts = dict.fromkeys((*CLASSES, "none"), 0)
+    for trial in failed:
+        counts["none" if trial.failure_class is None else trial.failure_class.value] += 1
+    return AttributionModel(**counts)
+
+
+def _carried(index: int, item: Carried) -> CarriedModel:
+    moved = []
+    if item.before is not None and item.after is not None:
+        record = RolloutRecord(item.before, item.after, item.status == "success", item.cause)
+        moved = moved_models(record, item.changes)
+    return CarriedModel.model_validate(
+        {
+            **action_fields(item.action),
+            "index": index,
+            "plan": item.plan,
+            "status": item.status,
+            "cause": cause_model(item.cause),
+            "changes": list(item.changes),
+            "moved": moved,
+            "attempts": [AttemptModel(phases=_phases(trace)) for trace in item.traces],
+            "looks": list(item.looks),
+            "begin_s": seconds(item.begin_s),
+            "end_s": seconds(item.end_s),
+            "failure_class": None if item.failure_class is None else item.failure_class.value,
+        }
+    )
+
+
+def _phases(trace: Trace) -> list[PhaseModel]:
+    return [
+        PhaseModel(
+            name=phase.name,
+            end=phase.end.value,
+            start_s=seconds(phase.start_s),
+            end_s=seconds(phase.end_s),
+            opening_m=phase.opening,
+        )
+        for phase in trace.phases
+    ]
+
+
+def _look(index: int, item: Look) -> LookModel:
+    return LookModel(
+        index=index,
+        time_s=seconds(item.time_s),
+        why=item.why,
+        objects=[
+            SightingModel(
+                object=name,
+                position=_rounded(seen.position),
+                quaternion=_rounded(seen.quaternion),
+                mark=seen.mark.value,
+                error_m=item.error_m.get(name),
+            )
+            for name, seen in item.observation.objects.items()
+        ],
+        parts={key: round(value, 5) for key, value in item.observation.parts.items()},
+        differs=[_difference(one) for one in item.differs],
+        wall_s=seconds(item.wall_s),
+    )
+
+
+def _difference(item: Difference) -> DifferenceModel:
+    return DifferenceModel(object=item.name, text=item.text, distance_m=round(item.distance, 4))
+
+
+def _plan(index: int, item: PlanMade) -> PlanMadeModel:
+    return PlanMadeModel(
+        index=index,
+        reason=item.reason,
+        after_actions=item.after_actions,
+        look=item.look,
+        status=item.status,
+        stopped=item.stopped,
+        actions=[str(action) for action in item.actions],
+        account={key: round(value, 6) for key, value in item.account.items()},
+        wall_s=seconds(item.wall_s),
+    )
+
+
+def _rounded(values: tuple[float, ...]) -> Any:
+    """To hundredths of a millimetre; as many as there were."""
+    return tuple(round(value, 5) for value in values)
