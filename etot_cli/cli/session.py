@@ -15,8 +15,8 @@ from etot_cli.cli.exits import INTERRUPTED, NO, OK
 from etot_cli.cli.interrupts import uninterrupted
 
 if TYPE_CHECKING:
-    from etot_cli.execution.trial import ExecutionObserver
     from etot_cli.planning.result import SearchObserver
+    from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
     from etot_cli.reporting.models import Report
@@ -80,7 +80,7 @@ class Session:
                 yield live
 
     @contextmanager
-    def execution_observer(self) -> Iterator[ExecutionObserver | None]:
+    def execution_observer(self) -> Iterator[ExecutionLog | ExecutionView | None]:
         """Shows trials: in place on a terminal, else a line per event, or nothing."""
         from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
         from etot_cli.reporting.style import Verbosity, make_console
