@@ -15,6 +15,7 @@ from typing import Annotated, Any
 
 import typer
 
+from etot_cli.cli.bench import bench
 from etot_cli.cli.execute import execute
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
 from etot_cli.cli.interrupts import asked_to_stop, finish, listen
@@ -58,6 +59,7 @@ app = typer.Typer(
 app.command()(interruptible(plan))
 app.command()(interruptible(simulate))
 app.command()(interruptible(execute))
+app.command()(interruptible(bench))
 app.command()(interruptible(reconstruct))
 app.command()(interruptible(new))
 app.command()(interruptible(tasks, light=True))

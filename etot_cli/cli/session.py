@@ -16,12 +16,16 @@ from etot_cli.cli.interrupts import uninterrupted
 
 if TYPE_CHECKING:
     from etot_cli.planning.result import SearchObserver
+    from etot_cli.reporting.bench_progress import TrialBar, TrialLines
+    from etot_cli.reporting.bench_report import BenchReport
     from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
     from etot_cli.reporting.models import Report
     from etot_cli.reporting.reconstruct_report import ReconstructReport
     from etot_cli.reporting.summary import Summary
+
+    AnyReport = Report | ReconstructReport | BenchReport
 
 Progress = Callable[[int, int], None]
 """Told how many of how many pieces are done."""
@@ -104,7 +108,7 @@ class Session:
             return None
         return PlainLog(sys.stderr, detailed=self._verbosity is Verbosity.VERBOSE)
 
-    def save(self, report: Report | ReconstructReport) -> Path:
+    def save(self, report: AnyReport) -> Path:
         """Writes the report, to another place where its folder does not take it.
 
         Raises:
@@ -122,9 +126,7 @@ class Session:
                 answer = f"{report.status}; the report: {kept}"
                 raise ServiceError(f"{error}; the answer was: {answer}") from None
 
-    def add_page(
-        self, report: Report | ReconstructReport, write: Callable[[Progress], Path]
-    ) -> None:
+    def add_page(self, report: AnyReport | BenchReport, write: Callable[[Progress], Path]) -> None:
         """Writes the page beside a saved report, and the report once more with its address.
 
         What was found stays the answer whatever becomes of the page: Ctrl-C ends the rendering
@@ -165,7 +167,24 @@ class Session:
             bar = bars.add_task(what, total=None)
             yield lambda done, total: bars.update(bar, completed=done, total=total)
 
-    def conclude(self, report: Report, path: Path, show: Callable[[Summary], None]) -> int:
+    @contextmanager
+    def trial_observer(self) -> Iterator[TrialBar | TrialLines | None]:
+        """Shows a benchmark: a bar with the time left on a terminal, else a line per trial."""
+        from etot_cli.reporting.bench_progress import TrialBar, TrialLines
+        from etot_cli.reporting.style import Verbosity, make_console
+
+        console = make_console(sys.stderr)
+        if self._verbosity is Verbosity.QUIET:
+            yield None
+        elif self._json or not console.is_terminal or console.is_dumb_terminal:
+            yield TrialLines(sys.stderr)
+        else:
+            with TrialBar(console) as bar:
+                yield bar
+
+    def conclude(
+        self, report: Report | BenchReport, path: Path, show: Callable[[Summary], None]
+    ) -> int:
         """Prints the answer and returns the exit code.
 
         Args:

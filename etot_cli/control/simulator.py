@@ -25,6 +25,7 @@ from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary
+from etot_cli.world.model import World
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import DESK, Cause, CauseKind, SceneState
 from etot_cli.world.workers import METHOD, WorkerLostError, WorkerPool
@@ -110,6 +111,11 @@ class ActionSimulator:
     def world_count(self) -> int:
         """Worlds in each state."""
         return len(self._worlds)
+
+    @property
+    def twin(self) -> World:
+        """The twin's model."""
+        return self._worlds.twin
 
     def start(self, until_s: float = NEVER) -> tuple[StateToken, SceneState]:
         """The settled initial state of all worlds, and world 0's view of it.

@@ -12,6 +12,7 @@ from etot_cli.skills.action import Action
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
+from etot_cli.world.model import World
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import Cause, SceneState
 
@@ -47,6 +48,11 @@ class Worlds:
 
     def __len__(self) -> int:
         return 1 + len(self._others)
+
+    @property
+    def twin(self) -> World:
+        """The twin's model."""
+        return self._twin.world
 
     def start(self, until_s: float) -> list[tuple[Snapshot, SceneState]]:
         """The settled initial state of every world.

@@ -6,6 +6,7 @@ import json
 import sys
 from pathlib import Path
 
+from etot_cli.reporting.bench_report import BenchReport, CompareReport
 from etot_cli.reporting.execute_report import ExecuteReport
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.models import Model
@@ -13,6 +14,7 @@ from etot_cli.reporting.motion_report import TrajectoryModel
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.reporting.simulate_report import SimulateReport
+from etot_cli.reporting.trial_report import TrialReport
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 REPORTS: dict[str, type[Model]] = {
@@ -21,6 +23,9 @@ REPORTS: dict[str, type[Model]] = {
     "etot.execute-1.json": ExecuteReport,
     "etot.reconstruct-1.json": ReconstructReport,
     "etot.trajectory-1.json": TrajectoryModel,
+    "etot.bench-1.json": BenchReport,
+    "etot.compare-1.json": CompareReport,
+    "etot.trial-1.json": TrialReport,
 }
 """Schema file name → report model."""
 

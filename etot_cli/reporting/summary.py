@@ -43,8 +43,8 @@ class Summary:
     """Prints summaries to a console, as much as the verbosity asks for."""
 
     def __init__(self, console: Console, verbosity: Verbosity) -> None:
-        self._console = console
-        self._verbosity = verbosity
+        self._console = self.console = console
+        self._verbosity = self.verbosity = verbosity
         self._unicode = speaks_unicode(console.file)
 
     def plan(self, report: PlanReport, path: Path) -> None:

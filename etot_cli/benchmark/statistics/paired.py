@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from math import sqrt
+from typing import TypeVar
 
 from scipy.stats import binomtest
 
 from etot_cli.planning.survival import Interval, wilson
 
-ALPHA = 0.05
-"""Significance level; the intervals are those of 95 %."""
+Key = TypeVar("Key", bound=Hashable)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class Paired:
         return float(cross / sqrt(margins))
 
 
-def paired(first: Mapping[Hashable, bool], second: Mapping[Hashable, bool]) -> Paired:
+def paired(first: Mapping[Key, bool], second: Mapping[Key, bool]) -> Paired:
     """Compares outcomes by what was tried; trials that only one of them had are left out."""
     counts = {(True, True): 0, (True, False): 0, (False, True): 0, (False, False): 0}
     for key in first.keys() & second.keys():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from concurrent.futures import Future
 from typing import Protocol
 
@@ -45,6 +46,8 @@ class RenderedFrames:
         self._camera = camera or first_camera(scene)
         self._renderer = WorldRenderer(self._world, self._camera, width, width)
         self._outcomes: dict[int, WorldOutcome] = {}
+        self.spent_s = 0.0
+        """Wall time that frames have taken so far [s]."""
         look = scene.model_dump_json(exclude={"directory", "name", "description"})
         self._base = hashlib.sha256(f"{self._camera}/{width}/{look}".encode()).digest()
 
@@ -96,10 +99,10 @@ class RenderedFrames:
             return [self._picture(NEVER_BEGAN, trajectory.qpos[0], before, marks=marks)]
         rows = [(0, "Before the action")]
         duration = float(times[-1])
-        for time, what in moments(
+        for moment, what in moments(
             record, trajectory.key_times, duration, max(count - 2, 0), hints=hints
         ):
-            rows.append((int(np.argmin(np.abs(times - time))), f"After {time:.1f} s, {what}"))
+            rows.append((int(np.argmin(np.abs(times - moment))), f"After {moment:.1f} s, {what}"))
         rows.append((len(times) - 1, "After the action"))
         return [
             self._picture(what, trajectory.qpos[row], before, marks=marks)
@@ -109,11 +112,18 @@ class RenderedFrames:
     def _picture(
         self, caption: str, qpos: NDArray[np.floating], scene: SceneState, *, marks: bool
     ) -> Picture:
-        pixels = self._renderer.frame(qpos)
+        pixels = self._frame(qpos)
         if marks:
             numbers = {name: number for number, name in enumerate(scene.states, 1)}
             pixels = draw_marks(pixels, self._renderer.visible_pixels(qpos), numbers)
         return Picture(f"{caption}:", pixels, self._digest(qpos, "marks" if marks else ""))
+
+    def _frame(self, qpos: NDArray[np.floating]) -> NDArray[np.uint8]:
+        begun = time.perf_counter()
+        try:
+            return self._renderer.frame(qpos)
+        finally:
+            self.spent_s += time.perf_counter() - begun
 
     def _digest(self, qpos: NDArray[np.floating], extra: str) -> str:
         rounded = np.round(np.asarray(qpos, dtype=np.float64), DIGEST_DECIMALS) + 0.0

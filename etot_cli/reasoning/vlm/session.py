@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from etot_cli.control.simulated import Simulator
 from etot_cli.errors import EtotError
-from etot_cli.reasoning.protocol import Reasoner
+from etot_cli.reasoning.protocol import Assignment, Branch, Reasoner
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reasoning.vlm.asking import Asker
+from etot_cli.reasoning.vlm.baselines import plan_at_once, plan_by_steps
 from etot_cli.reasoning.vlm.client import ChatClient
+from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.notes import Notebook
 from etot_cli.reasoning.vlm.prompts import Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
@@ -18,6 +20,7 @@ from etot_cli.reasoning.vlm.redact import public_url
 from etot_cli.reasoning.vlm.rendered import RenderedFrames, Unseen, Watched
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.specs.scene import Scene
+from etot_cli.world.state import SceneState
 
 
 class VlmSession:
@@ -28,6 +31,7 @@ class VlmSession:
         scene: what is planned in.
         seed: goes into every question.
         state: judges by the world's exact state.
+        through: replaces the rendered frames that the model gets to see by others.
 
     Raises:
         EtotError: a setting, a prompt or the cassette cannot be used.
@@ -35,7 +39,13 @@ class VlmSession:
     """
 
     def __init__(
-        self, settings: VlmSettings, scene: Scene, *, seed: int, state: Reasoner | None
+        self,
+        settings: VlmSettings,
+        scene: Scene,
+        *,
+        seed: int,
+        state: Reasoner | None,
+        through: Callable[[RenderedFrames], FrameSource] | None = None,
     ) -> None:
         if settings.max_cost is not None and settings.prices() is None:
             raise EtotError(
@@ -48,12 +58,14 @@ class VlmSession:
         self._notes = Notebook()
         self._client = ChatClient(settings)
         self._frames = RenderedFrames(scene, settings.image_width) if settings.images else None
+        shown = self._frames if self._frames is None or through is None else through(self._frames)
         self._unseen = Unseen()
         # Where no state is known, as on a real robot, there is nothing to hint at.
         self._hints = settings.hints if settings.hints is not None else state is not None
+        self._asker = Asker(self._client, prompts, self._notes, seed)
         self.reasoner: Reasoner = VlmReasoner(
-            Asker(self._client, prompts, self._notes, seed),
-            frames=self._frames,
+            self._asker,
+            frames=shown,
             judge=settings.judge,
             state=state,
             nominal=None if self._frames is not None else self._unseen.knows,
@@ -70,6 +82,27 @@ class VlmSession:
     def watch(self, simulator: Simulator) -> Simulator:
         """The simulator to search with: what it does can be looked at."""
         return Watched(simulator, self._frames or self._unseen)
+
+    def at_once(self, assignment: Assignment, scene: SceneState) -> Branch | None:
+        """One plan from one look at a scene, without any simulation.
+
+        Raises:
+            ReasonerStopped: a limit was reached, or the service is not there.
+        """
+        return plan_at_once(self._asker, self._frames, assignment, scene)
+
+    def by_steps(self, assignment: Assignment, scene: SceneState) -> Branch | None:
+        """The same after a description of the scene and points of attention.
+
+        Raises:
+            ReasonerStopped: a limit was reached, or the service is not there.
+        """
+        return plan_by_steps(self._asker, self._frames, assignment, scene)
+
+    @property
+    def rendering_s(self) -> float:
+        """Wall time that pictures have taken so far [s]."""
+        return 0.0 if self._frames is None else self._frames.spent_s
 
     def account(self) -> VlmAccount:
         """What has been asked so far."""

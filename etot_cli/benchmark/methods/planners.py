@@ -1,0 +1,153 @@
+"""The planning ideas that are compared, as planners of the closed loop.
+
+A planner sees the believed twin and the instruction, never the world that the robot acts in.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from etot_cli.benchmark.methods.attention import StaticScene
+from etot_cli.benchmark.methods.thinking import Thinking
+from etot_cli.control.simulated import Simulator
+from etot_cli.errors import InstructionError
+from etot_cli.execution.protocols import Planned, Planner
+from etot_cli.planning.options import Ablation, Limits
+from etot_cli.planning.result import SearchResult, SearchStatus
+from etot_cli.planning.search import search
+from etot_cli.reasoning.protocol import Assignment, Branch, ReasonerStopped
+from etot_cli.skills.action import Action
+from etot_cli.skills.motion.motion import Motion
+from etot_cli.world.model import World
+from etot_cli.world.snapshot import Snapshot
+from etot_cli.world.state import SceneState
+
+
+class WorldModel(Simulator, Protocol):
+    """A simulator that begins from any believed state."""
+
+    def begin_from(self, start: Snapshot, scene: SceneState) -> None:
+        """Searches begin there from now on."""
+        ...
+
+
+@dataclass
+class SearchPlanner:
+    """Implements :class:`etot_cli.execution.protocols.Planner` by the tree search.
+
+    Args:
+        assignment: what is asked for.
+        model: what actions are tried in.
+        thinking: who proposes, judges and reflects.
+        limits: of each search.
+        without: mechanisms that the searches go without.
+    """
+
+    assignment: Assignment
+    model: WorldModel
+    thinking: Thinking
+    limits: Limits
+    without: frozenset[Ablation] = frozenset()
+
+    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+        """Searches from the believed state; nothing is assumed about what was done."""
+        self.model.begin_from(start, scene)
+        result = search(
+            self.assignment,
+            self.thinking.watch(self.model),
+            self.thinking.reasoner,
+            limits=self.limits,
+            without=self.without,
+            check=self.thinking.checked,
+        )
+        if result.status is SearchStatus.INTERRUPTED:
+            raise KeyboardInterrupt
+        return _planned(result)
+
+
+@dataclass
+class OneShotPlanner:
+    """Implements the same protocol with one plan that nothing has been tried for.
+
+    Args:
+        choose: the plan for a believed state; None where there is none.
+    """
+
+    choose: Callable[[Snapshot, SceneState], Branch | None]
+
+    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+        """The plan for what is believed now."""
+        begun = time.monotonic()
+        reason: str | None = None
+        branch: Branch | None = None
+        try:
+            branch = self.choose(start, scene)
+        except (InstructionError, ReasonerStopped) as error:
+            reason = str(error)
+        account = {"wall_s": time.monotonic() - begun}
+        if branch is None:
+            status = SearchStatus.INFEASIBLE.value
+            return Planned((), (), status, reason or "no plan was proposed", account)
+        motions: tuple[Motion | None, ...] = (None,) * len(branch.actions)
+        return Planned(branch.actions, motions, SearchStatus.FEASIBLE.value, None, account)
+
+
+@dataclass
+class RecoveringPlanner:
+    """Implements the same protocol: a plan of one's own, then recoveries by an oracle.
+
+    Args:
+        first: plans at the beginning.
+        oracle: finds a way on from where things are after a failure, where there is one.
+    """
+
+    first: Planner
+    oracle: Planner
+
+    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+        """The first plan, or a recovery once something has been done."""
+        return (self.oracle if done else self.first).plan(start, scene, done)
+
+
+def at_once(assignment: Assignment, thinking: Thinking) -> OneShotPlanner:
+    """One plan from the scene alone."""
+    return OneShotPlanner(lambda start, scene: thinking.at_once(assignment, scene))
+
+
+def by_steps(assignment: Assignment, thinking: Thinking, world: World) -> OneShotPlanner:
+    """One plan after thinking about dependencies and hazards in the scene as it stands.
+
+    Args:
+        assignment: what is asked for.
+        thinking: who thinks.
+        world: the twin, of which the geometry is read.
+    """
+
+    def choose(start: Snapshot, scene: SceneState) -> Branch | None:
+        return thinking.by_steps(assignment, scene, StaticScene(world, start, scene))
+
+    return OneShotPlanner(choose)
+
+
+def _planned(result: SearchResult) -> Planned:
+    path = () if result.leaf is None else result.leaf.path
+    motions = (result.rollouts[node.id].motion for node in path)
+    numbers = result.statistics
+    account: Mapping[str, float] = {
+        "nodes": float(numbers.nodes_evaluated),
+        "reflections": float(numbers.reflections),
+        "simulated_s": numbers.simulated_s,
+        "wall_s": numbers.wall_s,
+        "physics_s": numbers.physics_s,
+        "kinematics_s": numbers.kinematics_s,
+    }
+    return Planned(
+        result.plan,
+        tuple(motion if isinstance(motion, Motion) else None for motion in motions),
+        result.status.value,
+        result.stopped or None,
+        account,
+    )

@@ -1,0 +1,214 @@
+"""The command ``etot bench``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from etot_cli.cli.exits import NO, OK
+from etot_cli.cli.options import (
+    Force,
+    Html,
+    Json,
+    Out,
+    Quiet,
+    Verbose,
+    VlmMaxCalls,
+    VlmMaxCost,
+    VlmModelName,
+    VlmRecord,
+    VlmReplay,
+    VlmUrl,
+)
+from etot_cli.cli.plan import MAX_JOBS, JudgeName, ReasonerName
+from etot_cli.cli.session import Session
+
+MAX_TRIALS = 10_000
+ENGINES = ("local", "ray")
+
+
+def _engine(value: str) -> str:
+    if value not in ENGINES:
+        raise typer.BadParameter(f"found {value!r}, expected local or ray")
+    return value
+
+
+def bench(
+    tasks: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="TASKS...",
+            help="Task files, folders of them, suite files, and random:N for N random problems.",
+        ),
+    ] = None,
+    methods: Annotated[
+        str | None,
+        typer.Option(
+            "--methods",
+            metavar="A,B,...",
+            help="Methods, with commas: rekep, rekep_cot, reflect, etot, etot_without_priori, "
+            "etot_without_reflective, etot_without_replan, etot_kinematic. [default: all]",
+        ),
+    ] = None,
+    trials: Annotated[
+        int | None,
+        typer.Option(
+            "--trials",
+            min=1,
+            max=MAX_TRIALS,
+            metavar="N",
+            help="Trials of each method on each task. [default: as the suite says, else 10]",
+        ),
+    ] = None,
+    jobs: Annotated[
+        int,
+        typer.Option(
+            "--jobs",
+            min=1,
+            max=MAX_JOBS,
+            metavar="N",
+            help="Trials carried out at the same time; changes no result.",
+        ),
+    ] = 1,
+    engine: Annotated[
+        str,
+        typer.Option(
+            "--engine",
+            callback=_engine,
+            metavar="local|ray",
+            help="Where trials are run: in processes here, or on the Ray cluster that RAY_ADDRESS "
+            "names (without it, on one of its own).",
+        ),
+    ] = "local",
+    resume: Annotated[
+        Path | None,
+        typer.Option(
+            "--resume", metavar="DIR", help="Go on with an interrupted run in its folder."
+        ),
+    ] = None,
+    compare: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option(
+            "--compare",
+            metavar="A B",
+            help="Compare two reports instead of running; exit code 1 when a method got "
+            "significantly worse.",
+        ),
+    ] = None,
+    reasoner: Annotated[
+        ReasonerName, typer.Option("--reasoner", help="Who proposes, judges and reflects.")
+    ] = ReasonerName.BUILTIN,
+    vlm_url: VlmUrl = None,
+    model: VlmModelName = None,
+    judge: Annotated[
+        JudgeName | None,
+        typer.Option(
+            "--judge",
+            help="With --reasoner vlm: who decides whether an action succeeded. [default: both]",
+        ),
+    ] = None,
+    record: VlmRecord = None,
+    replay: VlmReplay = None,
+    max_calls: VlmMaxCalls = None,
+    max_cost: VlmMaxCost = None,
+    video_url: Annotated[
+        str | None,
+        typer.Option(
+            "--video-url",
+            metavar="URL",
+            help="A video-generation endpoint as the world model of etot_kinematic; its videos are "
+            "judged by the model of --vlm-url.",
+        ),
+    ] = None,
+    html: Html = True,
+    out: Out = None,
+    force: Force = False,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            "--seed",
+            min=0,
+            max=2**32 - 1,
+            help="Same inputs and seed, same result. [default: as the suite says, else 0]",
+        ),
+    ] = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> int:
+    """Measure how often methods succeed on tasks, in varied worlds, and at what cost.
+
+    Exit code 0: all trials were run; 1: with --compare, a method got significantly worse;
+    2: unusable input; 3: a service is not there; 130: interrupted.
+    """
+    if compare is not None:
+        if tasks or resume:
+            raise typer.BadParameter("--compare takes two reports and nothing to run")
+        return _compare(*compare, json=json, quiet=quiet)
+    if not tasks and resume is None:
+        raise typer.BadParameter("nothing to run; name task files, folders, suites or random:N")
+    if resume is not None and out is not None:
+        raise typer.BadParameter("--resume DIR goes on in DIR; --out has no place beside it")
+    if resume is not None and not resume.is_dir():
+        raise typer.BadParameter(f"--resume {resume}: there is no such folder")
+    if video_url is not None and reasoner is not ReasonerName.VLM:
+        raise typer.BadParameter("--video-url needs --reasoner vlm, which looks at the videos")
+    subject = Path((tasks or [str(resume)])[0].replace(":", "-"))
+    session = Session(
+        "bench", subject, out=resume or out, json=json, quiet=quiet, verbose=verbose,
+        force=force or resume is not None,
+    )  # fmt: skip
+    from etot_cli.commands.bench import BenchOptions, run_bench
+
+    options = BenchOptions(
+        inputs=tuple(tasks or ()),
+        seed=seed,
+        trials=trials,
+        methods=None if methods is None else tuple(methods.split(",")),
+        jobs=jobs,
+        engine=engine,
+        reasoner=reasoner.value,
+        vlm={
+            "url": vlm_url, "model": model, "judge": None if judge is None else judge.value,
+            "record": record, "replay": replay, "max_calls": max_calls, "max_cost": max_cost,
+        },
+        video_url=video_url,
+        resume=resume is not None,
+        force=force,
+    )  # fmt: skip
+    with session.trial_observer() as observer:
+        report = run_bench(options, session.folder, observer)
+    path = session.save(report)
+    if html:
+        from etot_cli.commands.bench_page import write_bench_page
+
+        session.add_page(report, lambda told: write_bench_page(report, session.folder))
+    from etot_cli.reporting.bench_table import BenchSummary
+
+    return session.conclude(
+        report, path,
+        lambda summary: BenchSummary(summary.console, summary.verbosity).show(report, path),
+    )  # fmt: skip
+
+
+def _compare(first: Path, second: Path, *, json: bool, quiet: bool) -> int:
+    """Prints how two runs differ."""
+    from etot_cli.commands.bench import compare
+    from etot_cli.reporting.bench_table import significantly_worse, told
+    from etot_cli.reporting.files import report_text
+
+    report = compare(first, second)
+    worse = [pair for pair in report.comparisons if significantly_worse(pair)]
+    if json:
+        sys.stdout.write(report_text(report))
+    else:
+        for pair in [] if quiet else report.comparisons:
+            print(("worse: " if pair in worse else "") + told(pair))
+        if report.left_out and not quiet:
+            print(f"{report.left_out} trials that only one of the reports has are left out")
+        names = ", ".join(pair.second for pair in worse)
+        print(f"significantly worse: {names}" if worse else "no method got significantly worse")
+    return NO if worse else OK

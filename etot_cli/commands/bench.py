@@ -1,0 +1,318 @@
+"""``etot bench``: methods on tasks, trial by trial, to a report with rates and intervals."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from etot_cli.benchmark.methods.catalogue import Method, methods_of
+from etot_cli.benchmark.running.engine import EngineName, open_engine
+from etot_cli.benchmark.running.journal import NAME as JOURNAL
+from etot_cli.benchmark.running.journal import Journal
+from etot_cli.benchmark.running.runner import Perform, RunObserver, TrialWork, run_trials
+from etot_cli.benchmark.statistics.paired import paired
+from etot_cli.benchmark.suite import Selection, digest, seeds_of, select
+from etot_cli.benchmark.trial import TrialKey, TrialResult
+from etot_cli.errors import EtotError, SpecError
+from etot_cli.reporting.bench_csv import write_csv
+from etot_cli.reporting.bench_report import (
+    BenchReport,
+    CompareReport,
+    method_models,
+    paired_models,
+    row_models,
+    task_models,
+    trial_rows,
+)
+from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.specs.reading import read_utf8
+
+MANIFEST = "bench.json"
+"""What a run was asked for, beside its trials, so that it can be gone on with."""
+MAX_MANIFEST_BYTES = 8 * 1024 * 1024
+MAX_REPORT_BYTES = 256 * 1024 * 1024
+"""A report of ten thousand trials is a tenth of it."""
+DEFAULT_TRIALS = 10
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchOptions:
+    """What ``etot bench`` is asked to do; None: as the suite says, else the default."""
+
+    inputs: tuple[str, ...]
+    seed: int | None = None
+    trials: int | None = None
+    methods: tuple[str, ...] | None = None
+    jobs: int = 1
+    engine: str = EngineName.LOCAL.value
+    reasoner: str = "builtin"
+    vlm: Mapping[str, Any] = field(default_factory=dict)
+    video_url: str | None = None
+    resume: bool = False
+    force: bool = False
+    """A run that is in the folder already is thrown away."""
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What is to be run, resolved."""
+
+    selection: Selection
+    inputs: tuple[str, ...]
+    methods: list[Method]
+    seed: int
+    draws: list[tuple[int, int]]
+    digests: dict[str, str]
+
+    def work(self) -> list[TrialWork]:
+        """All trials: by task, then by world, then by method, so that a worker builds few twins."""
+        return [
+            TrialWork(TrialKey(task.name, number, method.name), seed, draw)
+            for task in self.selection.tasks
+            for number, (seed, draw) in enumerate(self.draws)
+            for method in self.methods
+        ]
+
+
+def run_bench(
+    options: BenchOptions,
+    folder: Path,
+    observer: RunObserver | None = None,
+    perform: tuple[Perform, Callable[..., None]] | None = None,
+) -> BenchReport:
+    """Runs all trials that the folder does not have yet.
+
+    Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
+
+    Args:
+        options: what to run.
+        folder: of the run; trials, their reports and the tables go there.
+        observer: told of every trial.
+        perform: carries a trial out, and what prepares a worker for it; the real ones when None.
+
+    Returns:
+        The report, with all finished trials in the order of the table.
+
+    Raises:
+        EtotError: the input is unusable, or the folder holds another run.
+    """
+    watch = Stopwatch()
+    with watch.phase("load"):
+        if options.force and not options.resume:
+            for name in (MANIFEST, JOURNAL):
+                (folder / name).unlink(missing_ok=True)
+        known = _manifest(folder, resume=options.resume)
+        run = _resolved(options, folder, known)
+        _agree(_described(options, run), known, folder)
+    work = run.work()
+    carry_out: Perform
+    if perform is None:
+        from etot_cli.commands import bench_trial
+
+        tasks = {task.name: task for task in run.selection.tasks}
+        setup: Any = bench_trial.Setup(
+            str(folder.resolve()), tasks, run.seed, options.reasoner, options.vlm,
+            video_url=options.video_url,
+        )  # fmt: skip
+        carry_out, begin = bench_trial.perform, bench_trial.begin
+    else:
+        setup = str(folder.resolve())
+        carry_out, begin = perform
+    with Journal(folder) as journal, watch.phase("trials"):
+        complete = all(item.key in journal.results for item in work)
+        if not complete:
+            engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
+            try:
+                complete = run_trials(work, carry_out, engine, journal, options.jobs, observer)
+            finally:
+                engine.close()
+        finished = journal.results
+    results = [finished[item.key] for item in work if item.key in finished]
+    report = _report(options, run, results, watch, complete=complete)
+    report.files.update(write_csv(report, results, folder))
+    report.files["lines"] = JOURNAL
+    return report
+
+
+def compare(first: Path, second: Path) -> CompareReport:
+    """Compares two reports, method by method, on the trials that both have.
+
+    Raises:
+        SpecError: a file is no benchmark's report.
+        EtotError: they have no trial of the same method in common.
+    """
+    one, two = load_report(first), load_report(second)
+    outcomes = [
+        {
+            (row.method, row.task, row.number, row.seed, digests.get(row.task)): row.status
+            == "success"
+            for row in report.trials
+        }
+        for report in (one, two)
+        for digests in [{task.name: task.digest for task in report.tasks}]
+    ]
+    common = outcomes[0].keys() & outcomes[1].keys()
+    found = []
+    for method in [model.name for model in one.methods]:
+        own = {key for key in common if key[0] == method}
+        if own:
+            before, after = ({key: given[key] for key in own} for given in outcomes)
+            pairs = paired(before, after)
+            found.append((method, method, pairs))
+    if not found:
+        raise EtotError(
+            f"{first} and {second} have no trial in common; expected runs of the same tasks with "
+            "the same methods and seeds"
+        )
+    left_out = len(outcomes[0].keys() ^ outcomes[1].keys())
+    return CompareReport(
+        first=str(first), second=str(second), comparisons=paired_models(found), left_out=left_out
+    )
+
+
+def load_report(path: Path) -> BenchReport:
+    """Reads a benchmark's report, from its file or its folder.
+
+    Raises:
+        SpecError: it is none.
+    """
+    file = path / "report.json" if path.is_dir() else path
+    text = read_utf8(file, MAX_REPORT_BYTES, "a report of etot bench")
+    try:
+        return BenchReport.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"])
+        raise SpecError(
+            f"is no report of etot bench: {first['msg']}; expected schema etot.bench/1",
+            file=str(file),
+            path=where,
+        ) from None
+
+
+def _resolved(options: BenchOptions, folder: Path, known: Mapping[str, Any] | None) -> _Run:
+    """The options with the suite's wishes and defaults; those of the run that is gone on with."""
+    inputs = options.inputs
+    if not inputs and known is not None:
+        inputs = tuple(known["inputs"])
+    selection = select(inputs, folder / "tasks")
+    given = known or {}
+
+    def chosen(name: str, default: Any) -> Any:
+        own = getattr(options, name)
+        if own is not None:
+            return own
+        wished = getattr(selection, name)
+        return given.get(name, default) if wished is None else wished
+
+    seed = int(chosen("seed", 0))
+    seeds = selection.seeds if options.trials is None and options.seed is None else None
+    draws = seeds_of(int(chosen("trials", DEFAULT_TRIALS)), seed, seeds)
+    methods = methods_of(chosen("methods", None))
+    digests = {task.name: digest(task) for task in selection.tasks}
+    return _Run(selection, inputs, methods, seed, draws, digests)
+
+
+def _described(options: BenchOptions, run: _Run) -> dict[str, Any]:
+    """What fixes the results of a run: two runs that agree in it may share a folder."""
+    found = versions()
+    return {
+        "inputs": [*run.inputs],
+        "tasks": run.digests,
+        "methods": [method.name for method in run.methods],
+        "trials": len(run.draws),
+        "seed": run.seed,
+        "draws": [list(draw) for draw in run.draws],
+        "reasoner": options.reasoner,
+        "model": str(options.vlm.get("model") or ""),
+        "video": options.video_url is not None,
+        "etot": found.etot,
+        "mujoco": found.mujoco,
+    }
+
+
+def _manifest(folder: Path, *, resume: bool) -> dict[str, Any] | None:
+    """What the folder's run was asked for; None where there is none yet.
+
+    Raises:
+        EtotError: there is one and it is not to be gone on with, or the other way round.
+    """
+    path = folder / MANIFEST
+    if not path.exists():
+        if resume and (folder / JOURNAL).exists():
+            raise EtotError(f"{folder} has trials, but no {MANIFEST} that says of what run")
+        if resume:
+            raise EtotError(f"there is no run in {folder} to go on with")
+        return None
+    if not resume:
+        raise EtotError(
+            f"there is a run in {folder} already; go on with it by --resume {folder}, or give "
+            "another --out"
+        )
+    try:
+        found = json.loads(read_utf8(path, MAX_MANIFEST_BYTES, "a benchmark's description"))
+    except ValueError as error:
+        raise SpecError(f"is not JSON: {error}", file=str(path)) from None
+    if not isinstance(found, dict) or not isinstance(found.get("inputs"), list):
+        raise SpecError("is no benchmark's description; expected the key 'inputs'", file=str(path))
+    return found
+
+
+def _agree(wanted: dict[str, Any], known: Mapping[str, Any] | None, folder: Path) -> None:
+    """Writes down what the run is, or makes sure that it is still the same.
+
+    Raises:
+        EtotError: it is another one; the message says in what.
+    """
+    if known is None:
+        write_atomically(folder / MANIFEST, json.dumps(wanted, indent=2) + "\n")
+        return
+    # How the inputs are named may differ; what is in them may not.
+    for key in [key for key in wanted if key != "inputs" and known.get(key) != wanted[key]]:
+        raise EtotError(
+            f"the run in {folder} has {key} {_short(known.get(key))}, this one has "
+            f"{_short(wanted[key])}; give another --out"
+        )
+
+
+def _short(value: object) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= 120 else text[:117] + "..."
+
+
+def _report(
+    options: BenchOptions,
+    run: _Run,
+    results: Sequence[TrialResult],
+    watch: Stopwatch,
+    *,
+    complete: bool,
+) -> BenchReport:
+    names = [method.name for method in run.methods]
+    rows, means, pairs = row_models(results, names, [task.name for task in run.selection.tasks])
+    return BenchReport(
+        status="success" if complete else "interrupted",
+        seed=run.seed,
+        interrupted=not complete,
+        versions=versions(),
+        timing=watch.timing(),
+        inputs=[*run.inputs],
+        tasks=task_models(run.selection.tasks, run.digests),
+        methods=method_models(run.methods),
+        trials_per_cell=len(run.draws),
+        reasoner=options.reasoner,
+        engine=EngineName(options.engine).value,
+        jobs=options.jobs,
+        peak_mib=max((result.peak_mib for result in results), default=0.0),
+        rows=rows,
+        averages=means,
+        comparisons=pairs,
+        trials=trial_rows(results),
+        files={},
+    )

@@ -1,0 +1,271 @@
+"""The report of ``etot bench``: schema ``etot.bench/1``, and that of each trial in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from etot_cli.benchmark.methods.catalogue import Method
+from etot_cli.benchmark.statistics.paired import Paired, holm
+from etot_cli.benchmark.statistics.table import averages, cells, comparisons
+from etot_cli.benchmark.trial import TrialResult
+from etot_cli.planning.survival import Interval
+from etot_cli.reporting.models import (
+    Count,
+    Model,
+    Seconds,
+    Share,
+    TimingModel,
+    VersionsModel,
+    seconds,
+)
+from etot_cli.specs.task import Task
+
+Signed = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
+Amount = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+DECIMALS = 4
+"""Of rates and p values: a trial in ten thousand."""
+
+
+class BenchTaskModel(Model):
+    """A task that was run."""
+
+    name: str
+    file: str
+    """As named on the command line or in the suite; random problems are in the run's folder."""
+    instruction: str
+    digest: str
+    """SHA-256 of what is in the task and its scene."""
+
+
+class MethodModel(Model):
+    """A method that was run."""
+
+    name: str
+    title: str
+    summary: str
+    replans: bool
+    """It plans anew after a failure."""
+
+
+class RowModel(Model):
+    """A method on a task."""
+
+    method: str
+    task: str
+    successes: Count
+    trials: Count
+    rate: Share
+    ci95: tuple[Share, Share]
+    """Wilson's 95 % interval."""
+    errors: Count
+    """Trials that could not be carried out; they count as failed."""
+    failures: dict[str, Count]
+    """Failed trials by class."""
+
+
+class AverageModel(Model):
+    """A method over all tasks; costs are means per trial."""
+
+    method: str
+    successes: Count
+    trials: Count
+    rate: Share
+    """The mean of the tasks' rates."""
+    ci95: tuple[Share, Share]
+    """Wilson's 95 % interval of all trials together: for these tasks, not for others."""
+    failures: dict[str, Count]
+    replans: Amount
+    planning_s: Seconds
+    nodes: Amount
+    simulated_s: Seconds
+    model_calls: Amount
+    input_tokens: Amount
+    output_tokens: Amount
+    cost: Amount
+    """US dollars."""
+    wall_s: Seconds
+    times: dict[str, Seconds]
+    """What the wall time was spent on."""
+
+
+class PairedModel(Model):
+    """Two methods on the same trials."""
+
+    first: str
+    second: str
+    both: Count
+    first_only: Count
+    second_only: Count
+    neither: Count
+    difference: Signed
+    """Rate of the second less rate of the first."""
+    ci95: tuple[Signed, Signed]
+    """Newcombe's 95 % interval for paired proportions."""
+    p_value: Share
+    """McNemar's exact test, two-sided."""
+    p_adjusted: Share
+    """The same, adjusted by Holm for the number of comparisons."""
+
+
+class TrialRowModel(Model):
+    """A trial in short; the rest is in its own report."""
+
+    method: str
+    task: str
+    number: Count
+    seed: Count
+    status: Literal["success", "failure", "error"]
+    failure_class: str | None
+    reason: str
+    replans: Count
+    actions: list[str]
+    """Carried out, in order; the last one failed where the trial did."""
+    harm: list[str]
+    wall_s: Seconds
+    report: str
+    """Its own report, relative to this one's folder; empty where there is none."""
+
+
+class BenchReport(Model):
+    """Who succeeds how often, and at what cost."""
+
+    schema_: Literal["etot.bench/1"] = Field(default="etot.bench/1", alias="schema")
+    status: Literal["success", "interrupted"]
+    """Success: all trials were run, whatever became of them."""
+    seed: Count
+    interrupted: bool
+    versions: VersionsModel
+    timing: TimingModel
+    inputs: list[str]
+    """What was asked for, as named on the command line."""
+    tasks: list[BenchTaskModel]
+    methods: list[MethodModel]
+    trials_per_cell: Count
+    reasoner: str
+    engine: Literal["local", "ray"]
+    jobs: Count
+    peak_mib: Amount
+    """Largest resident memory of a worker [MiB]."""
+    rows: list[RowModel]
+    averages: list[AverageModel]
+    comparisons: list[PairedModel]
+    """The first of these methods, ``etot`` where it is one of them, against each other one."""
+    trials: list[TrialRowModel]
+    files: dict[str, str]
+
+
+class CompareReport(Model):
+    """Two runs, method by method; the second is the newer one."""
+
+    schema_: Literal["etot.compare/1"] = Field(default="etot.compare/1", alias="schema")
+    first: str
+    second: str
+    comparisons: list[PairedModel]
+    """Each method against itself, on the trials that both runs have."""
+    left_out: Count
+    """Trials that only one of them has."""
+
+
+def row_models(
+    results: Sequence[TrialResult], methods: Sequence[str], tasks: Sequence[str]
+) -> tuple[list[RowModel], list[AverageModel], list[PairedModel]]:
+    """Everything that is computed from trials: cells, averages, comparisons."""
+    table = cells(results, methods, tasks)
+    rows = [
+        RowModel(
+            method=cell.method,
+            task=cell.task,
+            successes=cell.successes,
+            trials=cell.trials,
+            rate=round(cell.rate, DECIMALS),
+            ci95=_bounds(cell.interval),
+            errors=cell.errors,
+            failures=dict(cell.failures),
+        )
+        for cell in table
+    ]
+    means = [
+        AverageModel(
+            method=item.method,
+            successes=item.successes,
+            trials=item.trials,
+            rate=round(item.rate, DECIMALS),
+            ci95=_bounds(item.interval),
+            failures=dict(item.failures),
+            replans=round(item.replans, DECIMALS),
+            **{name: round(value, 6) for name, value in item.costs.items()},
+            wall_s=seconds(item.wall_s),
+            times={name: seconds(value) for name, value in item.times.items()},
+        )
+        for item in averages(table, results)
+    ]
+    first = [name for name in methods if name == "etot"] + [n for n in methods if n != "etot"]
+    found = comparisons(results, first)
+    return rows, means, paired_models([(c.first, c.second, c.pairs) for c in found])
+
+
+def paired_models(found: Iterable[tuple[str, str, Paired]]) -> list[PairedModel]:
+    """Comparisons as they stand in reports, with p values adjusted for their number."""
+    given = list(found)
+    adjusted = holm(pairs.p_value for _, _, pairs in given)
+    return [
+        PairedModel(
+            first=first,
+            second=second,
+            both=pairs.both,
+            first_only=pairs.first_only,
+            second_only=pairs.second_only,
+            neither=pairs.neither,
+            difference=round(pairs.difference, DECIMALS),
+            ci95=_bounds(pairs.interval),
+            p_value=min(1.0, round(pairs.p_value, 6)),
+            p_adjusted=min(1.0, round(corrected, 6)),
+        )
+        for (first, second, pairs), corrected in zip(given, adjusted, strict=True)
+    ]
+
+
+def trial_rows(results: Iterable[TrialResult]) -> list[TrialRowModel]:
+    """The trials in short."""
+    return [
+        TrialRowModel(
+            method=item.key.method,
+            task=item.key.task,
+            number=item.key.number,
+            seed=item.seed,
+            status=item.status.value,
+            failure_class=item.failure_class,
+            reason=item.reason,
+            replans=item.replans,
+            actions=[taken.action for taken in item.actions],
+            harm=list(item.harm),
+            wall_s=seconds(item.wall_s),
+            report=item.report,
+        )
+        for item in results
+    ]
+
+
+def method_models(methods: Iterable[Method]) -> list[MethodModel]:
+    """The methods as they stand in reports."""
+    return [
+        MethodModel(name=m.name, title=m.title, summary=m.summary, replans=m.replans)
+        for m in methods
+    ]
+
+
+def task_models(tasks: Iterable[Task], digests: Mapping[str, str]) -> list[BenchTaskModel]:
+    """The tasks as they stand in reports."""
+    return [
+        BenchTaskModel(
+            name=task.name, file=task.file, instruction=task.instruction, digest=digests[task.name]
+        )
+        for task in tasks
+    ]
+
+
+def _bounds(interval: Interval) -> tuple[float, float]:
+    return round(interval.low, DECIMALS), round(interval.high, DECIMALS)

@@ -1,0 +1,173 @@
+"""A benchmark in the terminal: the table of the paper's shape, what failed, and what it cost.
+
+On a terminal a table that is too wide for it is turned: one line per task, methods as columns with
+numbers. In a pipe every line is whole, whatever reads it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from etot_cli.reporting.bench_report import AverageModel, BenchReport, PairedModel
+from etot_cli.reporting.style import Verbosity, counted
+
+PIPE_WIDTH = 10_000
+"""Of a table in a pipe: nothing is wrapped [columns]."""
+GOOD, POOR = 0.8, 0.4
+"""Rates from which a cell is green, and up to which it is red."""
+SIGNIFICANT = 0.05
+
+
+class BenchSummary:
+    """Prints a benchmark to a console, as much as the verbosity asks for."""
+
+    def __init__(self, console: Console, verbosity: Verbosity) -> None:
+        self._console = console
+        self._verbosity = verbosity
+
+    def show(self, report: BenchReport, path: Path) -> None:
+        """The whole summary."""
+        done, total = len(report.trials), _planned_trials(report)
+        if self._verbosity is Verbosity.QUIET:
+            rates = ", ".join(f"{item.method} {_percent(item.rate)}" for item in report.averages)
+            self._line(f"{report.status}: {rates or 'no trial was finished'}")
+            return
+        self._line("")
+        self._line(
+            f"{counted(done, 'trial')} of {total}, {counted(len(report.tasks), 'task')}, "
+            f"{counted(len(report.methods), 'method')}, seed {report.seed}"
+        )
+        if report.averages:
+            self._rates(report)
+            self._averages(report)
+            self._costs(report)
+            for pair in report.comparisons if self._verbosity is Verbosity.VERBOSE else ():
+                self._line(f"  {told(pair)}")
+        for purpose, name in [*report.files.items(), ("report", path.name)]:
+            self._line(f"  {purpose}: {path.parent / name}")
+
+    def _rates(self, report: BenchReport) -> None:
+        cells = {(row.method, row.task): row for row in report.rows}
+        methods = [m for m in report.methods if any(r.method == m.name for r in report.rows)]
+        tasks = [t.name for t in report.tasks if any(r.task == t.name for r in report.rows)]
+
+        def cell(method: str, task: str) -> Text:
+            row = cells.get((method, task))
+            if row is None:
+                return Text("-", style="dim")
+            return Text(f"{row.successes}/{row.trials}", style=_style(row.rate))
+
+        wide = Table(box=None, pad_edge=False, padding=(0, 1))
+        wide.add_column("method", no_wrap=True)
+        for task in tasks:
+            wide.add_column(task, justify="right", no_wrap=True)
+        wide.add_column("avg", justify="right", no_wrap=True)
+        means = {item.method: item for item in report.averages}
+        for method in methods:
+            wide.add_row(
+                method.title, *(cell(method.name, task) for task in tasks),
+                _percent(means[method.name].rate),
+            )  # fmt: skip
+        if self._fits(wide):
+            self._table(wide)
+            return
+        tall = Table(box=None, pad_edge=False, padding=(0, 1))
+        tall.add_column("task", overflow="ellipsis", no_wrap=True)
+        for number in range(1, len(methods) + 1):
+            tall.add_column(str(number), justify="right", no_wrap=True)
+        for task in tasks:
+            tall.add_row(task, *(cell(method.name, task) for method in methods))
+        tall.add_row("average", *(_percent(means[method.name].rate) for method in methods))
+        self._table(tall)
+        for number, method in enumerate(methods, 1):
+            self._line(f"  {number} {method.title}: {method.summary}")
+
+    def _averages(self, report: BenchReport) -> None:
+        titles = {method.name: method.title for method in report.methods}
+        table = Table(box=None, pad_edge=False, padding=(0, 1))
+        table.add_column("over all trials", no_wrap=True)
+        table.add_column("rate", justify="right", no_wrap=True)
+        table.add_column("95 % interval", justify="right", no_wrap=True)
+        table.add_column("failures", overflow="fold")
+        for item in report.averages:
+            low, high = item.ci95
+            failures = ", ".join(f"{count} {name}" for name, count in item.failures.items())
+            table.add_row(
+                titles[item.method], f"{item.successes}/{item.trials}",
+                f"{_percent(low)} to {_percent(high)}", failures,
+            )  # fmt: skip
+        self._table(table)
+
+    def _costs(self, report: BenchReport) -> None:
+        titles = {method.name: method.title for method in report.methods}
+        asked = any(item.model_calls for item in report.averages)
+        table = Table(box=None, pad_edge=False, padding=(0, 1))
+        table.add_column("cost per trial", no_wrap=True)
+        heads = ["plan s", "nodes", "sim s", "total s"]
+        for head in [*heads, *(["calls", "tokens", "US $"] if asked else [])]:
+            table.add_column(head, justify="right", no_wrap=True)
+        for item in report.averages:
+            table.add_row(titles[item.method], *_cost_cells(item, asked))
+        self._table(table)
+
+    def _fits(self, table: Table) -> bool:
+        if not self._console.is_terminal:
+            return True
+        options = self._console.options.update(max_width=PIPE_WIDTH)
+        return table.__rich_measure__(self._console, options).maximum <= self._console.width
+
+    def _table(self, table: Table) -> None:
+        self._console.print()
+        if self._console.is_terminal:
+            self._console.print(table)
+            return
+        self._console.print(table, width=PIPE_WIDTH, soft_wrap=True)
+
+    def _line(self, text: str) -> None:
+        self._console.print(text, markup=False, soft_wrap=True)
+
+
+def told(pair: PairedModel) -> str:
+    """A comparison in a line."""
+    low, high = pair.ci95
+    return (
+        f"{pair.second} against {pair.first}: {_points(pair.difference)} points "
+        f"(95 % interval {_points(low)} to {_points(high)}), "
+        f"{pair.second_only} better, {pair.first_only} worse of "
+        f"{pair.both + pair.first_only + pair.second_only + pair.neither}, "
+        f"p = {pair.p_adjusted:.3g}"
+    )
+
+
+def significantly_worse(pair: PairedModel) -> bool:
+    """Whether the second is worse beyond chance."""
+    return pair.difference < 0 and pair.p_adjusted < SIGNIFICANT
+
+
+def _planned_trials(report: BenchReport) -> int:
+    return report.trials_per_cell * len(report.tasks) * len(report.methods)
+
+
+def _cost_cells(item: AverageModel, asked: bool) -> list[str]:
+    cells = [f"{item.planning_s:.1f}", f"{item.nodes:.1f}", f"{item.simulated_s:.0f}",
+             f"{item.wall_s:.1f}"]  # fmt: skip
+    if asked:
+        tokens = item.input_tokens + item.output_tokens
+        cells += [f"{item.model_calls:.1f}", f"{tokens:.0f}", f"{item.cost:.4f}"]
+    return cells
+
+
+def _percent(rate: float) -> str:
+    return f"{100 * rate:.0f} %"
+
+
+def _points(difference: float) -> str:
+    return f"{100 * difference:+.0f}"
+
+
+def _style(rate: float) -> str:
+    return "green" if rate >= GOOD else "red" if rate <= POOR else "yellow"

@@ -1,0 +1,100 @@
+"""The page of a benchmark: a heat map with intervals, failure classes, costs, and every trial."""
+
+from __future__ import annotations
+
+import shlex
+
+from etot_cli.reporting.bench_report import BenchReport, PairedModel, TrialRowModel
+from etot_cli.reporting.bench_table import significantly_worse
+from etot_cli.reporting.page.assemble import assemble
+
+CLASS_COLOURS = {
+    "execution": "p1", "perception": "p2", "world_model": "p4", "planning": "p6", "error": "p5",
+}  # fmt: skip
+"""Colours of failure classes, by the style sheet's names."""
+OTHER = "p5"
+
+
+def bench_page(report: BenchReport) -> str:
+    """The page as text.
+
+    Args:
+        report: what was measured; links lead to the trials' reports beside it.
+    """
+    cells = {(row.method, row.task): row for row in report.rows}
+    means = {item.method: item for item in report.averages}
+    titles = {method.name: method.title for method in report.methods}
+    lines = []
+    for method in report.methods:
+        if method.name not in means:
+            continue
+        row = [cells.get((method.name, task.name)) for task in report.tasks]
+        lines.append({"method": method, "cells": row, "mean": means[method.name]})
+    failures = [
+        {
+            "title": titles[item.method],
+            "trials": item.trials,
+            "parts": [
+                {"name": name, "count": count, "colour": CLASS_COLOURS.get(name, OTHER)}
+                for name, count in item.failures.items()
+            ],
+        }
+        for item in report.averages
+        if item.failures
+    ]
+    classes = sorted({name for item in report.averages for name in item.failures})
+    return assemble(
+        "bench.html.j2",
+        scripts=("bench.js",),
+        data={"trials": [_row(trial) for trial in report.trials], "titles": titles},
+        pictures={},
+        command="bench",
+        title=f"benchmark: {len(report.tasks)} tasks, {len(report.methods)} methods",
+        subject=" ".join(report.inputs),
+        heading=f"{len(report.methods)} methods on {len(report.tasks)} tasks",
+        head=report,
+        lead=f"{len(report.trials)} trials, {report.trials_per_cell} per method and task",
+        notice="" if report.status == "success" else "Not all trials were run.",
+        lines=lines,
+        tasks=report.tasks,
+        failures=failures,
+        legend=[{"name": name, "colour": CLASS_COLOURS.get(name, OTHER)} for name in classes],
+        means=report.averages,
+        titles=titles,
+        asked=any(item.model_calls for item in report.averages),
+        pairs=[_pair(pair, titles) for pair in report.comparisons],
+        repeat=_repeat(report),
+    )
+
+
+def _row(trial: TrialRowModel) -> list[object]:
+    """A trial as a short list: hundreds of them are in the page."""
+    found = trial.model_dump()
+    keys = (
+        "method", "task", "number", "status", "failure_class", "reason", "replans", "actions",
+        "harm", "wall_s", "report", "seed",
+    )  # fmt: skip
+    return [found[key] for key in keys]
+
+
+def _pair(pair: PairedModel, titles: dict[str, str]) -> dict[str, object]:
+    low, high = pair.ci95
+    return {
+        "first": titles[pair.first],
+        "second": titles[pair.second],
+        "difference": f"{100 * pair.difference:+.0f}",
+        "interval": f"{100 * low:+.0f} to {100 * high:+.0f}",
+        "better": pair.second_only,
+        "worse": pair.first_only,
+        "p": f"{pair.p_adjusted:.3g}",
+        "significant": significantly_worse(pair),
+    }
+
+
+def _repeat(report: BenchReport) -> str:
+    words = ["etot", "bench", *report.inputs, "--trials", str(report.trials_per_cell)]
+    words += ["--methods", ",".join(method.name for method in report.methods)]
+    words += ["--seed", str(report.seed), "--jobs", str(report.jobs)]
+    if report.reasoner != "builtin":
+        words += ["--reasoner", report.reasoner]
+    return shlex.join(words)

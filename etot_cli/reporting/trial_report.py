@@ -1,0 +1,61 @@
+"""The report of one trial of a benchmark: schema ``etot.trial/1``."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from etot_cli.benchmark.methods.catalogue import Method
+from etot_cli.benchmark.trial import TrialResult
+from etot_cli.execution.trial import Trial
+from etot_cli.reporting.execute_report import TrialModel, trial_model
+from etot_cli.reporting.files import report_text
+from etot_cli.reporting.models import Count, Model, Seconds, TaskModel, VersionsModel, seconds
+from etot_cli.reporting.provenance import versions
+from etot_cli.specs.task import Task
+
+
+class TrialReport(Model):
+    """One trial of a benchmark, from its first look to its evaluation."""
+
+    schema_: Literal["etot.trial/1"] = Field(default="etot.trial/1", alias="schema")
+    status: Literal["success", "failure", "error"]
+    method: str
+    task: TaskModel
+    number: Count
+    """The trial's number in the benchmark, from 0."""
+    seed: Count
+    versions: VersionsModel
+    reason: str
+    """Why it failed; empty on success."""
+    trial: TrialModel
+    """What happened, as in the report of ``etot execute``."""
+    costs: dict[str, float]
+    times: dict[str, Seconds]
+    wall_s: Seconds
+
+
+def trial_text(task: Task, method: Method, trial: Trial, result: TrialResult) -> str:
+    """A trial's report as JSON.
+
+    Args:
+        task: the task.
+        method: who planned.
+        trial: what happened.
+        result: the same as a line of the journal.
+    """
+    report = TrialReport(
+        status=result.status.value,
+        method=method.name,
+        task=TaskModel(name=task.name, file=task.file, instruction=task.instruction),
+        number=result.key.number,
+        seed=result.seed,
+        versions=versions(),
+        reason=result.reason,
+        trial=trial_model(trial, task.success),
+        costs=dict(result.costs),
+        times={name: seconds(value) for name, value in result.times.items()},
+        wall_s=seconds(result.wall_s),
+    )
+    return report_text(report)
