@@ -88,7 +88,10 @@ def write_task(options: NewOptions) -> NewTask:
     if any(isinstance(item, Mesh | Mjcf) for item in scene.objects.values()):
         raise EtotError(f"{source} has objects from files; copy it with them and edit the copy")
     document = scene.model_dump(
-        mode="json", exclude_defaults=True, by_alias=True, exclude={"directory", "name"}
+        mode="json",
+        exclude_defaults=True,
+        by_alias=True,
+        exclude={"actuation", "directory", "name"},
     )
     document.pop("description", None)
     objects: dict[str, Any] = document.setdefault("objects", {})

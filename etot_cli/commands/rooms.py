@@ -118,6 +118,8 @@ class Rooms:
     load_task: Callable[[Path], Task]
     vary: Callable[[Scene, int], Scene]
     """Draws poses and parameters of a scene by a seed."""
+    vary_truth: Callable[[Scene, int], Scene]
+    """The same, and what no twin is told."""
     open_simulator: OpenSimulator
     known_targets: Callable[[SceneState], Sequence[str]]
     """What actions may name in a scene."""
@@ -133,6 +135,8 @@ def default_rooms() -> Rooms:
     from etot_cli.control.simulator import known_targets, open_simulator
     from etot_cli.reasoning.builtin import BuiltinReasoner
     from etot_cli.specs.load import load_task
-    from etot_cli.specs.vary import vary
+    from etot_cli.specs.vary import vary, vary_truth
 
-    return Rooms(load_task, vary, open_simulator, known_targets, {"builtin": BuiltinReasoner})
+    return Rooms(
+        load_task, vary, vary_truth, open_simulator, known_targets, {"builtin": BuiltinReasoner}
+    )

@@ -136,7 +136,7 @@ def run_simulate(
 def _opened(run: _Run, scene: Scene, options: SimulateOptions, rooms: doors.Rooms) -> Simulator:
     """The world to act in; ``run`` learns its scene."""
     if run.recorded is None:
-        truth = rooms.vary(scene, options.seed) if options.vary else None
+        truth = rooms.vary_truth(scene, options.seed) if options.vary else None
         run.scene = truth or scene
         return rooms.open_simulator(
             scene,
@@ -153,7 +153,7 @@ def _opened(run: _Run, scene: Scene, options: SimulateOptions, rooms: doors.Room
     if options.error is not None:
         run.scene = with_start_error(scene, options.error, vary=options.vary)
     if options.error is not None or options.vary:
-        run.scene = rooms.vary(run.scene, options.seed)
+        run.scene = rooms.vary_truth(run.scene, options.seed)
     return rooms.open_replay(
         scene,
         run.recorded.recordings,

@@ -138,6 +138,7 @@ class PhysicsWorld:
             trace = run_motion(motion, robot, self.limits)
         else:
             trace = replay(recorded, robot)
+        robot.rest()
         self.stepping_s += time.perf_counter() - begun
         self.total_steps += robot.steps
         after, end = self._awake(start.memory)

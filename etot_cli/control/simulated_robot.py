@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 import mujoco
 import numpy as np
@@ -62,6 +63,10 @@ class SimulatedRobot:
         damping = -model.actuator_biasprm[robot.ctrl, 2]
         # A position servo with velocity damping follows this much later than its target.
         self._lag = damping / np.maximum(gain, 1e-9)
+        self._delay_steps = round(world.scene.actuation.delay_s / model.opt.timestep)
+        # What was commanded last; where nothing is late, what is in effect.
+        self._command: Vector = data.ctrl.copy() if self._delay_steps else data.ctrl
+        self._under_way: deque[tuple[int, Vector]] = deque()
         self._low, self._high = model.actuator_ctrlrange[robot.ctrl].T
         free = [name for name, entry in world.entries.items() if entry.free]
         first = np.array([model.joint(name).dofadr[0] for name in free], dtype=np.int64)
@@ -77,7 +82,7 @@ class SimulatedRobot:
         robot, data = self._world.robot, self._data
         return RobotState(
             np.asarray(data.qpos[robot.qpos].copy()),
-            np.asarray(data.ctrl[robot.ctrl].copy()),
+            np.asarray(self._command[robot.ctrl].copy()),
             self._opening(),
             float(data.time) - self._start_time,
         )
@@ -88,34 +93,34 @@ class SimulatedRobot:
         The targets are led by the servo's lag, so the arm is where the path says, not behind it.
         """
         data, ctrl, qpos = self._data, self._world.robot.ctrl, self._world.robot.qpos
-        previous = np.vstack([data.ctrl[ctrl][None], targets[:-1]])
+        previous = np.vstack([self._command[ctrl][None], targets[:-1]])
         lead = (targets - previous) / CONTROL_PERIOD * self._lag
         lead[0] = 0.0
         commands = np.clip(targets + lead, self._low, self._high)
         late = 0
         for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
-            data.ctrl[ctrl] = command
+            self._command[ctrl] = command
             self._tick()
             if period % GUARD_EVERY:
                 continue
             if self._slipped(guards):
-                data.ctrl[ctrl] = target
+                self._command[ctrl] = target
                 return PhaseEnd.SLIPPED
             error = float(np.abs(data.qpos[qpos] - target).max())
             late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
             if late >= BLOCKED_PERIODS:
-                data.ctrl[ctrl] = data.qpos[qpos]
+                self._command[ctrl] = data.qpos[qpos]
                 return PhaseEnd.BLOCKED
             if self._exhausted:
                 return PhaseEnd.OUT_OF_TIME
-        data.ctrl[ctrl] = targets[-1]
+        self._command[ctrl] = targets[-1]
         return PhaseEnd.DONE
 
     def set_opening(self, opening: float) -> None:
         """Sends the gripper to a distance between the pads [m]."""
         gripper = self._world.robot.spec.gripper
         share = min(max(opening / gripper.opening, 0.0), 1.0)
-        self._data.ctrl[self._world.robot.gripper_ctrl] = gripper.command_closed + share * (
+        self._command[self._world.robot.gripper_ctrl] = gripper.command_closed + share * (
             gripper.command_open - gripper.command_closed
         )
 
@@ -131,6 +136,11 @@ class SimulatedRobot:
                 if quiet >= REST_PERIODS:
                     break
         return PhaseEnd.OUT_OF_TIME if self._exhausted else PhaseEnd.DONE
+
+    def rest(self) -> None:
+        """What has been commanded last is in effect from now on."""
+        self._under_way.clear()
+        self._data.ctrl[:] = self._command
 
     def contacts(self) -> Contacts:
         """Who touches the robot, and who is pressed by whom, now."""
@@ -153,13 +163,28 @@ class SimulatedRobot:
             OutOfTimeError: the deadline has passed.
         """
         self._deadline.check()
-        mujoco.mj_step(self._world.model, self._data, self._steps_per_period)
+        if self._delay_steps:
+            self._step_late()
+        else:
+            mujoco.mj_step(self._world.model, self._data, self._steps_per_period)
         self._periods += 1
         if self._periods % OBSERVE_EVERY == 0:
             if self._recorder is not None:
                 self._recorder.observe(self._data)
             if not np.isfinite(self._data.qpos).all():
                 raise WorldError("the simulation diverged (NaN)")
+
+    def _step_late(self) -> None:
+        """A control period in which commands take effect some steps after they are given."""
+        now = self._periods * self._steps_per_period
+        end = now + self._steps_per_period
+        self._under_way.append((now + self._delay_steps, self._command.copy()))
+        while self._under_way and self._under_way[0][0] < end:
+            due, command = self._under_way.popleft()
+            if due > now:
+                mujoco.mj_step(self._world.model, self._data, due - now)
+            self._data.ctrl[:], now = command, due
+        mujoco.mj_step(self._world.model, self._data, end - now)
 
     def _opening(self) -> float:
         return self._world.robot.opening(self._data)

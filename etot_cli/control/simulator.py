@@ -24,7 +24,7 @@ from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
-from etot_cli.specs.vary import vary
+from etot_cli.specs.vary import vary_truth
 from etot_cli.world.model import World
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import DESK, Cause, CauseKind, SceneState
@@ -61,7 +61,7 @@ def open_simulator(
     if truth is not None:
         return ActionSimulator(Worlds(Recipe(scene, (truth,), seed, record, look)), 1, go_on=True)
     kind = "fresh" if fresh else "choosing"
-    drawn = [vary(scene, world_seed(seed, kind, index)) for index in range(1, worlds)]
+    drawn = [vary_truth(scene, world_seed(seed, kind, index)) for index in range(1, worlds)]
     recipe = Recipe(scene, tuple(drawn), seed, record, look)
     return ActionSimulator(Worlds(recipe), max(jobs, 1), go_on=False)
 

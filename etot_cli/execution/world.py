@@ -18,7 +18,7 @@ from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.skills.motion.ready import ready_pose
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.specs.scene import Scene, SceneObject
-from etot_cli.specs.vary import vary
+from etot_cli.specs.vary import vary_truth
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects
 from etot_cli.world.recorder import Recorder, Trajectory
@@ -53,18 +53,21 @@ class ExecutionWorld:
         keep_frames: bool = False,
     ) -> None:
         self.added = dict(added or {})
-        varied = vary(scene, seed)
-        self.rng = np.random.default_rng([seed % 2**64, len(varied.objects)])
+        varied = vary_truth(scene, seed)
+        # The device itself sends what it is told so many control periods later.
+        self.delay = round(varied.actuation.delay_s / CONTROL_PERIOD)
+        prompt = varied.actuation.model_copy(update={"delay_s": 0.0})
         waiting = {
             name: item.model_copy(update={"on": None, "inside": None, "at": self._away(rank)})
             for rank, (name, item) in enumerate(self.added.items())
         }
         self.world = build_world(
-            varied.model_copy(update={"objects": {**varied.objects, **waiting}})
+            varied.model_copy(
+                update={"objects": {**varied.objects, **waiting}, "actuation": prompt}
+            )
         )
         self.data = mujoco.MjData(self.world.model)
         self.absent = set(waiting)
-        self.delay = self._vary_robot(scene)
         self.memory = Memory()
         self.keep_frames = keep_frames
         self.recorder: Recorder | None = None
@@ -135,19 +138,6 @@ class ExecutionWorld:
         data.time = 0.0
         mujoco.mj_forward(world.model, data)
         self.memory = initial_memory(world, data)
-
-    def _vary_robot(self, scene: Scene) -> int:
-        """Draws servo gains, gripper force and the delay, in control periods."""
-        model, robot, bounds = self.world.model, self.world.robot, scene.variation
-        # Force and damping in proportion: a servo as stable as before, only stiffer or softer.
-        gains = 1.0 + bounds.servo * self.rng.uniform(-1.0, 1.0, len(robot.ctrl))
-        model.actuator_gainprm[robot.ctrl, 0] *= gains
-        model.actuator_biasprm[robot.ctrl, 1:3] *= gains[:, None]
-        force = 1.0 + bounds.gripper_force * self.rng.uniform(-1.0, 1.0)
-        model.actuator_gainprm[robot.gripper_ctrl] *= force
-        model.actuator_biasprm[robot.gripper_ctrl] *= force
-        model.actuator_forcerange[robot.gripper_ctrl] *= force
-        return round(bounds.delay_s * self.rng.uniform() / CONTROL_PERIOD)
 
 
 __all__ = ["ExecutionWorld"]

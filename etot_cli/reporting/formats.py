@@ -38,7 +38,7 @@ SECTIONS: tuple[tuple[str, tuple[type[BaseModel], ...]], ...] = (
          scenes.Shelf, scenes.Mesh, scenes.Mjcf, scenes.MjcfPart),
     ),
 )  # fmt: skip
-SET_BY_LOADER = {"directory", "file"}
+SET_BY_LOADER = {"actuation", "directory", "file"}
 """Keys of models that no file may give, but for the file of a mesh or MJCF object."""
 
 

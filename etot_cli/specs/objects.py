@@ -45,7 +45,7 @@ class ObjectBase(Spec):
     mass: Mass | None = None
     friction: Friction = 0.6
     slippery: bool = False
-    """Its friction holds against the gripper pads too (MuJoCo takes the larger of a pair)."""
+    """Its friction holds as it is against everything, the gripper pads too."""
     rolling_friction: RollingFriction | None = None
     color: Color | None = None
     label: str | None = Field(default=None, max_length=60)
@@ -278,5 +278,7 @@ SceneObject = Annotated[
     Field(discriminator="kind"),
 ]
 
+ROLLING_DEFAULT = 0.0005
+"""Rolling friction of balls on a hard desk [m]."""
 FURNITURE = (DrawerUnit, Cabinet, Shelf)
 """Kinds that are fastened to the desk unless ``fixed: false``."""

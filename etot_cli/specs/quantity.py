@@ -61,6 +61,11 @@ NewtonMetres = Annotated[
     float, Field(ge=0.0, le=20.0, allow_inf_nan=False), Meaning("a torque in newton metres")
 ]
 Scale = Annotated[float, Field(gt=1e-5, le=1000.0, allow_inf_nan=False), Meaning("a scale factor")]
+Delay = Annotated[
+    float,
+    Field(ge=0.0, le=0.2, allow_inf_nan=False),
+    Meaning("a time in seconds", (("ms", 1000.0),)),
+]
 Spread = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False), _LENGTH]
 Height = Annotated[
     float, Field(ge=-0.5, le=1.5, allow_inf_nan=False), Meaning("a height in metres", _METRES)

@@ -34,6 +34,7 @@ from etot_cli.specs.quantity import (
     Channel,
     Coordinate,
     Degrees,
+    Delay,
     Finite,
     FocalLength,
     Friction,
@@ -104,15 +105,31 @@ class Variation(Spec):
     """Relative."""
     size: Share | None = None
     """Relative, of movable things; as far as sizes are perceived wrongly when None."""
+    rolling_friction: Share = 0.30
+    """Relative, of round things; like what follows not in the planner's twin."""
+    pad_friction: Share = 0.10
+    """Relative, of the gripper's pads against everything."""
     servo: Share = 0.10
-    """Relative, of the gains of the arm's servos (``execute`` only)."""
+    """Relative, of the gains of the arm's servos, each joint its own."""
     gripper_force: Share = 0.15
-    """Relative (``execute`` only)."""
-    delay_s: Annotated[float, Field(ge=0.0, le=0.2)] = 0.02
-    """How much later than sent a command takes effect, at most; uniform from 0 (``execute``
-    only)."""
+    """Relative."""
+    delay_s: Delay = 0.02
+    """How much later than sent a command takes effect, at most; uniform from 0."""
     keep: tuple[str, ...] = ()
     """Objects that get no pose of their own drawn; they still move with what carries them."""
+
+
+class Actuation(Spec):
+    """How a robot differs from its description: factors, and how late its commands take effect.
+
+    A scene in a file describes the robot as it is believed to be, and has none of this.
+    """
+
+    pad_friction: Finite = 1.0
+    gripper_force: Finite = 1.0
+    servo: tuple[Finite, ...] = ()
+    """Of each joint's gains, from the base; joints without one have their own."""
+    delay_s: Delay = 0.0
 
 
 class Perception(Spec):
@@ -139,6 +156,8 @@ class Scene(Spec):
     perception: Perception = Perception()
     viewpoint: Name = ROBOT_VIEWPOINT
     """Whose left, right, front and back are meant: the robot's, or those of one of ``cameras``."""
+    actuation: Actuation = Actuation()
+    """Drawn for worlds that are not the planner's twin; refused in YAML."""
     directory: str = "."
     """Folder (absolute) against which mesh, MJCF and robot files are resolved; set by the loader,
     refused in YAML. The loader has checked those files; when one comes from an included document

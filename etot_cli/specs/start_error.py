@@ -63,5 +63,7 @@ def with_start_error(scene: Scene, error: StartError, *, vary: bool) -> Scene:
     if vary:
         variation = scene.variation.model_copy(update=poses)
     else:
-        variation = Variation(**poses, friction=0.0, mass=0.0, size=0.0, keep=scene.variation.keep)
+        nothing = dict.fromkeys(Variation.model_fields, 0.0)
+        keep = scene.variation.keep
+        variation = Variation.model_validate(nothing | poses | {"keep": keep})
     return scene.model_copy(update={"variation": variation})

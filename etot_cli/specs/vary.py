@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 from etot_cli.specs.checks import placement_problems
 from etot_cli.specs.footprint import turned
-from etot_cli.specs.objects import FURNITURE, Cup, ObjectBase
+from etot_cli.specs.objects import FURNITURE, ROLLING_DEFAULT, Cup, Mjcf, ObjectBase
 from etot_cli.specs.placement import Placed, place_all
 from etot_cli.specs.references import DESK, support_of
 from etot_cli.specs.resize import resize
-from etot_cli.specs.scene import Scene
+from etot_cli.specs.scene import Actuation, Scene
 
 TRIES = 50
 """Draws at full amplitude before it is reduced."""
@@ -27,6 +27,9 @@ OWN_SHARE = 0.3
 """Part of the bounds by which an object moves relative to the object that carries it."""
 FRICTION_BOUNDS = (0.01, 3.0)
 MASS_BOUNDS = (0.0002, 100.0)
+MAX_ROLLING = 0.1
+MAX_JOINTS = 12
+"""Of a robot."""
 """What the models accept; draws are clipped to it."""
 
 
@@ -80,6 +83,40 @@ def vary(scene: Scene, seed: int) -> Scene:
         if next(placement_problems(varied), None) is None:
             return resize(varied, seed)
     return resize(_varied(scene, {name: _draw(seed, 0, name) for name in scene.objects}, 0.0), seed)
+
+
+def vary_truth(scene: Scene, seed: int) -> Scene:
+    """A true world beside the planner's twin: as :func:`vary`, and what no twin is told.
+
+    That is rolling friction and how the robot differs from its description. These have random
+    streams of their own, so everything else is drawn as by :func:`vary`.
+    """
+    varied, bounds = vary(scene, seed), scene.variation
+    objects = {}
+    for name, item in varied.objects.items():
+        if bounds.rolling_friction and not isinstance(item, (*FURNITURE, Mjcf)):
+            rolling = ROLLING_DEFAULT if item.rolling_friction is None else item.rolling_friction
+            (draw,) = _uniform(seed, 1, name, "rolling")
+            rolling *= 1.0 + bounds.rolling_friction * draw
+            item = item.model_copy(update={"rolling_friction": min(rolling, MAX_ROLLING)})
+        objects[name] = item
+    pads, force, delay, *servo = _uniform(seed, 3 + MAX_JOINTS, "", "robot")
+    actuation = Actuation(
+        pad_friction=1.0 + bounds.pad_friction * pads,
+        gripper_force=1.0 + bounds.gripper_force * force,
+        servo=tuple(1.0 + bounds.servo * draw for draw in servo) if bounds.servo else (),
+        delay_s=bounds.delay_s * (1.0 + delay) / 2.0,
+    )
+    return varied.model_copy(update={"objects": objects, "actuation": actuation})
+
+
+def _uniform(seed: int, count: int, name: str, salt: str) -> list[float]:
+    """Numbers in −1…1 that depend on seed, name and salt alone."""
+    import numpy as np  # here, because starting the program must not wait for it
+
+    entropy = [seed % 2**64, zlib.crc32(name.encode()), zlib.crc32(salt.encode())]
+    drawn: list[float] = np.random.default_rng(entropy).uniform(-1.0, 1.0, count).tolist()
+    return drawn
 
 
 def _draw(seed: int, attempt: int, name: str) -> _Draw:

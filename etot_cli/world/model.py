@@ -15,10 +15,11 @@ from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
 from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
+from etot_cli.world.build.pads import add_pad_pairs
 from etot_cli.world.build.surroundings import add_surroundings, set_options
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.robot import RobotSpec, load_robot
-from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, add_robot, robot_index
+from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, actuate, add_robot, robot_index
 
 MASS_TOLERANCE = 1e-6
 SEEN_ONLY = ("cam", "light", "mat", "name", "nbuf", "nmat", "nname", "npath", "ntex", "path", "tex")
@@ -124,6 +125,7 @@ def build_world(
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         entries[name] = _with_mass(entry, model)
     index = robot_index(model, robot)
+    actuate(model, index, scene.actuation)
     return World(scene, model, index, entries, _addresses(model, entries, index))
 
 
@@ -144,7 +146,10 @@ def _drafted(
     set_options(mj)
     add_surroundings(mj, scene)
     add_robot(mj, robot)
-    return mj, {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
+    drafts = {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
+    pads = [ROBOT_PREFIX + pad for pad in robot.gripper.pads]
+    add_pad_pairs(mj, pads, list(scene.objects), scene.actuation.pad_friction)
+    return mj, drafts
 
 
 def _scale_masses(model: mujoco.MjModel, scene: specs.Scene) -> None:

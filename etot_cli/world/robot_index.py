@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.specs.scene import Actuation
 from etot_cli.world.build.mjcf_check import check_mjcf
 from etot_cli.world.fingers import Fingers, fingers_of
 from etot_cli.world.robot import RobotSpec
@@ -62,6 +63,18 @@ def add_robot(mj: mujoco.MjSpec, robot: RobotSpec) -> None:
     except ValueError as error:
         raise WorldError(f"{robot.model_path.name}: not a valid MJCF model ({error})") from error
     mj.attach(child, prefix=ROBOT_PREFIX, frame=mj.worldbody.add_frame())
+
+
+def actuate(model: mujoco.MjModel, robot: RobotIndex, actuation: Actuation) -> None:
+    """Makes the arm's servos and the gripper as strong as a robot really has them."""
+    for actuator, gain in zip(robot.ctrl, actuation.servo, strict=False):
+        # Force and damping in proportion: a servo as stable as before, only stiffer or softer.
+        model.actuator_gainprm[actuator, 0] *= gain
+        model.actuator_biasprm[actuator, 1:3] *= gain
+    force, gripper = actuation.gripper_force, robot.gripper_ctrl
+    model.actuator_gainprm[gripper] *= force
+    model.actuator_biasprm[gripper] *= force
+    model.actuator_forcerange[gripper] *= force
 
 
 def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:

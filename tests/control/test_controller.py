@@ -16,6 +16,7 @@ from etot_cli.skills.action import parse_plan
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits
 from etot_cli.skills.motions import plan_motions
+from etot_cli.specs.scene import Actuation
 from etot_cli.world.relations import held_object
 from etot_cli.world.snapshot import Snapshot, restore
 from tests.skills.helpers import BALL, UNIT, drawers
@@ -159,6 +160,25 @@ def test_a_drawer_that_stops_is_let_go_and_left_the_way_out_from_there(
     np.testing.assert_allclose(robot.joints, along.exits[nearest][-1], atol=1e-9)
     if any(isinstance(phase, Hand) for phase in motion.phases):
         assert ended(trace, "release") is PhaseEnd.DONE
+
+
+@pytest.mark.parametrize("delay_s", [0.0, 0.006, 0.01, 0.034])
+def test_commands_take_effect_late(world: SimulatedWorld, start: Snapshot, delay_s: float) -> None:
+    late = world.world.scene.model_copy(update={"actuation": Actuation(delay_s=delay_s)})
+    delayed = SimulatedWorld(late, 0, keep_frames=False)
+    restore(delayed.world, delayed.data, start)
+    robot = SimulatedRobot(delayed.world, delayed.data)
+    arm, before = delayed.world.robot.ctrl, delayed.data.ctrl.copy()
+    wanted = before[arm] + 0.001
+    robot.follow(wanted[None], Guards())
+    periods = 1
+    while np.array_equal(delayed.data.ctrl[arm], before[arm]) and periods < 10:
+        robot.wait(CONTROL_PERIOD, Guards())
+        periods += 1
+    assert periods == int(delay_s / CONTROL_PERIOD + 1e-9) + 1
+    np.testing.assert_array_equal(robot.state().targets, wanted)
+    robot.rest()
+    np.testing.assert_array_equal(delayed.data.ctrl[arm], wanted)
 
 
 def test_planning_steps_nothing(world: SimulatedWorld, start: Snapshot) -> None:

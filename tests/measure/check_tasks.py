@@ -22,7 +22,7 @@ from etot_cli.planning.options import Ablation
 from etot_cli.reporting.files import write_report
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
-from etot_cli.specs.vary import vary
+from etot_cli.specs.vary import vary_truth
 from tests.measure.expectations import NAIVE_PLANS, TASKS, Naive, is_right_plan
 from tests.measure.markdown import replace_section, table
 
@@ -97,12 +97,12 @@ def truth_trial(arguments: tuple[str, int, int]) -> tuple[str, int, str, str]:
         variation = scene.variation.model_copy(
             update={"position_m": setting.position_m, "yaw_deg": setting.yaw_deg}
         )
-        return vary(scene.model_copy(update={"variation": variation}), seed)
+        return vary_truth(scene.model_copy(update={"variation": variation}), seed)
 
     options = SimulateOptions(
         task=task_file(name), plan=str(report_folder(name)), seed=seed, vary=True, look=setting.look
     )
-    report = run_simulate(options, rooms=replace(default_rooms(), vary=drawn)).report
+    report = run_simulate(options, rooms=replace(default_rooms(), vary_truth=drawn)).report
     return name, index, report.status, report.cause or ""
 
 

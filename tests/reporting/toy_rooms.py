@@ -53,6 +53,7 @@ class ToyRooms:
         return Rooms(
             load_task=self._load_task,
             vary=self._vary,
+            vary_truth=self._vary,
             open_simulator=self._open,
             known_targets=lambda scene: ["cup", "box", "desk"],
             reasoners={"builtin": lambda: self._reasoner},

@@ -9,13 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from etot_cli.errors import SpecError
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.objects import Cup, Sphere
 from etot_cli.specs.placement import place_all
 from etot_cli.specs.resize import LENGTHS
-from etot_cli.specs.scene import Scene
-from etot_cli.specs.vary import vary
+from etot_cli.specs.scene import Actuation, Scene
+from etot_cli.specs.vary import MAX_JOINTS, vary, vary_truth
 from tests.specs.helpers import objects, write
 
 SCENES = sorted((Path(__file__).parents[2] / "scenes").glob("*.yaml"))
@@ -58,6 +59,46 @@ def test_draws_are_valid_bounded_and_reproducible(nominal: Scene, seed: int) -> 
                 assert two == pytest.approx(one, rel=nominal.perception.size + 1e-9)
         same = {"at", "yaw_deg", "quaternion", "friction", "mass", *lengths}
         assert other.model_dump(exclude=same) == item.model_dump(exclude=same)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.sampled_from(LOADED), SEEDS)
+def test_true_worlds_differ_in_what_no_twin_is_told(nominal: Scene, seed: int) -> None:
+    twin, truth = vary(nominal, seed), vary_truth(nominal, seed)
+    assert twin.actuation == Actuation() and truth == vary_truth(nominal, seed)
+    bound, drawn = nominal.variation, truth.actuation
+    assert abs(drawn.pad_friction - 1.0) <= bound.pad_friction
+    assert abs(drawn.gripper_force - 1.0) <= bound.gripper_force
+    assert len(set(drawn.servo)) == len(drawn.servo) == MAX_JOINTS
+    assert max(abs(gain - 1.0) for gain in drawn.servo) <= bound.servo
+    assert 0.0 <= drawn.delay_s <= bound.delay_s
+    for name, item in twin.objects.items():
+        other = truth.objects[name]
+        same = {"rolling_friction"}
+        assert other.model_dump(exclude=same) == item.model_dump(exclude=same)
+        if item.rolling_friction is not None:
+            assert other.rolling_friction == pytest.approx(
+                item.rolling_friction, rel=bound.rolling_friction + 1e-9
+            )
+    assert Scene.model_validate(truth.model_dump(by_alias=True)) == truth
+
+
+def test_nothing_else_is_drawn_where_nothing_may_differ() -> None:
+    nominal = LOADED[0]
+    none = dict.fromkeys(
+        ("rolling_friction", "pad_friction", "gripper_force", "servo", "delay_s"), 0.0
+    )
+    scene = nominal.model_copy(update={"variation": nominal.variation.model_copy(update=none)})
+    assert vary_truth(scene, 5) == vary(scene, 5)
+
+
+def test_the_robot_of_a_file_is_the_one_described(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="unknown key 'actuation'"):
+        scene(
+            tmp_path,
+            "actuation: {gripper_force: 2}",
+            a="{kind: sphere, diameter: 0.05, at: [0.3, 0]}",
+        )
 
 
 def test_seeds_differ_and_spread() -> None:

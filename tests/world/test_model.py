@@ -11,6 +11,7 @@ import pytest
 
 from etot_cli.errors import WorldError
 from etot_cli.specs.load import load_task
+from etot_cli.specs.scene import Actuation, Scene
 from etot_cli.world.build.surroundings import TIMESTEP
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import object_bounds
@@ -233,6 +234,53 @@ def test_slippery_goes_before_the_pads_friction() -> None:
         assert world.model.geom_friction[geom][0] == pytest.approx(0.15)
         priority = world.model.geom_priority
         assert bool(priority[geom] > priority[pad]) is more_important
+
+
+def pad_frictions(scene: Scene, name: str) -> list[float]:
+    """Sliding friction of each contact pair that the pads have with an object."""
+    world = build_world(scene)
+    model, own = world.model, set(world.geoms_of(name).tolist())
+    pads = set(world.robot.pads)
+    return [
+        float(model.pair_friction[pair][0])
+        for pair in range(model.npair)
+        if {int(model.pair_geom1[pair]), int(model.pair_geom2[pair])} & pads
+        and {int(model.pair_geom1[pair]), int(model.pair_geom2[pair])} & own
+    ]
+
+
+def test_the_friction_between_pads_and_a_thing_is_the_things_own_too() -> None:
+    scene = make_scene(
+        usual=BOX | {"at": [0.4, 0.2]},
+        smooth=BOX | {"at": [0.4, -0.2], "friction": 0.15},
+        wet=BOX | {"at": [0.4, 0.0], "friction": 0.15, "slippery": True},
+    )
+    assert pad_frictions(scene, "smooth") == pytest.approx([0.25, 0.25])
+    assert pad_frictions(scene, "usual") == []  # 1.0, what MuJoCo takes anyway
+    assert pad_frictions(scene, "wet") == []  # its own, by priority
+    worn = scene.model_copy(update={"actuation": Actuation(pad_friction=0.8)})
+    assert pad_frictions(worn, "smooth") == pytest.approx([0.2, 0.2])
+    assert pad_frictions(worn, "usual") == pytest.approx([0.8, 0.8])
+    assert pad_frictions(worn, "wet") == []
+
+
+def test_a_robot_is_as_strong_as_it_is_drawn() -> None:
+    scene = make_scene(box=BOX | {"at": [0.4, 0.2]})
+    one = build_world(scene)
+    weak = Actuation(servo=(0.9,) * len(one.robot.ctrl), gripper_force=0.5)
+    two = build_world(scene.model_copy(update={"actuation": weak}))
+    arm, gripper = one.robot.ctrl, one.robot.gripper_ctrl
+    gains = two.model.actuator_gainprm[arm, 0] / one.model.actuator_gainprm[arm, 0]
+    np.testing.assert_allclose(gains, 0.9)
+    np.testing.assert_allclose(
+        two.model.actuator_biasprm[arm, 1], -two.model.actuator_gainprm[arm, 0]
+    )
+    np.testing.assert_allclose(
+        two.model.actuator_biasprm[arm, 2], 0.9 * one.model.actuator_biasprm[arm, 2]
+    )
+    np.testing.assert_allclose(
+        two.model.actuator_forcerange[gripper], one.model.actuator_forcerange[gripper] / 2
+    )
 
 
 @pytest.mark.parametrize(("slippery", "slides"), [(True, True), (False, False)])

@@ -11,11 +11,11 @@ from typing import Any
 
 import mujoco
 
+from etot_cli.specs.objects import ROLLING_DEFAULT
+
 SOLREF = [0.005, 1.0]
 SOLIMP = [0.95, 0.99, 0.001, 0.5, 2.0]
 TORSION = 0.005
-ROLLING_DEFAULT = 0.0005
-"""Rolling friction length of balls on a hard desk [m]."""
 
 
 @dataclass(frozen=True)

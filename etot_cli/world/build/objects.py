@@ -9,8 +9,9 @@ import mujoco
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
+from etot_cli.specs.objects import ROLLING_DEFAULT
 from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
-from etot_cli.world.build.material import ROLLING_DEFAULT, Look
+from etot_cli.world.build.material import Look
 from etot_cli.world.colors import nearest_basic, rgb
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.state import DESK, ObjectInfo

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.specs import scene as specs
-from etot_cli.world.build.material import ROLLING_DEFAULT, SOLIMP, SOLREF
+from etot_cli.specs.objects import ROLLING_DEFAULT
+from etot_cli.world.build.material import SOLIMP, SOLREF
 from etot_cli.world.colors import rgb
 from etot_cli.world.state import DESK
 
