@@ -102,6 +102,21 @@ class PhysicsWorld:
         scene, memory = read_scene(self.world, self.data, memory)
         return scene, Snapshot(now.physics, memory)
 
+    def place_furniture(self, scene: SceneState) -> bool:
+        """Puts what is fastened where a scene has it; whether anything had to be moved.
+
+        It is no state that a snapshot would hold, but a constant of this world's model.
+        """
+        model, moved = self.world.model, False
+        for name, entry in self.world.entries.items():
+            if entry.free or name not in scene.states:
+                continue
+            state, body = scene.states[name], model.body(entry.body)
+            pose = np.array([*state.position, *state.quaternion])
+            if not np.array_equal(pose, np.concatenate([body.pos, body.quat])):
+                body.pos[:], body.quat[:], moved = pose[:3], pose[3:], True
+        return moved
+
     def look(self, snapshot: Snapshot) -> SceneState:
         """Brings ``data`` into a stored state and reads the scene there."""
         restore(self.world, self.data, snapshot)

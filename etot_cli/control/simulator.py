@@ -131,9 +131,11 @@ class ActionSimulator:
         return self._start
 
     def begin_from(self, snapshot: Snapshot, scene: SceneState) -> None:
-        """Lets the twin start from a state of its own instead of the scene's; it has no worlds
-        beside it then.
+        """Lets the twin start from a state of its own instead of the scene's, with the furniture
+        where ``scene`` has it; it has no worlds beside it then.
         """
+        if self._worlds.place_furniture(scene):
+            self.close()  # the workers' worlds are as they were
         self._ensure_pool()
         self._start = _pack([snapshot]), scene
 

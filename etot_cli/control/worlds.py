@@ -95,6 +95,10 @@ class Worlds:
         """The record of an action that was not carried out in a world."""
         return self._all[index].unperformed(snapshot, cause)
 
+    def place_furniture(self, scene: SceneState) -> bool:
+        """Puts what is fastened in the twin where a scene has it; whether anything was moved."""
+        return self._twin.place_furniture(scene)
+
     def digest(self, index: int) -> str:
         """Of a world's model."""
         return self._all[index].world.digest

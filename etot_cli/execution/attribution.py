@@ -46,9 +46,9 @@ def true_observation(world: ExecutionWorld, robot: RobotState) -> Observation:
             continue
         for part in entry.parts:
             parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
-        if entry.free:
-            x, y, z, w, i, j, k = (float(value) for value in data.joint(name).qpos)
-            objects[name] = Sighting((x, y, z), (w, i, j, k))
+        body = data.body(entry.body)
+        x, y, z, w, i, j, k = (float(value) for value in (*body.xpos, *body.xquat))
+        objects[name] = Sighting((x, y, z), (w, i, j, k))
     return Observation(robot, objects, parts)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.control.physics_world import PhysicsWorld
 from etot_cli.control.robot import Guards, RobotState
@@ -22,6 +23,8 @@ from etot_cli.world.robot_index import ROBOT_PREFIX
 from etot_cli.world.snapshot import Memory, Snapshot, save
 from etot_cli.world.state import SceneState
 
+Vector = NDArray[np.float64]
+
 AWAY = (3.0, 3.0)
 """Where what is not there any more waits in the twin, x y [m]: on the floor beyond every desk."""
 CREEP_STEPS = 120
@@ -32,6 +35,10 @@ GRIP_STEPS = 250
 """Physics steps in which the fingers close on what is held: half a second, as a real grip takes."""
 HELD_GAP = 0.002
 """Fingers that stay this much further open than they were told hold something [m]."""
+JUMP = 0.03
+"""Furniture seen this far from where it was has been moved [m] ..."""
+TURN = 0.996
+"""... or turned: the cosine of half 10 degrees."""
 NEAR_FINGERS = 0.025
 """What is held is seen at most this far from both fingers [m]: perception errs by less."""
 
@@ -58,6 +65,7 @@ class BelievedTwin:
         self._data = self._physics.data
         self._believed = mujoco.MjData(self.world.model)
         self._memory: Memory | None = None
+        self._fastened: dict[str, tuple[int, Vector, Vector]] = {}
 
     def see(self, observation: Observation, command: float | None) -> tuple[Snapshot, SceneState]:
         """The twin's state after a look.
@@ -118,6 +126,7 @@ class BelievedTwin:
         data.ctrl[robot.ctrl] = sensed.targets
         robot.set_opening(data, min(max(sensed.opening, 0.0), robot.spec.gripper.opening))
         missing = [name for name, item in world.entries.items() if item.free]
+        self._place_fastened(observation)
         for rank, (name, entry) in enumerate(world.entries.items()):
             for part in entry.parts:
                 value = observation.parts.get(f"{name}.{part.info.name}", part.lower)
@@ -134,6 +143,27 @@ class BelievedTwin:
         if missing:
             raise WorldError(f"the look says nothing of {', '.join(missing)}")
         mujoco.mj_forward(world.model, data)
+
+    def _place_fastened(self, observation: Observation) -> None:
+        """Puts furniture where the looks so far have it: what is fastened does not move, so their
+        mean is better than the last one; after a jump they begin anew.
+        """
+        model = self.world.model
+        for name, entry in self.world.entries.items():
+            sighting = observation.objects.get(name)
+            if entry.free or sighting is None or sighting.mark is not Mark.SEEN:
+                continue
+            position, quaternion = np.array(sighting.position), np.array(sighting.quaternion)
+            looks, here, turned = self._fastened.get(name, (0, position, quaternion))
+            if float(np.linalg.norm(position - here)) > JUMP or abs(turned @ quaternion) < TURN:
+                looks, here, turned = 0, position, quaternion
+            looks += 1
+            here = here + (position - here) / looks
+            turned = turned + (quaternion * np.sign(turned @ quaternion) - turned) / looks
+            turned /= np.linalg.norm(turned)
+            self._fastened[name] = looks, here, turned
+            body = model.body(entry.body)
+            body.pos[:], body.quat[:] = here, turned
 
     def _held(self, robot: RobotState, command: float | None) -> str | None:
         """What is in the hand: the object between fingers that did not close as far as told."""

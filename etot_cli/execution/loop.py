@@ -185,9 +185,7 @@ class Loop:
         if world is None:
             return {}
         return {
-            name: round(
-                float(np.linalg.norm(world.data.joint(name).qpos[:3] - sighting.position)), 5
-            )
+            name: round(float(np.linalg.norm(world.data.body(name).xpos - sighting.position)), 5)
             for name, sighting in seen.objects.items()
             if name in world.world.entries and name not in world.absent
         }

@@ -18,8 +18,9 @@ from etot_cli.specs.scene import Perception, SceneObject
 class StateEyes:
     """Implements :class:`etot_cli.execution.protocols.Eyes`.
 
-    Every free object is seen shifted in the plane and turned about the vertical, uniformly within
-    ± the error, anew at each look. How far doors and drawers are open is seen as it is.
+    Every object, furniture too, is seen shifted in the plane and turned about the vertical,
+    uniformly within ± the error, anew at each look. How far doors and drawers are open is seen
+    as it is.
 
     Args:
         world: what is looked at.
@@ -43,8 +44,8 @@ class StateEyes:
                 continue
             for part in entry.parts:
                 parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
-            if entry.free:
-                objects[name] = self._seen(data.joint(name).qpos, rng)
+            body = data.body(entry.body)
+            objects[name] = self._seen(np.concatenate([body.xpos, body.xquat]), rng)
         for name, sighting in last.objects.items():
             objects.setdefault(name, replace(sighting, mark=Mark.LOST))
         return Observation(robot.state(), objects, parts)
