@@ -75,6 +75,9 @@ class CollisionChecker:
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
         copy_configuration(data, self._data)
+        # Where furniture stands is a constant of the world's model, but not for ever.
+        self._model.body_pos[:] = self.world.model.body_pos
+        self._model.body_quat[:] = self.world.model.body_quat
         self._live = data
         self._riders.clear()
 
