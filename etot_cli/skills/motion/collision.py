@@ -26,6 +26,8 @@ SELF_CLEARANCE = 0.004
 milliradians late must not get stuck on itself."""
 _MARGIN = 0.02
 """Distances are known up to this [m]."""
+MAX_KNOWN = 8192
+"""Answers that are kept: a few megabytes, and more than the longest search for a hold asks for."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,8 @@ class CollisionChecker:
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
-        self._ignored: frozenset[int] = frozenset()
-        self.checks = 0
+        self._ignored: frozenset[str] = frozenset()
+        self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
 
@@ -99,7 +101,7 @@ class CollisionChecker:
     def without(self, names: Iterable[str]) -> Iterator[None]:
         """Answers as if these objects were not there."""
         before = self._ignored
-        self._ignored = before | {self._object_names.index(name) for name in names}
+        self._ignored = before | set(names)
         try:
             yield
         finally:
@@ -161,12 +163,38 @@ class CollisionChecker:
             OutOfTimeError: the deadline has passed.
         """
         self._deadline.check()
-        self.checks += 1
+        self._data.qpos[self.world.robot.qpos] = joints
+        asked = (clearance, tuple(allow), tuple(allow_attached), hand_only, worked)
+        if attached is not None:
+            return self._not_ignored(self._hits(attached, *asked))
+        # Looking again without somebody asks the same of the same configurations.
+        key = (self._data.qpos.tobytes(), *asked)
+        if key not in self._known:
+            self._remember(key, self._hits(None, *asked))
+        return self._not_ignored(self._known[key])
+
+    def _remember(self, key: tuple[object, ...], found: Iterable[str]) -> None:
+        if len(self._known) >= MAX_KNOWN:
+            self._known.clear()
+        self._known[key] = tuple(found)
+
+    def _not_ignored(self, addresses: Iterable[str]) -> list[str]:
+        return [item for item in addresses if item.split(".")[0] not in self._ignored]
+
+    def _hits(
+        self,
+        attached: Attached | None,
+        clearance: float,
+        allow: tuple[str, ...],
+        allow_attached: tuple[str, ...],
+        hand_only: bool,
+        worked: tuple[str, float] | None,
+    ) -> list[str]:
+        """As :meth:`hits`, of the arm's configuration that is set, nobody being left out."""
         model, data, world = self._model, self._data, self.world
         carried = None if attached is None else self._object_names.index(attached.name)
         if carried != self._carried:
             self._select_pairs(carried)
-        data.qpos[world.robot.qpos] = joints
         if attached is not None:
             mujoco.mj_kinematics(model, data)
             tool = Pose(data.site_xpos[self._tool], data.site_xmat[self._tool].reshape(3, 3))
@@ -225,15 +253,11 @@ class CollisionChecker:
         self, pairs: Vector, clearance: float, worked: tuple[str, float] | None
     ) -> Vector | float:
         """The distance that each contact of geoms (k, 2) has to keep (k,) [m]."""
-        if worked is None and not self._ignored:
+        if worked is None:
             return clearance
-        owners = self._owner[pairs]
         required = np.full(len(pairs), clearance)
-        if worked is not None:
-            touched = (owners == self._object_names.index(worked[0])).any(axis=1)
-            required[touched & self._finger[pairs].any(axis=1)] = worked[1]
-        if self._ignored:
-            required[np.isin(owners, list(self._ignored)).any(axis=1)] = -np.inf
+        touched = (self._owner[pairs] == self._object_names.index(worked[0])).any(axis=1)
+        required[touched & self._finger[pairs].any(axis=1)] = worked[1]
         return required
 
     def hand_hits(
@@ -256,7 +280,21 @@ class CollisionChecker:
             allow: objects that may be touched.
             worked: as in :meth:`hits`.
         """
-        self.checks += 1
+        pose = (tool.position.tobytes(), tool.rotation.tobytes())
+        asked = (clearance, fingers_only, tuple(allow), worked)
+        key = (self._data.qpos.tobytes(), self._carried, *pose, *asked)
+        if key not in self._known:
+            self._remember(key, self._hand_hits(tool, *asked))
+        return self._not_ignored(self._known[key])
+
+    def _hand_hits(
+        self,
+        tool: Pose,
+        clearance: float,
+        fingers_only: bool,
+        allow: tuple[str, ...],
+        worked: tuple[str, float] | None,
+    ) -> list[str]:
         model, data = self._model, self._data
         mujoco.mj_kinematics(model, data)
         move = tool @ self.tool_pose().inverse()
