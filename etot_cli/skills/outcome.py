@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.world.model import World
-from etot_cli.world.state import Cause, CauseKind
+from etot_cli.world.state import DESK, Cause, CauseKind
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,26 @@ def failed(
     names = tuple(dict.fromkeys(name.split(".")[0] for name in objects))
     cause = Cause(kind, names, text, None if time_s is None else round(time_s, 3))
     return SkillOutcome(False, cause, another_way)
+
+
+def arm_stopped(
+    when: str, against: Sequence[str], own: Sequence[str], time_s: float | None
+) -> SkillOutcome:
+    """The arm was stopped; another way may get past what stopped it.
+
+    Args:
+        when: "on the way to it".
+        against: addresses of what it pressed on, the most telling first.
+        own: objects that the action is about.
+        time_s: since the action began [s].
+    """
+    text = (
+        f"the arm was stopped {when} by {against[0]}"
+        if against
+        else f"the arm fell behind {when} though nothing touched it: more than its drives can do"
+    )
+    others = [address for address in against if address not in (DESK, "floor")]
+    return failed(CauseKind.BLOCKED, [*others, *own], text, time_s, another_way=True)
 
 
 @dataclass(frozen=True)

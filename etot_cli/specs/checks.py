@@ -81,6 +81,12 @@ def placement_problems(scene: Scene, reach: float | None = None) -> Iterator[Pro
         support = support_of(item)
         if support == DESK:
             yield from _on_desk(name, item, place, scene)
+        elif not is_movable(item) and (item.at is None or len(item.at) < 3):
+            yield Problem(
+                ("objects", name, "at" if item.at is not None else "on" if item.on else "inside"),
+                f"{name!r} is fastened and stands on or in {support!r}, so nothing lets it down "
+                "there; expected its centre as 'at: [x, y, z]', or 'fixed: false'",
+            )
         elif item.inside is not None:
             yield from _inside(name, item, scene, placed)
         else:

@@ -323,6 +323,15 @@ def test_what_comes_to_rest_on_what_was_there_has_no_room_and_did_not_rebound() 
     assert verdict.cause is not None and verdict.cause.kind is CauseKind.REBOUND
 
 
+def test_what_lies_on_the_rim_does_not_go_in_and_did_not_rebound() -> None:
+    start = held(scenes.scene(scenes.cup("mug", (0.4, 0.0)), scenes.ball("nut", (0.2, 0.0))), "nut")
+    lying = released(start, nut={"on": ("mug",)})
+    verdict = judge("[PUT INTO, mug]", record(start, lying, contacts=(contact("nut", "mug"),)))
+    assert verdict.cause is not None and verdict.cause.kind is CauseKind.NO_ROOM
+    assert verdict.cause.objects == ("mug", "nut")
+    assert "does not go into mug" in verdict.cause.text
+
+
 def test_what_never_touched_its_target_did_not_rebound() -> None:
     start = held(scenes.scene(scenes.cup("mug", (0.4, 0.0)), scenes.ball("nut", (0.2, 0.0))), "nut")
     beside = released(start)

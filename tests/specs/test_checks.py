@@ -61,6 +61,17 @@ def test_heights_matter_for_given_heights(tmp_path: Path) -> None:
     assert "overlaps 'box'" in error
 
 
+def test_what_is_fastened_on_another_thing_says_how_high(tmp_path: Path) -> None:
+    box = BOX.format("at: [0.4, 0.0]")
+    clock = "{{kind: box, size: [0.04, 0.04, 0.04], fixed: true, {}}}"
+    for place, key in (("on: box", "on"), ("on: box, at: [0.41, 0.0]", "at")):
+        error = scene_error(tmp_path, objects(box=box, clock=clock.format(place)))
+        assert f"scene.yaml:3: objects.clock.{key}: 'clock' is fastened" in error
+        assert "expected its centre as 'at: [x, y, z]', or 'fixed: false'" in error
+    ok(tmp_path, box=box, clock=clock.format("on: box, at: [0.41, 0.0, 0.25]"))
+    ok(tmp_path, box=box, clock=clock.format("on: box").replace("true", "false"))
+
+
 def test_different_supports_are_compared_in_space(tmp_path: Path) -> None:
     box = BOX.format("at: [0.4, 0.0]")
     top = "{kind: box, size: [0.2, 0.1, 0.05], on: box, at: [0.4, 0.04]}"

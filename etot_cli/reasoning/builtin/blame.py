@@ -104,6 +104,9 @@ def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> C
     if target != DESK and owner not in _struck_by({held}, record, excluding=set()):
         text = f"{held} came down beside {target} without touching it"
         return Cause(CauseKind.NO_EFFECT, blamed, text)
+    if action.verb is Verb.PUT_INTO and is_on(record.after, held, owner):
+        text = f"{held} does not go into {target}: it came to rest on its rim"
+        return Cause(CauseKind.NO_ROOM, blamed, text)
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
 
 

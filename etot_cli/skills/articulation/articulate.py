@@ -21,7 +21,7 @@ from etot_cli.skills.articulation.part_path import (
 from etot_cli.skills.articulation.search import PartSearch, belief_after
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
-from etot_cli.skills.outcome import DONE, SkillOutcome, failed
+from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState
 
@@ -157,13 +157,7 @@ def articulation_outcome(
         return DONE
     stopped = trace.stopped
     if stopped is not None and stopped.name in ("transit", "approach"):
-        return failed(
-            CauseKind.BLOCKED,
-            [*trace.touching, owner],
-            f"the arm was stopped on its way to {address}",
-            trace.seconds,
-            another_way=True,
-        )
+        return arm_stopped(f"on its way to {address}", trace.against(), [owner], trace.seconds)
     obstacles = _pressed(belief, part, trace)
     verb, state = ("open", "open") if opening else ("close", "closed")
     if obstacles:

@@ -13,7 +13,7 @@ from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepa
 from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
-from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, failed
+from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, arm_stopped, failed
 from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
@@ -116,13 +116,9 @@ def pick_outcome(
         if not struck and motion.details["width"] > opening:
             # Tried all the same, since physics decides; what stopped the hand is the thing itself.
             return _too_wide(name, motion.details["width"], opening, trace.seconds)
-        return failed(
-            CauseKind.BLOCKED,
-            [*struck, name],
-            f"the arm was stopped {where}" + (f" by {struck[0]}" if struck else ""),
-            trace.seconds,
-            another_way=True,
-        )
+        met = trace.against(name if stopped.name == "lift" else None)
+        against = sorted(met, key=lambda address: address == name)
+        return arm_stopped(where, against, [name], trace.seconds)
     if stopped is not None and stopped.end is PhaseEnd.MISSED:
         return failed(
             CauseKind.SLIP,

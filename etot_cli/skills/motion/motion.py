@@ -7,6 +7,7 @@ the pose of an object. Source: paper, section "Action Skills Set".
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -211,6 +212,22 @@ class Trace:
     def stopped(self) -> PhaseTrace | None:
         """The first phase that did not run to its end."""
         return next((item for item in self.phases if item.end is not PhaseEnd.DONE), None)
+
+    def against(self, held: str | None = None) -> tuple[str, ...]:
+        """Addresses of what the robot, or what it holds, was pressed on by when that phase was
+        stopped: what touches the robot first, then the hardest pressed first.
+        """
+        phase = self.stopped
+        if phase is None:
+            return ()
+        own = {"robot", "gripper", held}
+        force: dict[str, float] = dict.fromkeys(phase.touching, math.inf)
+        for press in phase.presses:
+            for one, other in ((press.first, press.second), (press.second, press.first)):
+                if one.split(".")[0] in own:
+                    force[other] = force.get(other, 0.0) + press.sideways
+        ranked = sorted(force, key=lambda address: -force[address])
+        return tuple(address for address in ranked if address.split(".")[0] not in own)
 
     @property
     def touching(self) -> tuple[str, ...]:

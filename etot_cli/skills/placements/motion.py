@@ -12,7 +12,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
-from etot_cli.skills.outcome import DONE, SkillOutcome, failed
+from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import placements_into, placements_on
 from etot_cli.world.state import DESK, CauseKind, SceneState
@@ -130,24 +130,17 @@ def put_outcome(name: str, trace: Trace, after: SceneState) -> SkillOutcome:
         after: the scene after it.
     """
     stopped = trace.stopped
-    others = [item for item in trace.touching if item != name]
     if stopped is not None and stopped.end is PhaseEnd.SLIPPED:
         when = "on the way" if stopped.name == "transit" else "while lowering it"
         return failed(
             CauseKind.SLIP,
-            [*others, name],
+            [*(item for item in trace.touching if item != name), name],
             f"{name} slipped out of the fingers {when}",
             trace.seconds,
             another_way=True,
         )
     if stopped is not None and stopped.end is PhaseEnd.BLOCKED and stopped.name == "transit":
-        return failed(
-            CauseKind.BLOCKED,
-            [*others, name],
-            f"the arm was stopped while carrying {name}" + (f" by {others[0]}" if others else ""),
-            trace.seconds,
-            another_way=True,
-        )
+        return arm_stopped(f"while carrying {name}", trace.against(name), [name], trace.seconds)
     if after.holding is not None:
         return failed(
             CauseKind.NO_EFFECT,
