@@ -122,10 +122,13 @@ class BenchSummary:
 
     def _table(self, table: Table) -> None:
         self._console.print()
-        if self._console.is_terminal:
+        width = self._console.width
+        if not self._console.is_terminal:
+            self._console.width = PIPE_WIDTH
+        try:
             self._console.print(table)
-            return
-        self._console.print(table, width=PIPE_WIDTH, soft_wrap=True)
+        finally:
+            self._console.width = width
 
     def _line(self, text: str) -> None:
         self._console.print(text, markup=False, soft_wrap=True)
