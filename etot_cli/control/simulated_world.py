@@ -18,6 +18,7 @@ from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.relations import read_scene
 from etot_cli.world.snapshot import Snapshot, restore
+from etot_cli.world.state import SceneState
 
 ATTEMPTS = 3
 """Motions that are tried for an action at most: one, and after a failure that lies in how it was
@@ -34,6 +35,15 @@ class SimulatedWorld(PhysicsWorld):
         super().__init__(scene, seed, keep_frames=keep_frames)
         self.twin = build_twin(self.world, self.deadline)
         self._believed = mujoco.MjData(self.world.model)
+
+    def place_furniture(self, scene: SceneState) -> bool:
+        """Puts what is fastened where a scene has it; whether anything had to be moved."""
+        moved = super().place_furniture(scene)
+        if moved:
+            # What never moves is worked out when data are reset, and not again.
+            for data in (self.data, self._believed, self.twin.scratch):
+                mujoco.mj_resetData(self.world.model, data)
+        return moved
 
     @cached_property
     def seen_twin(self) -> Twin:

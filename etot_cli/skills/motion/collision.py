@@ -45,6 +45,8 @@ class CollisionChecker:
         self.world = world
         self._deadline = deadline or Deadline()
         self._model = copy.copy(world.model)
+        # With sleep, kinematics leave what is fastened where it was when the data were made.
+        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         self._data = mujoco.MjData(self._model)
         self._object_names = list(world.entries)
         self._owner = np.array(
