@@ -12,6 +12,7 @@ from etot_cli.control.simulator import world_seed
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.evaluation import Evaluation
 from etot_cli.execution.observation import Observation
+from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Eyes, Planner, RobotDevice
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
@@ -344,6 +345,8 @@ def run_trial(
             cell.robot.stop()
         with suppress(EtotError):
             cell.robot.close()
+        if isinstance(cell.eyes, CameraEyes):
+            cell.eyes.close()
     return loop.trial(*ended)
 
 

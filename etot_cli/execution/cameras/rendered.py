@@ -22,6 +22,8 @@ from etot_cli.world.capture import (
 from etot_cli.world.model import build_world
 from etot_cli.world.offscreen import OffscreenRenderer
 
+EXPOSURE_S = 1.0 / 30.0
+"""A picture takes so long on the camera's clock [s], during which the world stands still."""
 LARGEST = (640, 480)
 """Pictures are made no larger: perception has two seconds for one."""
 
@@ -69,6 +71,7 @@ class RenderedCamera:
         self._world = build_world(scene.model_copy(update={"cameras": {CAMERA_NAME: self._camera}}))
         self._data = mujoco.MjData(self._world.model)
         self._renderer: OffscreenRenderer | None = None
+        self._taken = 0
 
     def connect(self) -> str:
         """Opens OpenGL.
@@ -90,6 +93,7 @@ class RenderedCamera:
         self.connect()
         assert self._renderer is not None
         state, model = self._state(), self._world.model
+        self._taken += 1
         # Cameras have no joints, so this model's configuration is that of the world's own.
         self._data.qpos[:] = state.qpos
         if model.nmocap:
@@ -113,8 +117,12 @@ class RenderedCamera:
             [[camera.fx, 0.0, camera.cx], [0.0, camera.fy, camera.cy], [0.0, 0.0, 1.0]]
         )
         return Frame(
-            picture.color, picture.depth, matrix, camera_to_base(camera), float(state.time)
-        )
+            picture.color,
+            picture.depth,
+            matrix,
+            camera_to_base(camera),
+            float(state.time) + self._taken * EXPOSURE_S,
+        )  # fmt: skip
 
     def close(self) -> None:
         """Frees what the graphics driver holds."""

@@ -1,0 +1,1 @@
+"""Where known objects are, from RGB-D pictures."""

@@ -1,0 +1,394 @@
+"""The eyes ``camera``: where the known objects of a scene are, from one RGB-D picture a look.
+
+Every object is first looked for where it was last; what moved is looked for among the readings that
+nothing else explains. What is not seen keeps its last pose and is marked: in the hand, hidden, or
+lost. The arm is left out by where its joints are sensed to be; no OpenGL is needed.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from scipy.spatial import cKDTree
+
+from etot_cli.control.robot import Robot, RobotState
+from etot_cli.execution.observation import Mark, Observation, Sighting
+from etot_cli.execution.perception.fitting import Freedom, Pose, Support, improved, support
+from etot_cli.execution.perception.scan import Scan, scan_of
+from etot_cli.execution.perception.search import NEAR, Match, chroma, find
+from etot_cli.execution.perception.surfaces import Surface
+from etot_cli.execution.perception.twin import KnownScene
+from etot_cli.execution.protocols import Camera
+from etot_cli.reconstruction.capture.view import Array
+from etot_cli.specs.scene import Scene
+from etot_cli.world.index import Region
+
+ARM_MARGIN = 0.009
+"""Readings this near to the arm's surface are the arm's [m]."""
+STILL_THERE = 0.7
+"""An object that agrees with so much of what is visible of its last place is still there."""
+STANDS = 0.9
+"""... and in the same attitude, when that much agrees."""
+PLAINLY = 0.1
+"""Gain in what agrees for which another height or attitude is believed."""
+LEAST_AGREE = 20
+"""... in so many points."""
+GONE = 0.5
+"""With less of it, something else is to be seen where it was."""
+HIDDEN = 0.6
+"""Share of an object behind nearer things from which it may be there unseen."""
+MOVED_ON = 0.06
+"""An object that is still there is this near to its last place [m]; else it was looked for."""
+GRIPPED = 0.003
+"""Fingers less than this from closed or from fully open hold nothing [m]."""
+REACH = 0.035
+"""What is in the hand has a point this near to the tool point [m]."""
+PART_STEPS, PART_ROUNDS = 15, 3
+"""Values of a part's joint that are compared, and how often between the two best ones."""
+PART_POINTS = 2500
+OF_FURNITURE = 0.005
+"""Readings this near to furniture are its own [m]; what lies flat on it begins there."""
+MATCHED = 0.35
+"""Matches with a lower score are none."""
+
+
+class CameraEyes:
+    """Implements :class:`etot_cli.execution.protocols.Eyes`.
+
+    Args:
+        camera: takes the pictures; opened at the first look.
+        scene: what is known: shapes, and where things are at the start.
+
+    Raises:
+        WorldError: the scene cannot be built.
+    """
+
+    def __init__(self, camera: Camera, scene: Scene) -> None:
+        self._camera = camera
+        self._known = KnownScene(scene)
+        self._colors: dict[str, Array] = {}
+        self._held: dict[str, Pose] = {}
+        self._connected = False
+        self._parts = {name: self._known.joint_value(name) for name in self._known.parts}
+
+    def look(self, robot: Robot, last: Observation) -> Observation:
+        """Looks at the scene.
+
+        Raises:
+            ServiceError: the camera gives no picture that can be relied on.
+        """
+        if not self._connected:
+            self._camera.connect()
+            self._connected = True
+        state = robot.state()
+        known = self._known
+        known.set_robot(state)
+        scan = scan_of(self._camera.frame(), known.scene.desk)
+        self._leave_out_arm(scan)
+        before = {name: _pose(last.objects[name]) if name in last.objects else known.nominal(name)
+                  for name in known.free}  # fmt: skip
+        place = self._look_at_furniture(scan)
+        moved = self._look_at_parts(scan, place, last)
+        found = self._still_there(scan, before)
+        for match in self._matched(scan, before, [n for n in known.free if n not in found]):
+            found[match.name] = match.pose
+        objects: dict[str, Sighting] = {}
+        in_hand: dict[str, Pose] = {}
+        for name, pose in found.items():
+            held = self._in_hand(name, pose, state)
+            if held:
+                in_hand[name] = known.tool().inverse() @ pose
+            objects[name] = _sighting(pose, Mark.HELD if held else Mark.SEEN)
+        for name in known.free:
+            if name not in found:
+                objects[name] = self._unseen(name, before[name], scan, state, in_hand, moved, last)
+        self._held = in_hand
+        return Observation(state, {name: objects[name] for name in known.free}, dict(self._parts))
+
+    def close(self) -> None:
+        """Lets go of the camera; idempotent."""
+        if self._connected:
+            self._camera.close()
+            self._connected = False
+
+    # -- what stands still ----------------------------------------------------------------------
+
+    def _leave_out_arm(self, scan: Scan) -> None:
+        points = self._known.robot_points()
+        tree = cKDTree(points)
+        apart, _ = tree.query(scan.points, distance_upper_bound=ARM_MARGIN)
+        scan.owner[np.isfinite(apart)] = "robot"
+
+    def _look_at_furniture(self, scan: Scan) -> dict[str, Pose]:
+        """How far each piece of furniture stands from where the scene has it; explains readings."""
+        known, place = self._known, {}
+        for name, entry in known.world.entries.items():
+            if entry.free or name not in known.surfaces:
+                continue
+            surface, nominal = known.surfaces[name], known.nominal(name)
+            readings = scan.points[scan.unexplained]
+            pose = improved(surface, nominal, readings, scan.view, freedom=Freedom.ON_LEVEL)
+            place[name] = pose @ nominal.inverse()
+            _explain(scan, name, surface, pose)
+        return place
+
+    def _look_at_parts(
+        self, scan: Scan, place: dict[str, Pose], last: Observation
+    ) -> dict[str, Pose]:
+        """Finds joint values; how each part's body has moved since the last look."""
+        known, moved = self._known, {}
+        for address, part in known.parts.items():
+            if address not in known.part_surfaces:
+                continue
+            was = last.parts.get(address, self._parts[address])
+            offset = place.get(address.split(".")[0], Pose(np.eye(3), np.zeros(3)))
+            before = offset @ known.set_part(address, was)
+            surface = _thinned(known.part_surfaces[address])
+            value = self._part_value(address, surface, offset, scan, was)
+            self._parts[address] = value
+            pose = offset @ known.set_part(address, value)
+            moved[part.body] = pose @ before.inverse()
+            _explain(scan, address, known.part_surfaces[address], pose)
+        return moved
+
+    def _part_value(
+        self, address: str, surface: Surface, offset: Pose, scan: Scan, was: float
+    ) -> float:
+        part = self._known.parts[address]
+        low, high = sorted((part.lower, part.upper))
+
+        def worth(value: float) -> float:
+            pose = offset @ self._known.set_part(address, value)
+            borne = support(surface, pose, scan.view, scan.depth)
+            return borne.agree - 2.0 * borne.through
+
+        values = np.unique(np.append(np.linspace(low, high, PART_STEPS), np.clip(was, low, high)))
+        worths = np.array([worth(value) for value in values])
+        best = int(worths.argmax())
+        least = worth(float(np.clip(was, low, high)))
+        if worths[best] <= max(least, 0.0) and least > 0:
+            best = int(np.abs(values - was).argmin())
+        if worths[best] <= 0:
+            return was  # nothing of it is to be seen
+        value, step = float(values[best]), (high - low) / (PART_STEPS - 1)
+        top = worths[best]
+        for _ in range(PART_ROUNDS):
+            step /= 2.0
+            for tried in (value - step, value + step):
+                if low <= tried <= high and (found := worth(tried)) > top:
+                    value, top = tried, found
+        return value
+
+    def _still_there(self, scan: Scan, before: dict[str, Pose]) -> dict[str, Pose]:
+        """Objects near where they were, with their poses made exact; explains their readings."""
+        known = self._known
+        fits: list[tuple[float, str, Pose]] = []
+        for name, pose in before.items():
+            surface = known.surfaces.get(name)
+            if surface is None:
+                continue
+            near = scan.unexplained & (
+                np.linalg.norm(scan.points - pose.place(surface.middle[None])[0], axis=1)
+                < surface.radius + 0.03
+            )
+            better, borne = self._followed(surface, pose, scan, scan.points[near])
+            shift = np.linalg.norm(better.place(surface.middle[None]) - pose.place(
+                surface.middle[None]))  # fmt: skip
+            like = self._like(name, scan, surface, better)
+            if borne.share >= STILL_THERE and borne.agree >= LEAST_AGREE and shift < MOVED_ON:
+                fits.append((borne.share * like, name, better))
+        fits.sort(key=lambda item: -item[0])
+        return {name: pose for _, name, pose in fits if self._explains(scan, name, pose)}
+
+    def _followed(
+        self, surface: Surface, pose: Pose, scan: Scan, readings: Array
+    ) -> tuple[Pose, Support]:
+        """The pose near the last one that is borne out best, with no more freedom than it takes:
+        what stands goes on standing at its height unless something else is plainly better.
+        """
+        best, borne = pose, support(surface, pose, scan.view, scan.depth)
+        share = 0.0
+        for freedom in Freedom:
+            tried = improved(surface, best, readings, scan.view, freedom=freedom)
+            found = support(surface, tried, scan.view, scan.depth)
+            if found.share > share:
+                best, borne, share = tried, found, found.share + PLAINLY
+            if borne.share >= STANDS:
+                break
+        return best, borne
+
+    def _like(self, name: str, scan: Scan, surface: Surface, pose: Pose) -> float:
+        """How much the readings there have the object's colour, 0 to 1; 1 before it is known."""
+        if name not in self._colors:
+            return 1.0
+        apart, _ = surface.tree.query(pose.local(scan.points), distance_upper_bound=NEAR)
+        own = np.isfinite(apart)
+        if not own.any():
+            return 0.0
+        unlike = float(np.linalg.norm(chroma(scan.colors[own]) - self._colors[name]))
+        return 1.0 / (1.0 + (unlike / 30.0) ** 2)
+
+    def _explains(self, scan: Scan, name: str, pose: Pose) -> bool:
+        """Takes the readings of an object's surface, unless others have most of them already."""
+        surface = self._known.surfaces[name]
+        apart, _ = surface.tree.query(pose.local(scan.points), distance_upper_bound=NEAR)
+        own = np.isfinite(apart)
+        fresh = own & scan.unexplained
+        if fresh.sum() < max(6, 0.3 * own.sum()):
+            return False
+        scan.owner[fresh] = name
+        if name not in self._colors and fresh.sum() >= LEAST_AGREE:
+            self._colors[name] = chroma(scan.colors[fresh])
+        return True
+
+    # -- what moved -----------------------------------------------------------------------------
+
+    def _matched(self, scan: Scan, before: dict[str, Pose], missing: list[str]) -> list[Match]:
+        """Missing objects and clusters of readings, the best pairs first."""
+        kept: list[Match] = []
+        left = list(missing)
+        for _ in range(len(missing)):
+            clusters = scan.clusters()
+            options = [
+                match
+                for name in left
+                if name in self._known.surfaces
+                for match in find(
+                    name, self._known.surfaces[name], before[name], scan, clusters,
+                    self._colors.get(name),
+                )[:1]
+                if match.score >= MATCHED
+            ]  # fmt: skip
+            if not options:
+                break
+            best = max(options, key=lambda match: match.score)
+            left.remove(best.name)
+            if self._explains(scan, best.name, best.pose):
+                kept.append(best)
+            if not left:
+                break
+        return kept
+
+    # -- what is not seen -----------------------------------------------------------------------
+
+    def _unseen(
+        self,
+        name: str,
+        before: Pose,
+        scan: Scan,
+        state: RobotState,
+        in_hand: dict[str, Pose],
+        moved: dict[str, Pose],
+        last: Observation,
+    ) -> Sighting:
+        known = self._known
+        closed_on = self._closed_on_something(state) and not in_hand
+        if closed_on and name in self._held:
+            in_hand[name] = self._held[name]
+            return _sighting(known.tool() @ self._held[name], Mark.HELD)
+        was = last.objects[name].mark if name in last.objects else Mark.SEEN
+        if was is Mark.LOST:
+            return _sighting(before, Mark.LOST)
+        surface = known.surfaces.get(name)
+        if surface is None:
+            return _sighting(before, Mark.HIDDEN)
+        if name not in self._held:
+            carried = self._carried(name, before, moved)
+            borne = support(surface, carried, scan.view, scan.depth)
+            if not _contradicted(borne):
+                return _sighting(carried, Mark.HIDDEN)
+            if (
+                closed_on
+                and np.linalg.norm(before.place(surface.middle[None])[0] - known.tool().position)
+                < np.inf
+            ):
+                middle = before.rotation @ surface.middle
+                pose = Pose(before.rotation, known.tool().position - middle)
+                in_hand[name] = known.tool().inverse() @ pose
+                return _sighting(pose, Mark.HELD)
+        hidden = self._inside_something(surface, before, scan)
+        if hidden is not None:
+            return _sighting(hidden, Mark.HIDDEN)
+        return _sighting(before, Mark.LOST)
+
+    def _carried(self, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
+        """Where an unseen object is when the drawer that it lay in has moved."""
+        surface = self._known.surfaces[name]
+        middle = pose.place(surface.middle[None])[0]
+        for region in self._known.regions:
+            if region.body in moved:
+                now = self._known.body(region.body)
+                then = moved[region.body].inverse() @ now
+                local = then.local(middle[None])[0] - region.center
+                if (np.abs(local) <= np.array(region.half) + 0.01).all():
+                    return moved[region.body] @ pose
+        return pose
+
+    def _inside_something(self, surface: Surface, before: Pose, scan: Scan) -> Pose | None:
+        """The container in which the object may be unseen, the nearest to the hand first."""
+        tool = self._known.tool().position
+        options: list[tuple[float, Pose]] = []
+        for region in self._known.regions:
+            pose = self._in_region(region, surface, before)
+            borne = support(surface, pose, scan.view, scan.depth)
+            if not _contradicted(borne):
+                apart = float(np.linalg.norm((pose.position - tool)[:2]))
+                options.append((apart, pose))
+        return min(options, key=lambda item: item[0])[1] if options else None
+
+    def _in_region(self, region: Region, surface: Surface, before: Pose) -> Pose:
+        """The object on the floor of a container, in the middle."""
+        body = self._known.body(region.body)
+        floor = body.place(
+            (np.array(region.center) - np.array(region.opening) * np.array(region.half))[None]
+        )[0]
+        turned = surface.points @ before.rotation.T
+        low, high = turned.min(axis=0), turned.max(axis=0)
+        middle = np.array([*((low + high) / 2)[:2], low[2]])
+        return Pose(before.rotation, floor - middle)
+
+    # -- the hand -------------------------------------------------------------------------------
+
+    def _closed_on_something(self, state: RobotState) -> bool:
+        opening = self._known.world.robot.spec.gripper.opening
+        return GRIPPED < state.opening < opening - GRIPPED
+
+    def _in_hand(self, name: str, pose: Pose, state: RobotState) -> bool:
+        """Whether an object is where the fingers hold things."""
+        if not self._closed_on_something(state):
+            return False
+        surface, tool = self._known.surfaces[name], self._known.tool().position
+        apart, _ = surface.tree.query(pose.local(tool[None]))
+        return bool(apart[0] < REACH)
+
+
+def _contradicted(borne: Support) -> bool:
+    """Whether other things are seen where an object would have to be seen."""
+    return borne.covered < HIDDEN and borne.share < GONE and borne.visible > 0
+
+
+def _explain(scan: Scan, name: str, surface: Surface, pose: Pose) -> None:
+    """Takes the readings of a surface."""
+    rest = np.flatnonzero(scan.unexplained)
+    apart, _ = surface.tree.query(pose.local(scan.points[rest]), distance_upper_bound=OF_FURNITURE)
+    scan.owner[rest[np.isfinite(apart)]] = name
+
+
+def _thinned(surface: Surface) -> Surface:
+    step = max(1, len(surface.points) // PART_POINTS)
+    return Surface(surface.points[::step], surface.normals[::step])
+
+
+def _pose(sighting: Sighting) -> Pose:
+    rotation = np.empty(9)
+    mujoco.mju_quat2Mat(rotation, np.array(sighting.quaternion))
+    return Pose(rotation.reshape(3, 3), np.array(sighting.position))
+
+
+def _sighting(pose: Pose, mark: Mark) -> Sighting:
+    quaternion = np.empty(4)
+    left, _, right = np.linalg.svd(pose.rotation)
+    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(left @ right).ravel())
+    x, y, z = (float(value) for value in pose.position)
+    w, i, j, k = (float(value) for value in quaternion)
+    return Sighting((x, y, z), (w, i, j, k), mark)

@@ -1,0 +1,200 @@
+"""Poses of known surfaces in a depth picture: how well one is borne out, and a better one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.execution.perception.surfaces import Surface
+from etot_cli.reconstruction.capture.view import Array, View
+
+TOLERANCE = 0.007
+"""Depth that is off by less, along the surface's normal, bears a pose out [m]: four standard
+deviations of the camera a metre away."""
+CELL = 3
+"""Pixels of a cell in which the nearest point of a surface hides those behind it."""
+SELF = 0.012
+"""Points this far behind the nearest one of their cell are hidden by it [m]."""
+GRAZING = 0.15
+"""Surfaces seen at a flatter angle (cosine) say nothing."""
+SIDEWAYS = 0.15
+"""Weight of moving towards a reading along the surface, against moving along its normal."""
+MOST_READINGS = 400
+DAMPING = 1e-3
+"""Keeps directions in which nothing is measured where they are."""
+GATES = (0.03, 0.02, 0.012, 0.009, 0.007, 0.007)
+"""Readings farther from the surface belong to something else, step by step [m]."""
+
+
+class Freedom(Enum):
+    """Ways in which a fit may move a thing: along x, y, z (0 to 2), and about them (3 to 5)."""
+
+    ON_LEVEL = (0, 1, 5)
+    UPRIGHT = (0, 1, 2, 5)
+    ALL = (0, 1, 2, 3, 4, 5)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """``rotation`` (3, 3) and ``position`` (3,) [m]: p_base = rotation · p_body + position."""
+
+    rotation: Array
+    position: Array
+
+    def place(self, points: Array) -> Array:
+        """Points (n, 3) of the body in the base frame."""
+        return np.asarray(points @ self.rotation.T + self.position)
+
+    def local(self, points: Array) -> Array:
+        """Points (n, 3) of the base frame in the body's."""
+        return np.asarray((points - self.position) @ self.rotation)
+
+    def __matmul__(self, other: Pose) -> Pose:
+        return Pose(self.rotation @ other.rotation, self.place(other.position[None])[0])
+
+    def inverse(self) -> Pose:
+        """From the base frame to the body's."""
+        return Pose(self.rotation.T, -self.rotation.T @ self.position)
+
+
+@dataclass(frozen=True)
+class Support:
+    """How many points of a surface that face the camera agree with the picture, are hidden behind
+    something nearer, are contradicted (what is seen lies farther away), or say nothing.
+    """
+
+    agree: int
+    hidden: int
+    through: int
+    unread: int
+
+    @property
+    def visible(self) -> int:
+        """Points about which the picture says something."""
+        return self.agree + self.through
+
+    @property
+    def share(self) -> float:
+        """Share of them that agree; 0 when there are none."""
+        return self.agree / self.visible if self.visible else 0.0
+
+    @property
+    def covered(self) -> float:
+        """Share of all points that something nearer hides."""
+        return self.hidden / max(self.agree + self.hidden + self.through + self.unread, 1)
+
+
+def visible_points(surface: Surface, pose: Pose, view: View) -> NDArray[np.intp]:
+    """Indices of the points that face the camera and are not hidden by the thing itself."""
+    points = pose.place(surface.points)
+    towards = view.position - points
+    towards /= np.linalg.norm(towards, axis=1, keepdims=True)
+    facing = np.flatnonzero(((surface.normals @ pose.rotation.T) * towards).sum(axis=1) > GRAZING)
+    pixels = view.project(points[facing])
+    cells = np.floor(pixels / CELL).astype(np.int64)
+    cells -= cells.min(axis=0, initial=0)
+    key = cells[:, 0] * (int(cells[:, 1].max(initial=0)) + 1) + cells[:, 1]
+    depth = view.depth_of(points[facing])
+    nearest = np.full(int(key.max(initial=0)) + 1, np.inf)
+    np.minimum.at(nearest, key, depth)
+    return np.asarray(facing[depth < nearest[key] + SELF])
+
+
+def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
+    """How far a depth picture (h, w) [m] bears a pose out."""
+    chosen = visible_points(surface, pose, view)
+    points = pose.place(surface.points[chosen])
+    pixels = np.round(view.project(points)).astype(np.int64)
+    inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
+    points, pixels, chosen = points[inside], pixels[inside], chosen[inside]
+    read = depth[pixels[:, 1], pixels[:, 0]]
+    expected = view.depth_of(points)
+    towards = view.position - points
+    towards /= np.linalg.norm(towards, axis=1, keepdims=True)
+    slant = ((surface.normals[chosen] @ pose.rotation.T) * towards).sum(axis=1)
+    off = read - expected
+    known = read > 0
+    agree = known & (np.abs(off) * slant < TOLERANCE)
+    return Support(
+        int(agree.sum()),
+        int((known & ~agree & (off < 0)).sum()),
+        int((known & ~agree & (off > 0)).sum()),
+        int((~known).sum()) + int((~inside).sum()),
+    )
+
+
+def improved(
+    surface: Surface,
+    pose: Pose,
+    readings: Array,
+    view: View,
+    *,
+    freedom: Freedom = Freedom.ALL,
+    gates: tuple[float, ...] = GATES,
+) -> Pose:
+    """A pose nearer to the readings (n, 3), base frame: each is pulled to the surface next to it.
+
+    Args:
+        surface: the thing.
+        pose: where to begin.
+        readings: points that may belong to it; those that are far from it are left out.
+        view: only what faces the camera is matched.
+        freedom: in what it may move.
+        gates: how far readings may be from the surface, one step each [m].
+    """
+    if len(readings) > MOST_READINGS:
+        readings = readings[:: -(-len(readings) // MOST_READINGS)]
+    for gate in gates:
+        local = pose.local(readings)
+        apart, nearest = surface.tree.query(local, distance_upper_bound=gate)
+        kept = np.isfinite(apart)
+        if kept.sum() < 12:
+            return pose
+        matched = pose.place(surface.points[nearest[kept]])
+        normals = surface.normals[nearest[kept]] @ pose.rotation.T
+        seen = readings[kept]
+        facing = ((view.position - matched) * normals).sum(axis=1) > 0
+        if facing.sum() < 12:
+            return pose
+        pose = _step(pose, matched[facing], normals[facing], seen[facing], freedom)
+    return pose
+
+
+def _step(pose: Pose, matched: Array, normals: Array, seen: Array, freedom: Freedom) -> Pose:
+    """One least-squares step (Gauss–Newton) about the middle of the matched points."""
+    middle = matched.mean(axis=0)
+    arms = matched - middle
+    off = seen - matched
+    rows = [np.hstack([normals, np.cross(arms, normals)])]
+    right = [(off * normals).sum(axis=1)]
+    for axis in np.eye(3):
+        along = axis - normals * (normals @ axis)[:, None]
+        rows.append(SIDEWAYS * np.hstack([along, np.cross(arms, along)]))
+        right.append(SIDEWAYS * (off * along).sum(axis=1))
+    matrix, vector = np.vstack(rows), np.concatenate(right)
+    scale = 0.5 * float(np.median(np.abs(vector[: len(off)]))) + 0.001
+    weight = 1.0 / np.maximum(1.0, np.abs(vector) / (3.0 * scale))
+    free = list(freedom.value)
+    matrix = matrix[:, free]
+    weighted = matrix * weight[:, None]
+    normal = weighted.T @ matrix
+    lever = float(np.square(arms).sum(axis=1).mean()) + 1e-6
+    normal += DAMPING * len(off) * np.diag([1.0 if axis < 3 else lever for axis in free])
+    found = np.zeros(6)
+    found[free] = np.linalg.solve(normal, weighted.T @ vector)
+    rotation = rotation_by(found[3:])
+    position = rotation @ (pose.position - middle) + middle + found[:3]
+    return Pose(rotation @ pose.rotation, position)
+
+
+def rotation_by(turn: Array) -> Array:
+    """The rotation (3, 3) about the direction of ``turn`` (3,), by its length [rad]."""
+    angle = float(np.linalg.norm(turn))
+    if angle < 1e-12:
+        return np.eye(3)
+    x, y, z = turn / angle
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)

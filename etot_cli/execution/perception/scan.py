@@ -1,0 +1,92 @@
+"""One picture as points, without the desk and the arm, and whose they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from etot_cli.execution.protocols import Frame
+from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.specs.scene import Desk
+
+STRIDE = 2
+"""Every so many columns and rows are looked at: a reading every 6 mm a metre away."""
+ABOVE = 0.005
+"""Readings less than this above the desk are the desk's [m]."""
+BEYOND = 0.10
+"""How far beyond the desk's edge things are looked for [m]."""
+HIGHEST = 0.7
+"""... and how high above it [m]."""
+VOXEL = 0.012
+"""Readings closer than this hang together [m]."""
+FEWEST = 20
+"""A cluster of fewer readings is noise: 1 in 100 is lost or off anyway."""
+
+
+@dataclass
+class Scan:
+    """Readings of a picture above the desk.
+
+    ``points`` (n, 3) base frame [m], ``colors`` (n, 3) of 255, ``view`` and ``depth`` (h, w) of the
+    whole picture; ``owner`` (n,): "" until something explains the reading.
+    """
+
+    view: View
+    depth: Array
+    points: Array
+    colors: Array
+    owner: NDArray[np.object_] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.owner = np.full(len(self.points), "", dtype=object)
+
+    @property
+    def unexplained(self) -> NDArray[np.bool_]:
+        """Which readings (n,) nothing explains yet."""
+        return np.asarray(self.owner == "")
+
+    def clusters(self) -> list[NDArray[np.intp]]:
+        """Indices of unexplained readings that hang together, the largest group first."""
+        rest = np.flatnonzero(self.unexplained)
+        if not len(rest):
+            return []
+        cells = np.floor(self.points[rest] / VOXEL).astype(np.int64)
+        cells -= cells.min(axis=0)
+        grid = np.zeros(cells.max(axis=0) + 1, dtype=bool)
+        grid[tuple(cells.T)] = True
+        labels, _ = ndimage.label(grid, structure=np.ones((3, 3, 3)))
+        found = labels[tuple(cells.T)]
+        sizes = np.bincount(found)
+        order = [int(label) for label in np.argsort(-sizes) if label and sizes[label] >= FEWEST]
+        return [rest[found == label] for label in order]
+
+
+def view_of(frame: Frame) -> View:
+    """The camera of a picture."""
+    height, width = frame.depth.shape
+    matrix = frame.matrix
+    return View(
+        width, height, float(matrix[0, 0]), float(matrix[1, 1]), float(matrix[0, 2]),
+        float(matrix[1, 2]), frame.camera_to_base,
+    )  # fmt: skip
+
+
+def scan_of(frame: Frame, desk: Desk) -> Scan:
+    """The readings above the desk."""
+    view = view_of(frame)
+    v, u = np.mgrid[0 : view.height : STRIDE, 0 : view.width : STRIDE]
+    depth = frame.depth[v, u].ravel()
+    pixels = np.column_stack([u.ravel(), v.ravel()]).astype(np.float64)
+    read = np.isfinite(depth) & (depth > 0)
+    points = view.lift(pixels[read], depth[read])
+    half = np.array(desk.size) / 2 + BEYOND
+    kept = (
+        (np.abs(points[:, :2] - desk.center) < half).all(axis=1)
+        & (points[:, 2] > desk.top + ABOVE)
+        & (points[:, 2] < desk.top + HIGHEST)
+    )
+    colors = frame.color[v.ravel()[read], u.ravel()[read]][kept].astype(np.float64)
+    return Scan(view, np.nan_to_num(frame.depth), points[kept], colors)

@@ -1,0 +1,141 @@
+"""The scene as perception knows it: surfaces of its bodies, where they stood last, and the arm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from etot_cli.control.robot import RobotState
+from etot_cli.execution.perception.fitting import Pose
+from etot_cli.execution.perception.surfaces import Surface, surface_of
+from etot_cli.reconstruction.capture.view import Array
+from etot_cli.specs.scene import Scene
+from etot_cli.world.index import Part, Region
+from etot_cli.world.model import build_world
+from etot_cli.world.placing import place_objects
+
+SETTLE_S = 0.8
+"""Simulated time for a new scene to come to rest [s]."""
+
+
+class KnownScene:
+    """Shapes, and a state that is only ever set, never stepped.
+
+    Args:
+        scene: nominal shapes and poses.
+
+    Raises:
+        WorldError: it cannot be built.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.world = build_world(scene)
+        self.data = mujoco.MjData(self.world.model)
+        place_objects(self.world, self.data)
+        self._settle()
+        model = self.world.model
+        moving = {part.body for entry in self.world.entries.values() for part in entry.parts}
+        self._moving = {model.body(name).id for name in moving}
+        self.surfaces: dict[str, Surface] = {}
+        self.part_surfaces: dict[str, Surface] = {}
+        for name, entry in self.world.entries.items():
+            root = model.body(entry.body).id
+            self._add(self.surfaces, name, self._rigid(root), root)
+            for part in entry.parts:
+                body = model.body(part.body).id
+                self._add(self.part_surfaces, f"{name}.{part.info.name}", self._rigid(body), body)
+        self.robot_surfaces: dict[int, Surface] = {}
+        for body in range(1, model.nbody):
+            geoms = np.flatnonzero(model.geom_bodyid == body)
+            if len(geoms) and self.world.geom_object[int(geoms[0])] in ("robot", "gripper"):
+                found = surface_of(self.world, [body], body)
+                if found is not None:
+                    self.robot_surfaces[body] = found
+
+    @property
+    def free(self) -> list[str]:
+        """Objects that may be anywhere."""
+        return [name for name, entry in self.world.entries.items() if entry.free]
+
+    @property
+    def parts(self) -> Mapping[str, Part]:
+        """Movable parts by ``object.part``."""
+        return {
+            f"{name}.{part.info.name}": part
+            for name, entry in self.world.entries.items()
+            for part in entry.parts
+        }
+
+    @property
+    def regions(self) -> list[Region]:
+        """Everything that things can be in."""
+        return [region for entry in self.world.entries.values() for region in entry.regions]
+
+    def nominal(self, name: str) -> Pose:
+        """Where the scene has an object."""
+        return self.body(self.world.entries[name].body)
+
+    def body(self, name: str) -> Pose:
+        """Where a body stands now."""
+        found = self.data.body(name)
+        return Pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
+
+    def joint_value(self, address: str) -> float:
+        """Joint value of a part ``object.part`` now [m or rad]."""
+        return float(self.data.joint(self.parts[address].joint).qpos[0])
+
+    def set_part(self, address: str, value: float) -> Pose:
+        """Moves a part; where its body stands then."""
+        part = self.parts[address]
+        self.data.joint(part.joint).qpos[0] = value
+        mujoco.mj_kinematics(self.world.model, self.data)
+        return self.body(part.body)
+
+    def set_robot(self, state: RobotState) -> None:
+        """Puts the arm and the fingers where they are sensed to be."""
+        robot = self.world.robot
+        self.data.qpos[robot.qpos] = state.joints
+        opening = min(max(state.opening, 0.0), robot.spec.gripper.opening)
+        robot.set_opening(self.data, opening)
+        mujoco.mj_kinematics(self.world.model, self.data)
+
+    def robot_points(self) -> Array:
+        """Points (n, 3) on the arm and the hand, base frame."""
+        placed = [
+            Pose(self.data.xmat[body].reshape(3, 3), self.data.xpos[body]).place(surface.points)
+            for body, surface in self.robot_surfaces.items()
+        ]
+        return np.vstack(placed)
+
+    def tool(self) -> Pose:
+        """Where the tool point is."""
+        site = self.world.robot.tool_site
+        return Pose(
+            self.data.site_xmat[site].reshape(3, 3).copy(), self.data.site_xpos[site].copy()
+        )
+
+    def _add(self, into: dict[str, Surface], name: str, bodies: list[int], frame: int) -> None:
+        found = surface_of(self.world, bodies, frame)
+        if found is not None:
+            into[name] = found
+
+    def _rigid(self, root: int) -> list[int]:
+        """A body and what hangs on it without being a movable part."""
+        model, found = self.world.model, [root]
+        for body in range(root + 1, model.nbody):
+            if model.body_parentid[body] in found and body not in self._moving:
+                found.append(body)
+        return found
+
+    def _settle(self) -> None:
+        world, data = self.world, self.data
+        home = np.array(world.robot.spec.home)
+        for _ in range(int(SETTLE_S / world.model.opt.timestep)):
+            # The arm stands still: only the objects are of interest.
+            data.qpos[world.robot.qpos] = home
+            data.qvel[world.robot.dof] = 0.0
+            mujoco.mj_step(world.model, data)
+        mujoco.mj_kinematics(world.model, data)

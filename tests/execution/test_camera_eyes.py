@@ -1,0 +1,116 @@
+"""Poses of known things from rendered pictures with a depth camera's errors."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from etot_cli.execution.cameras.rendered import RenderedCamera
+from etot_cli.execution.observation import Mark, Observation
+from etot_cli.execution.perception.camera_eyes import CameraEyes
+from etot_cli.execution.perception.fitting import Freedom, Pose, improved, rotation_by, support
+from etot_cli.execution.simulated_device import SimulatedDevice
+from etot_cli.execution.world import ExecutionWorld
+from etot_cli.reconstruction.capture.view import View
+from etot_cli.specs.load import load_task
+from tests.opengl import need_opengl
+
+ACCURATE = 0.005
+LOOK_S = 2.0
+
+
+class Desk:
+    """A world with an arm and a camera, and eyes that know its nominal scene alone."""
+
+    def __init__(self, task: str, seed: int) -> None:
+        need_opengl()
+        scene = load_task(f"tasks/{task}.yaml").scene
+        self.world = ExecutionWorld(scene, seed)
+        self.robot = SimulatedDevice(self.world)
+        self.camera = RenderedCamera(
+            self.world.world.scene, lambda: self.world.data, np.random.default_rng(seed)
+        )
+        self.eyes = CameraEyes(self.camera, scene)
+        self.last = Observation(self.robot.state())
+
+    def look(self) -> Observation:
+        self.last = self.eyes.look(self.robot, self.last)
+        return self.last
+
+    def error(self, name: str) -> float:
+        true = self.world.data.joint(name).qpos[:3]
+        return float(np.linalg.norm(true - self.last.objects[name].position))
+
+
+@pytest.fixture
+def desk(request: pytest.FixtureRequest) -> Iterator[Desk]:
+    made = Desk(*request.param)
+    yield made
+    made.eyes.close()
+
+
+@pytest.mark.render
+@pytest.mark.slow
+@pytest.mark.parametrize("desk", [("task5", 0), ("task7", 1)], indirect=True)
+def test_what_stands_on_the_desk_is_seen_where_it_is(desk):
+    desk.camera.connect()
+    desk.camera.frame()  # opening a renderer costs once
+    begun = time.process_time()
+    seen = desk.look()
+    assert time.process_time() - begun < LOOK_S
+    assert {item.mark for item in seen.objects.values()} == {Mark.SEEN}
+    for name in seen.objects:
+        assert desk.error(name) < ACCURATE, name
+    for address, value in seen.parts.items():
+        true = float(desk.world.data.joint(desk.world.world.parts[address].joint).qpos[0])
+        assert value == pytest.approx(true, abs=0.01)
+
+
+@pytest.mark.render
+@pytest.mark.slow
+@pytest.mark.parametrize("desk", [("disturbance", 0)], indirect=True)
+def test_what_moves_is_found_and_what_is_taken_away_is_lost(desk):
+    first, second = [name for name in desk.look().objects if desk.error(name) < ACCURATE][:2]
+    joint = desk.world.data.joint(first)
+    joint.qpos[:2] += [0.06, 0.11]
+    before = desk.last.objects[second]
+    desk.world.take_away(second)
+    seen = desk.look()
+    assert seen.objects[first].mark is Mark.SEEN
+    assert desk.error(first) < ACCURATE
+    assert seen.objects[second].mark is Mark.LOST
+    assert seen.objects[second].position == pytest.approx(before.position)
+
+
+def sphere() -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(0)
+    normals = rng.normal(size=(3000, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals * 0.04, normals
+
+
+def test_a_pose_is_borne_out_hidden_or_contradicted_by_depth():
+    from etot_cli.execution.perception.surfaces import Surface
+
+    ball = Surface(*sphere())
+    view = View(160, 120, 200.0, 200.0, 79.5, 59.5, np.eye(4))
+    pose = Pose(np.eye(3), np.array([0.0, 0.0, 0.6]))
+    v, u = np.mgrid[0:120, 0:160]
+    rays = np.dstack([(u - 79.5) / 200, (v - 59.5) / 200, np.ones(u.shape)])
+    unit = np.linalg.norm(rays, axis=2)
+    along = rays[..., 2] / unit * 0.6
+    gap = 0.04**2 - (0.36 - along**2)
+    depth = np.where(gap > 0, (along - np.sqrt(np.maximum(gap, 0))) / unit, 1.2)
+    assert support(ball, pose, view, depth).share > 0.95
+    assert support(ball, pose, view, np.full_like(depth, 1.2)).share == 0.0
+    assert support(ball, pose, view, np.full_like(depth, 0.3)).covered > 0.95
+    readings = (rays * depth[..., None])[gap > 0]
+    off = Pose(rotation_by(np.array([0, 0, 0.1])), pose.position + np.array([0.01, -0.008, 0.005]))
+    for freedom in (Freedom.UPRIGHT, Freedom.ALL):
+        found = improved(ball, off, readings, view, freedom=freedom)
+        assert found.position == pytest.approx(pose.position, abs=0.001)
+    level = improved(ball, off, readings, view, freedom=Freedom.ON_LEVEL)
+    assert level.position[2] == off.position[2]
