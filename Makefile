@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-reconstruct soak clean
+.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-execute check-reconstruct soak clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -46,6 +46,9 @@ check-tasks: $(VENV)/.dev  ## check that every shipped task is physically what i
 
 check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
 	$(BIN)/python -m tests.measure.check_random
+
+check-execute: $(VENV)/.dev  ## carry all tasks out in closed loop, 20 times each
+	$(BIN)/python -m tests.measure.check_execute
 
 check-reconstruct: $(VENV)/.dev  ## measure reconstruction against known scenes
 	$(BIN)/python -m tests.measure.check_reconstruct

@@ -128,7 +128,7 @@ def _trials(
     if min(options.jobs, options.trials) > 1:
         yield from _side_by_side(options, task)
         return
-    with closing(_Runner(options, task)) as runner:
+    with closing(Runner(options, task)) as runner:
         for number in range(options.trials):
             if observer is not None:
                 observer.trial_started(number, options.trials)
@@ -154,8 +154,13 @@ def _side_by_side(options: ExecuteOptions, task: Task) -> Iterator[Trial]:
                     raise ServiceError(f"a trial was lost: {error}") from None
 
 
-class _Runner:
-    """Runs trials of one task, one after the other, with planners that they share."""
+class Runner:
+    """Runs trials of one task, one after the other, with planners that they share.
+
+    Args:
+        options: how; which trials is said to :meth:`run`.
+        task: loaded already.
+    """
 
     def __init__(self, options: ExecuteOptions, task: Task) -> None:
         self._options, self._task = options, task
@@ -164,6 +169,7 @@ class _Runner:
         )
 
     def run(self, number: int, observer: TrialObserver | None = None) -> Trial:
+        """One trial; its result does not depend on those before it."""
         options = self._options
         trial = options.trial(number)
         request = DeviceRequest(
@@ -173,15 +179,16 @@ class _Runner:
         return run_trial(self._task, self._planners, trial, observer, open_cell(request))
 
     def close(self) -> None:
+        """Ends the planners' processes; idempotent."""
         self._planners.close()
 
 
-_runners: list[_Runner] = []
+_runners: list[Runner] = []
 """Of a worker process: the one it was begun with."""
 
 
 def _begin(options: ExecuteOptions, task: Task) -> None:
-    _runners[:] = [_Runner(options, task)]
+    _runners[:] = [Runner(options, task)]
 
 
 def _run_one(number: int) -> Trial:
@@ -238,4 +245,4 @@ def _reason(trials: list[Trial], interrupted: bool) -> str:
     return "stopped before it began" if interrupted else "not all trials were run"
 
 
-__all__ = ["ExecuteOptions", "Execution", "run_execute"]
+__all__ = ["ExecuteOptions", "Execution", "Runner", "run_execute"]

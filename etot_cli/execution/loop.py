@@ -98,7 +98,8 @@ class Loop:
         status = self._plan("the task begins")
         while True:
             if status.status != FEASIBLE:
-                return Ended.FAILED, f"no plan: {status.reason or status.status}"
+                since = f" since {self._plans[-1].reason}" if len(self._plans) > 1 else ""
+                return Ended.FAILED, f"no plan{since}: {status.reason or status.status}"
             if self._options.dry_run:
                 return Ended.PLANNED, "there is a plan; nothing was moved (dry run)"
             ended, reason = self._follow_plan()

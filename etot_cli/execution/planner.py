@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from etot_cli.control.simulator import ActionSimulator, open_simulator
 from etot_cli.execution.protocols import Planned
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.planning.result import SearchObserver, SearchStatus
+from etot_cli.planning.result import SearchObserver, SearchResult, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment, Reasoner
@@ -20,6 +20,9 @@ from etot_cli.world.state import SceneState
 
 KEPT = 3
 """Twins that are kept: the task's own, and those of scenes onto which something came."""
+
+CAUSES_TOLD = 2
+"""Of a search without a plan; the report of ``etot plan`` has all of them."""
 
 
 @dataclass
@@ -71,7 +74,7 @@ class TreePlanner:
             result.plan,
             tuple(motion if isinstance(motion, Motion) else None for motion in motions),
             result.status.value,
-            result.stopped or _why_not(result.status),
+            result.stopped or _why_not(result),
             {
                 "nodes": float(numbers.nodes_evaluated),
                 "reflections": float(numbers.reflections),
@@ -86,10 +89,17 @@ class TreePlanner:
             self._simulator.close()
 
 
-def _why_not(status: SearchStatus) -> str | None:
-    if status is SearchStatus.INFEASIBLE:
-        return "every branch and every correction fails in the twin"
-    return None
+def _why_not(result: SearchResult) -> str | None:
+    """What keeps everything from working, the first things first; None with a plan."""
+    if result.status is not SearchStatus.INFEASIBLE:
+        return None
+    causes = [
+        f"{node.action}: {node.verdict.cause.text}"
+        for node in result.tree
+        if node.verdict is not None and node.verdict.cause is not None
+    ]
+    said = list(dict.fromkeys(causes))[:CAUSES_TOLD]
+    return "nothing that was tried works in the twin" + (f"; {'; '.join(said)}" if said else "")
 
 
 class TreePlanners:

@@ -33,6 +33,7 @@ RUN_BY_CI = {
     "bench": "it measures for minutes",
     "check-tasks": "it simulates for minutes",
     "check-random": "it plans for minutes",
+    "check-execute": "it executes for an hour",
     "check-reconstruct": "it renders and fits for minutes",
     "schemas": "tests/reporting compares the schemas with the models",
     "soak": "it starts and stops programs for minutes",

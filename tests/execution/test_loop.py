@@ -84,7 +84,7 @@ def test_the_target_taken_away_ends_with_the_reason(tmp_path: Path) -> None:
     task = small_task(tmp_path, AWAY)
     trial = run(task, Scripted([IN_TWO]))
     assert trial.status == "failure"
-    assert trial.reason == "no plan: nothing is left to try"
+    assert trial.reason == "no plan since ball is gone: nothing is left to try"
     assert trial.plans[1].reason == "ball is gone"
     assert not trial.actions
     assert trial.failure_class is None  # it was nobody's failure
