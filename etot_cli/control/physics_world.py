@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -144,6 +144,16 @@ class PhysicsWorld:
             motion: how.
             recorded: what a robot was sent for this motion, to be sent again as it is.
         """
+        performed, trace = self.drive(start, motion, recorded)
+        outcome = outcome_of(belief, action, motion, trace, performed.record.after)
+        record = replace(performed.record, effect=outcome.effect, cause=outcome.cause)
+        struck = outcome.effect and _struck(record, action) >= SHOVED
+        return replace(performed, record=record), outcome.another_way or struck
+
+    def drive(
+        self, start: Snapshot, motion: Motion, recorded: Trace | None = None
+    ) -> tuple[Performed, Trace]:
+        """Runs a motion as :meth:`run` does; what happened, not whether it was of use."""
         before = self.look(start)
         world, data = self.world, self.data
         recorder = Recorder(world, data, keep_frames=self.keep_frames)
@@ -157,13 +167,12 @@ class PhysicsWorld:
         self.stepping_s += time.perf_counter() - begun
         self.total_steps += robot.steps
         after, end = self._awake(start.memory)
-        outcome = outcome_of(belief, action, motion, trace, after)
         displacement = recorder.displacement()
         record = RolloutRecord(
             before=before,
             after=after,
-            effect=outcome.effect,
-            cause=outcome.cause,
+            effect=False,
+            cause=None,
             contacts=recorder.contacts(),
             displacement=displacement,
             swept=recorder.swept(before.holding or after.holding),
@@ -172,9 +181,7 @@ class PhysicsWorld:
         )
         keys = [item.end_s for item in trace.phases if item.name in KEY_PHASES]
         trajectory = recorder.trajectory(keys)
-        performed = Performed(record, end, trajectory, motion, trace)
-        struck = outcome.effect and _struck(record, action) >= SHOVED
-        return performed, outcome.another_way or struck
+        return Performed(record, end, trajectory, motion, trace), trace
 
     def unperformed(self, start: Snapshot, cause: Cause) -> Performed:
         """The record of an action of which nothing is known but why."""

@@ -13,6 +13,7 @@ import mujoco
 from etot_cli.control.perception import perceive
 from etot_cli.control.physics_world import Performed, PhysicsWorld
 from etot_cli.control.simulated_world import ATTEMPTS, SimulatedWorld
+from etot_cli.control.withdrawal import withdrawal
 from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Motion
@@ -62,7 +63,7 @@ class TrueWorld(PhysicsWorld):
         """Carries an action out.
 
         After a failure that lies in how it was done the robot looks again and tries once more, from
-        where things then are.
+        where things then are; where it was stopped it backs off first.
 
         Args:
             start: the state of this world.
@@ -75,16 +76,29 @@ class TrueWorld(PhysicsWorld):
         for attempt in range(ATTEMPTS):
             here = start if performed is None else performed.end
             belief = self.believe(here, f"{action}/{attempt}")
-            motion = next(plan_motions(belief, action, rehearsed))
+            # What fails twice where it is seen anew does not fail by how it was seen.
+            like = rehearsed if attempt < ATTEMPTS - 1 else None
+            motion = next(plan_motions(belief, action, like))
             if isinstance(motion, SkillOutcome):
-                latest, again = self.not_tried(here, motion), False
-            else:
-                latest, again = self.run(here, belief, action, motion)
+                # Once tried, what went wrong is what happened, not that nothing is left to try.
+                performed = performed or self.not_tried(here, motion)
+                break
+            latest, again = self.run(here, belief, action, motion)
             performed = latest if performed is None else _joined(performed, latest)
             if not again or latest.record.after.holding != performed.record.before.holding:
                 break
+            performed = self._withdrawn(performed)
         assert performed is not None  # ATTEMPTS is not zero
         return performed
+
+    def _withdrawn(self, performed: Performed) -> Performed:
+        """A robot that was stopped goes back a little the way it came; else it stays."""
+        back = None if performed.trace is None else withdrawal(performed.trace)
+        if back is None:
+            return performed
+        gone = _joined(performed, self.drive(performed.end, back)[0])
+        record = replace(gone.record, cause=performed.record.cause)
+        return replace(gone, record=record, motion=performed.motion, trace=performed.trace)
 
     def _replay(self, start: Snapshot, action: Action, rehearsed: Motion | None) -> Performed:
         if rehearsed is None:

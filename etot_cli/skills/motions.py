@@ -58,5 +58,5 @@ def outcome_of(
     if action.verb is Verb.PICK_UP:
         return pick_outcome(belief, action, motion, trace, after)
     if action.verb in PUTS:
-        return put_outcome(belief.held() or "", trace, after)
+        return put_outcome(belief, action, trace, after)
     return articulation_outcome(belief, action, trace, after)

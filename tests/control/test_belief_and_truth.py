@@ -9,10 +9,13 @@ import mujoco
 import numpy as np
 import pytest
 
+from etot_cli.control import true_world
 from etot_cli.control.perception import perceive
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.control.true_world import TrueWorld
+from etot_cli.control.withdrawal import FAR_BACK, withdrawal
 from etot_cli.skills.action import parse_plan
+from etot_cli.skills.motion.motion import Move, PhaseEnd, PhaseTrace, Trace
 from etot_cli.specs.scene import Perception
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import place_objects
@@ -75,3 +78,54 @@ def test_a_displaced_drawer_is_opened_where_it_is_seen() -> None:
         truth = TrueWorld(make_scene(unit=moved, ball=scene.objects["ball"]), twin, number)
         opened += truth.perform(truth.start()[0], action, rehearsed).record.effect
     assert opened == 3
+
+
+def test_a_robot_that_is_stopped_backs_off_looks_again_and_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The first look takes the chest to be 3 cm behind where it stands."""
+    looks = 0
+
+    def see(*args: Any) -> None:
+        nonlocal looks
+        perceive(*args)
+        looks += 1
+        if looks == 1:
+            twin, believed = args[2], args[3]
+            believed.mocap_pos[0, 1] += 0.03
+            mujoco.mj_forward(twin.model, believed)
+
+    monkeypatch.setattr(true_world, "perceive", see)
+    scene = make_scene(unit=unit(drawers=drawers(open=0.10)))
+    twin = SimulatedWorld(scene)
+    (action,) = parse_plan("[CLOSE, unit]")
+    rehearsed = twin.perform(twin.start()[0], action).motion
+    truth = TrueWorld(scene, twin, 1)
+    performed = truth.perform(truth.start()[0], action, rehearsed)
+    assert looks == 2
+    assert performed.record.effect, performed.record.cause
+
+
+def test_the_way_back_is_the_way_that_the_arm_came() -> None:
+    sent = np.linspace([0.0, 0.0], [1.0, 0.5], 101)
+    stopped = PhaseTrace(
+        "approach", PhaseEnd.BLOCKED, 0.0, 1.0, 0.08, tuple(sent[60]), targets=sent
+    )
+    after = PhaseTrace("settle", PhaseEnd.DONE, 1.0, 1.2, 0.08, tuple(sent[60]))
+    back = withdrawal(Trace((stopped, after)))
+    assert back is not None
+    (move,) = back.phases
+    assert isinstance(move, Move)
+    assert (np.diff(move.path[:, 0]) < 0).all()
+    assert sent[60, 0] - FAR_BACK <= move.path[-1, 0] <= sent[60, 0] - FAR_BACK + 0.06
+    np.testing.assert_allclose(move.path[:, 1], move.path[:, 0] / 2)
+
+
+def test_who_was_not_stopped_has_nothing_to_back_off_from() -> None:
+    sent = np.linspace([0.0, 0.0], [1.0, 0.5], 101)
+    done = PhaseTrace("lift", PhaseEnd.SLIPPED, 0.0, 1.0, 0.0, tuple(sent[60]), targets=sent)
+    assert withdrawal(Trace((done,))) is None
+    along = PhaseTrace("along", PhaseEnd.BLOCKED, 0.0, 1.0, 0.0, tuple(sent[60]), targets=sent)
+    retreat = PhaseTrace("retreat", PhaseEnd.DONE, 1.0, 2.0, 0.0, tuple(sent[0]), targets=sent)
+    assert withdrawal(Trace((along, retreat))) is None
+    assert withdrawal(Trace(())) is None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +17,9 @@ from etot_cli.world.robot_index import RobotIndex
 Vector = NDArray[np.float64]
 UP = np.array([0.0, 0.0, 1.0])
 
-FACE_GAP = 0.004
-"""Distance from the face before the push [m]."""
+FACE_GAP, WIDEST_GAP = 0.004, 0.02
+"""Distance from the face before the push [m]: at least, and at most, since what is far away is
+pushed from an angle. In between it is as much as the face may stand nearer than it is seen."""
 PRESS = 0.003
 """How far the targets lie inside the face while pushing [m]."""
 EDGE_DEPTHS = (0.035, 0.012)
@@ -46,13 +48,14 @@ class Push:
     point: Vector
     outward: bool
     lean: float
+    gap: float = FACE_GAP
     grip: bool = False
     opening: float = 0.0
     overlap: float = PENETRATION - PRESS
 
     def touching(self, part: Pose) -> Pose:
         """Tool pose just before the face, for the part's pose; base frame."""
-        return self._tool(part, self.lean, -FACE_GAP)
+        return self._tool(part, self.lean, -self.gap)
 
     def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
         """Tool poses that press on the face, and their leans [rad], the least change first."""
@@ -74,20 +77,30 @@ class Push:
         )
 
 
+def close(push: Push) -> Push:
+    """The same push begun right before the face, for where there is no room for more."""
+    return replace(push, gap=FACE_GAP)
+
+
 def pushes(travel: PartTravel, face: Face) -> list[Push]:
     """Pushes of a face, the best first and different ones early: where the arm does not reach one
     place with one lean, much the same will not do either.
     """
     robot, normal = travel.belief.world.robot, np.array(face.normal)
+    error, owner = travel.belief.world.scene.perception, travel.belief.object_pose(travel.owner)
+    part = travel.at(travel.value)
     ranked: list[tuple[float, Push]] = []
     for place, point in contact_points(travel.part, face):
+        lever = float(np.linalg.norm(part.position + part.rotation @ point - owner.position))
+        gap = error.position_m + lever * math.radians(error.yaw_deg)
+        gap = min(max(gap, FACE_GAP), WIDEST_GAP)
         for outward in (False, True):
             for rank, lean in enumerate(TILTS):
                 if outward and lean == 0.0:
                     continue  # an upright hand leans nowhere
                 # Hands that lean outwards reach farther, but seldom have room.
                 cost = place + 2 * rank + 3 * outward
-                ranked.append((cost, Push(robot, normal, point, outward, lean)))
+                ranked.append((cost, Push(robot, normal, point, outward, lean, gap)))
     return [push for _, push in sorted(ranked, key=lambda item: item[0])]
 
 

@@ -106,6 +106,9 @@ def pick_outcome(
 ) -> SkillOutcome:
     """What a look at the scene afterwards and the robot's own account say about a grasp."""
     name, before = action.target, belief.object_pose(action.target)
+    raised = float(np.linalg.norm(after.states[name].position - before.position))
+    if after.holding == name and raised >= 0.3 * LIFT:
+        return DONE
     stopped = trace.stopped
     if stopped is not None and stopped.end is PhaseEnd.BLOCKED:
         where = {"transit": "on the way to it", "approach": "during the approach"}.get(
@@ -127,9 +130,6 @@ def pick_outcome(
             trace.seconds,
             another_way=True,
         )
-    raised = after.states[name].position - before.position
-    if after.holding == name and float(np.linalg.norm(raised)) >= 0.3 * LIFT:
-        return DONE
     return failed(
         CauseKind.SLIP,
         [name],

@@ -121,16 +121,22 @@ def _target_frame(belief: Belief, target: str) -> tuple[str, Pose]:
     return target, belief.object_pose(place.body)
 
 
-def put_outcome(name: str, trace: Trace, after: SceneState) -> SkillOutcome:
+def put_outcome(belief: Belief, action: Action, trace: Trace, after: SceneState) -> SkillOutcome:
     """What a look at the scene afterwards and the robot's own account say about a placement.
 
     Args:
-        name: the object that was in the hand.
+        belief: from which it was worked out.
+        action: PUT ON or PUT INTO.
         trace: the robot's account.
         after: the scene after it.
     """
+    name = belief.held() or ""
     stopped = trace.stopped
-    if stopped is not None and stopped.end is PhaseEnd.SLIPPED:
+    slipped = stopped is not None and stopped.end is PhaseEnd.SLIPPED
+    if stopped is not None and slipped and stopped.name == "lower":
+        # It went its last centimetres by itself.
+        slipped = not _is_there(belief, action, name, after)
+    if stopped is not None and slipped:
         when = "on the way" if stopped.name == "transit" else "while lowering it"
         return failed(
             CauseKind.SLIP,
@@ -149,3 +155,11 @@ def put_outcome(name: str, trace: Trace, after: SceneState) -> SkillOutcome:
             another_way=True,
         )
     return DONE
+
+
+def _is_there(belief: Belief, action: Action, name: str, after: SceneState) -> bool:
+    """Whether an object is where it was to go, however it got there."""
+    state, part = after.states[name], belief.world.parts.get(action.target)
+    if action.verb is Verb.PUT_INTO:
+        return state.inside == (part.info.address if part else action.target)
+    return any(action.target in (address, address.split(".")[0]) for address in state.on)
