@@ -56,6 +56,10 @@ class Grip:
         """Tool pose, for the part's pose; base frame."""
         return part @ self.in_part
 
+    def entering(self, part: Pose) -> Pose:
+        """The same: open fingers have room on both sides."""
+        return self.touching(part)
+
     def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
         """The tool pose, which goes with the part."""
         yield part @ self.in_part, lean

@@ -83,6 +83,12 @@ class Contact(Protocol):
         """Tool pose where the contact begins, for the part's pose; base frame."""
         ...
 
+    def entering(self, part: Pose) -> Pose:
+        """Tool pose by which the hand comes there, if there is room: as far from the face as that
+        may stand nearer than it is seen.
+        """
+        ...
+
     def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
         """Tool poses while the part moves and their leans [rad], the preferred one first."""
         ...
@@ -151,23 +157,45 @@ def approaches(
     belief, arm = travel.belief, travel.belief.arm
     travel.place(travel.value)
     belief.checker.set_fingers(contact.opening)
-    tool = contact.touching(travel.at(travel.value))
+    part = travel.at(travel.value)
+    tool = contact.touching(part)
+    aside = contact.entering(part).position - tool.position
     # Closed fingers are thinnest with the hand turned along the face; otherwise any turn will do.
     for free_spin in (False,) if contact.grip else (False, True):
         found = False
         for joints in arm.solutions(tool, belief.commanded, free_spin=free_spin):
-            reached = arm.forward(joints)
-            way = straight(reached, away_from(reached))
-            back, count = arm.line(way, joints, free_spin=free_spin)
-            if count < len(way):
-                continue
-            passage = met.copy()
-            rows = (joints, back[-1], back[count // 2])
-            if all(_admitted(belief, row, passage) for row in rows):
+            approach = None
+            if aside.any():
+                approach = _approach(belief, joints, aside, met, free_spin=free_spin)
+            if approach is None or approach[1].others != met.others:
+                straight_there = _approach(belief, joints, None, met, free_spin=free_spin)
+                approach = straight_there or approach
+            if approach is not None:
                 found = True
-                yield np.vstack([back[::-1], joints]), passage
+                yield approach
         if found:
             return
+
+
+def _approach(
+    belief: Belief, joints: Vector, aside: Vector | None, met: Passage, *, free_spin: bool
+) -> tuple[Vector, Passage] | None:
+    """The way to a contact at ``joints``, by a place ``aside`` of it (3,) [m]; None: no way."""
+    arm, entry, rows = belief.arm, joints, [joints]
+    if aside is not None:
+        result = arm.solve(arm.forward(joints).moved(aside), joints, free_spin=free_spin)
+        if not result.reached or np.abs(result.joints - joints).max() > JUMP:
+            return None
+        entry, rows = result.joints, [result.joints, joints]
+    tool = arm.forward(entry)
+    way = straight(tool, away_from(tool))
+    back, count = arm.line(way, entry, free_spin=free_spin)
+    if count < len(way):
+        return None
+    passage = met.copy()
+    if not all(_admitted(belief, row, passage) for row in (*rows, back[-1], back[count // 2])):
+        return None
+    return np.vstack([back[::-1], *rows]), passage
 
 
 def _admitted(belief: Belief, joints: Vector, passage: Passage) -> bool:

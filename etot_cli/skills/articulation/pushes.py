@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,8 @@ Vector = NDArray[np.float64]
 UP = np.array([0.0, 0.0, 1.0])
 
 FACE_GAP, WIDEST_GAP = 0.004, 0.02
-"""Distance from the face before the push [m]: at least, and at most, since what is far away is
-pushed from an angle. In between it is as much as the face may stand nearer than it is seen."""
+"""Distance from the face before the push [m], and the most at which the hand comes there. In
+between it is as much as the face may stand nearer than it is seen."""
 PRESS = 0.003
 """How far the targets lie inside the face while pushing [m]."""
 EDGE_DEPTHS = (0.035, 0.012)
@@ -55,6 +55,10 @@ class Push:
 
     def touching(self, part: Pose) -> Pose:
         """Tool pose just before the face, for the part's pose; base frame."""
+        return self._tool(part, self.lean, -FACE_GAP)
+
+    def entering(self, part: Pose) -> Pose:
+        """Farther from the face, by as much as that is uncertain."""
         return self._tool(part, self.lean, -self.gap)
 
     def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
@@ -75,11 +79,6 @@ class Push:
         return Pose(
             point - direction * (offset - inside), rotation_from_axes(approach, cross(UP, level))
         )
-
-
-def close(push: Push) -> Push:
-    """The same push begun right before the face, for where there is no room for more."""
-    return replace(push, gap=FACE_GAP)
 
 
 def pushes(travel: PartTravel, face: Face) -> list[Push]:

@@ -22,7 +22,7 @@ from etot_cli.skills.articulation.part_path import (
     follow,
     fraction_open,
 )
-from etot_cli.skills.articulation.pushes import Push, close, pushes
+from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
 from etot_cli.skills.motion.kinematics import Pose
@@ -183,8 +183,8 @@ class PartSearch:
         for kind in (self._again(chain(*kinds)), *kinds):
             for contact in kind:
                 met = self._room(contact)
-                if met is None or not met.free:
-                    narrow = self._narrow(contact)
+                if isinstance(contact, Grip) and (met is None or not met.free):
+                    narrow = replace(contact, opening=contact.narrow)
                     squeezed = self._room(narrow)
                     if squeezed is not None and (met is None or squeezed.free):
                         contact, met = narrow, squeezed
@@ -207,12 +207,6 @@ class PartSearch:
             if off <= ALIKE and cosine >= ALIKE_COSINE:
                 ranked.append((round(off, 4), -cosine, number, contact))
         return [min(ranked, key=lambda item: item[:3])[3]] if ranked else []
-
-    def _narrow(self, contact: Contact) -> Contact:
-        """The same contact where there is little room."""
-        if isinstance(contact, Grip):
-            return replace(contact, opening=contact.narrow)
-        return close(contact) if isinstance(contact, Push) else contact
 
     def _room(self, contact: Contact) -> Passage | None:
         """What the hand meets at a contact and before it; None where it has no room."""
