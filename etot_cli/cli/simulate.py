@@ -64,6 +64,14 @@ def simulate(
     ] = None,
     video: Annotated[bool, typer.Option("--video", help="Render video.mp4.")] = False,
     frames: Annotated[bool, typer.Option("--frames", help="Render frames/*.png.")] = False,
+    view: Annotated[
+        bool,
+        typer.Option(
+            "--view",
+            help="Look at it afterwards: in MuJoCo's viewer where there is a display, else in a "
+            "browser.",
+        ),
+    ] = False,
     html: Html = True,
     out: Out = None,
     force: Force = False,
@@ -78,7 +86,7 @@ def simulate(
     or --frames without OpenGL; 130: interrupted.
     """
     if capture is not None:
-        if plan is not None or video or frames or open_loop:
+        if plan is not None or video or frames or view or open_loop:
             raise typer.BadParameter("--capture renders the scene as it stands; it takes no plan")
         from etot_cli.commands.capture import run_capture
 
@@ -89,6 +97,11 @@ def simulate(
         raise typer.BadParameter("missing --plan (or --capture to render the scene)")
     if error is not None and not open_loop:
         raise typer.BadParameter("--error needs --open-loop")
+    viewer = None
+    if view:
+        from etot_cli.world.viewing.choice import choose
+
+        viewer = choose()  # before the work: without any viewer it would be for nothing
     start_error = None if error is None else _start_error(error)
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
@@ -105,7 +118,7 @@ def simulate(
         look=look,
         open_loop=open_loop,
         error=start_error,
-        record=video or frames or html,
+        record=video or frames or view or html,
     )
     simulation = run_simulate(options, session.log())
     report = simulation.report
@@ -128,7 +141,12 @@ def simulate(
         session.save(report)
     if html and not report.interrupted:
         session.add_page(report, lambda told: write_simulate_page(simulation, session.folder, told))
-    return session.conclude(report, path, lambda summary: summary.simulate(report, path))
+    code = session.conclude(report, path, lambda summary: summary.simulate(report, path))
+    if viewer is not None and not report.interrupted:
+        from etot_cli.commands.view import view as look_at
+
+        look_at(simulation, viewer, lambda text: print(text, file=sys.stderr, flush=True))
+    return code
 
 
 def _start_error(text: str) -> StartError:
