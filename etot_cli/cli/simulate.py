@@ -99,9 +99,9 @@ def simulate(
         raise typer.BadParameter("--error needs --open-loop")
     viewer = None
     if view:
-        from etot_cli.world.viewing.choice import choose
+        from etot_cli.commands.view import viewer_here
 
-        viewer = choose()  # before the work: without any viewer it would be for nothing
+        viewer = viewer_here()  # before the work: without any viewer it would be for nothing
     start_error = None if error is None else _start_error(error)
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force

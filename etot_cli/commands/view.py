@@ -6,9 +6,18 @@ from collections.abc import Callable
 
 from etot_cli.commands.simulate import Simulation
 from etot_cli.errors import ServiceError
-from etot_cli.world.viewing.choice import Choice, in_browser
+from etot_cli.world.viewing.choice import Choice, choose, in_browser
 
 Said = Callable[[str], None]
+
+
+def viewer_here() -> Choice:
+    """The viewer that this machine has.
+
+    Raises:
+        ServiceError: none; the message says what to install.
+    """
+    return choose()
 
 
 def view(simulation: Simulation, choice: Choice, say: Said) -> None:
