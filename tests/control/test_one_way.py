@@ -73,3 +73,23 @@ def test_no_way_at_all_is_a_result(monkeypatch: pytest.MonkeyPatch, run: Episode
     performed = run.do("[PICK UP, ball]")
     assert performed.record.cause == STUCK.cause and not performed.record.effect
     assert performed.record.steps == 0 and performed.motion is None
+
+
+def test_what_is_wider_than_the_gripper_is_not_pinched_again_and_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Every chord of it is as wide; physics has its say once."""
+    tried: list[Motion] = []
+    carried_out = physics_world.run_motion
+
+    def counted(motion: Motion, *given: object) -> Trace:
+        tried.append(motion)
+        return carried_out(motion, *given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(physics_world, "run_motion", counted)
+    wide = {"kind": "cup", "diameter": 0.09, "height": 0.07, "mass": 0.1, "friction": 0.2,
+            "slippery": True, "at": [0.4, 0.1]}  # fmt: skip
+    record = episode(mug=wide).do("[PICK UP, mug] (horizontal)").record
+    assert record.cause is not None
+    assert record.cause.kind in (CauseKind.SLIP, CauseKind.NO_GRASP)
+    assert len(tried) == 1 and tried[0].details["width"] > 0.085

@@ -109,16 +109,18 @@ def pick_outcome(
     raised = float(np.linalg.norm(after.states[name].position - before.position))
     if after.holding == name and raised >= 0.3 * LIFT:
         return DONE
+    width, opening = motion.details["width"], belief.world.robot.spec.gripper.opening
+    # Where it is wider than the gripper opens, the other grasps of this kind pinch it no better.
+    another = width <= opening
     stopped = trace.stopped
     if stopped is not None and stopped.end is PhaseEnd.BLOCKED:
         where = {"transit": "on the way to it", "approach": "during the approach"}.get(
             stopped.name, "while lifting it"
         )
         struck = [item for item in trace.touching if item != name]
-        opening = belief.world.robot.spec.gripper.opening
-        if not struck and motion.details["width"] > opening:
+        if not struck and width > opening:
             # Tried all the same, since physics decides; what stopped the hand is the thing itself.
-            return _too_wide(name, motion.details["width"], opening, trace.seconds)
+            return _too_wide(name, width, opening, trace.seconds)
         met = trace.against(name if stopped.name == "lift" else None)
         against = sorted(met, key=lambda address: address == name)
         return arm_stopped(where, against, [name], trace.seconds)
@@ -128,15 +130,15 @@ def pick_outcome(
             [name],
             f"the fingers closed without getting hold of {name}",
             trace.seconds,
-            another_way=True,
+            another_way=another,
         )
     return failed(
         CauseKind.SLIP,
         [name],
-        f"{name} slipped out of the fingers ({motion.details['width'] * 1000:.0f} mm wide, "
-        f"gripper opens {belief.world.robot.spec.gripper.opening * 1000:.0f} mm)",
+        f"{name} slipped out of the fingers ({width * 1000:.0f} mm wide, "
+        f"gripper opens {opening * 1000:.0f} mm)",
         trace.seconds,
-        another_way=True,
+        another_way=another,
     )
 
 
