@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from etot_cli.world.state import CauseKind
-from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
+from tests.world.helpers import make_scene
 
 SEEDS = range(3)
 THINGS = {
@@ -168,3 +171,30 @@ def test_comes_off_a_covered_board(board: str) -> None:
     run = episode(rack=RACK, mug=MUG | {"on": f"rack.{board}"})
     after = run.must("[PICK UP, mug] (horizontal)")
     assert after.states["mug"].in_hand
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("diameter", [0.15, 0.17, 0.20])
+def test_the_hand_comes_down_along_a_wall_that_leans(diameter: float, seed: int) -> None:
+    """Walls that lean by 37°, 42° and 49° from a foot of 6 cm."""
+    bowl = {"kind": "bowl", "diameter": diameter, "height": 0.06, "foot_diameter": 0.06,
+            "mass": 0.2, "at": [0.4, 0.1]}  # fmt: skip
+    run = episode(seed, bowl=bowl)
+    assert run.must("[PICK UP, bowl]").holding == "bowl"
+    state = run.must("[PUT ON, desk]").states["bowl"]
+    assert state.on == ("desk",) and not state.toppled
+
+
+@pytest.mark.parametrize("yaw_deg", [0, 70, 200])
+def test_a_pan_too_wide_for_the_hand_is_taken_by_its_handle(tmp_path: Path, yaw_deg: int) -> None:
+    """The handle is thin, and so high up that it lies off the object's own middle."""
+    (tmp_path / "pan.xml").write_text(
+        "<mujoco><worldbody><body name='pan'>"
+        "<geom type='cylinder' size='0.09 0.018' pos='0 0 0.018'/>"
+        "<geom type='box' size='0.075 0.009 0.006' pos='0.16 0 0.028'/>"
+        "</body></worldbody></mujoco>"
+    )
+    pan = {"kind": "mjcf", "file": "pan.xml", "at": [0.42, 0.05], "mass": 0.4, "yaw_deg": yaw_deg}
+    run = Episode(make_scene(tmp_path, pan=pan))
+    assert run.must("[PICK UP, pan]").holding == "pan"
+    assert run.must("[PUT ON, desk]").states["pan"].on == ("desk",)

@@ -7,7 +7,7 @@ fingers and there is room for a finger on either side of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -15,6 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
+from etot_cli.skills.grasps.leaning import Slanted, across_walls
+from etot_cli.skills.grasps.lines import (
+    Bounds,
+    Line,
+    closing_directions,
+    grid,
+    level_direction,
+    through_parts,
+)
 from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
 from etot_cli.world.model import World
@@ -28,8 +37,6 @@ WIDTH_MARGIN = 0.004
 """The gripper must open this much wider than the object [m]."""
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
-FINGER_DEPTH = 0.05
-"""Depth of the space between the fingers, from the tool point backwards [m]."""
 SQUARE = 0.8
 """Cosine of the largest angle between the closing direction and a surface's normal: 37°, within the
 friction cone of the pads (45° at their friction of 1) by a margin for what is perceived wrongly. A
@@ -83,11 +90,15 @@ def sample_grasps(
     massive = world.entries[name].free and world.model.body(name).mass[0] > 0.0
     center = data.body(name).xipos.copy() if massive else (low + high) / 2
     axis = _axis(world, data, name)
-    closings = _closings(axis)
+    closings = closing_directions(axis)
     grasps: list[Grasp] = []
     wide: list[Grasp] = []
     if pose in (None, GraspPose.VERTICAL):
-        _from_above(world, solids, data, name, (low, high, center, axis), closings, grasps, wide)
+        bounds = low, high, center, axis
+        _from_above(world, solids, data, name, bounds, grid(bounds, closings), grasps, wide)
+        if not grasps:
+            lines = through_parts(world, data, name, bounds, closings)
+            _from_above(world, solids, data, name, bounds, lines, grasps, wide)
     if pose in (None, GraspPose.HORIZONTAL):
         _from_side(world, solids, data, name, (low, high, center, axis), grasps, wide)
     widths = [grasp.width for grasp in (*grasps, *wide)]
@@ -98,27 +109,11 @@ def sample_grasps(
     )
 
 
-Bounds = tuple[Vector, Vector, Vector, Vector | None]
-
-
 def _axis(world: World, data: mujoco.MjData, name: str) -> Vector | None:
     own = world.entries[name].axis
     if own is None:
         return None
     return np.asarray(data.body(name).xmat.reshape(3, 3) @ np.array(own))
-
-
-def _closings(axis: Vector | None) -> list[Vector]:
-    """Level closing directions; for a lying rod first straight across it."""
-    first = 0.0
-    if axis is not None and np.hypot(axis[0], axis[1]) > 0.3:
-        first = float(np.arctan2(axis[1], axis[0])) + np.pi / 2
-        return [_level(first + turn) for turn in (0.0, 0.15, -0.15)]
-    return [_level(first + i * np.pi / 12) for i in range(12)]
-
-
-def _level(angle: float) -> Vector:
-    return np.array([np.cos(angle), np.sin(angle), 0.0])
 
 
 def _from_above(
@@ -127,53 +122,34 @@ def _from_above(
     data: mujoco.MjData,
     name: str,
     bounds: Bounds,
-    closings: Iterable[Vector],
+    levels: Sequence[Line],
     grasps: list[Grasp],
     wide: list[Grasp],
 ) -> None:
+    if not levels:
+        return
     low, high, center, axis = bounds
-    height = float(high[2] - low[2])
-    depths = sorted({round(d, 4) for d in _depths(height)})
-    origins, directions, labels = [], [], []
-    for closing in closings:
-        across = np.array([-closing[1], closing[0], 0.0])
-        half = float(np.abs(across) @ (high - low)) / 2
-        offsets = _offsets(half, axis, across, center, low, high)
-        for depth in depths:
-            for offset in offsets:
-                point = center + across * offset
-                point[2] = high[2] - depth
-                origins.append(point)
-                directions.append(closing)
-                labels.append((closing, offset, depth))
-    lines = solids.intervals(data, name, np.array(origins), np.array(directions))
-    for origin, (closing, offset, depth), line in zip(origins, labels, lines, strict=True):
+    origins, closings = [line.point for line in levels], [line.closing for line in levels]
+    lines = solids.intervals(data, name, np.array(origins), np.array(closings))
+    slanted: list[Slanted] = []
+    for (origin, closing, offset, depth), line in zip(levels, lines, strict=True):
         deepest = high[2] - low[2] - world.robot.tip - SUPPORT_GAP
         tool_depth = min(depth, deepest)
         for interval, rim in _choices(line):
             middle = origin + closing * (interval.start + interval.end) / 2
             middle[2] = high[2] - tool_depth
+            score = _score(center, middle, axis, interval, rim=rim, depth=depth, offset=offset)
+            if rim and interval.squareness < SQUARE:
+                slanted.append(Slanted(middle, closing, score))
             _add(
                 world, grasps, wide, middle, np.array([0.0, 0.0, -1.0]), closing, interval,
-                GraspPose.VERTICAL,
-                _score(center, middle, axis, interval, rim=rim, depth=depth, offset=offset),
+                GraspPose.VERTICAL, score,
             )  # fmt: skip
-
-
-def _depths(height: float) -> list[float]:
-    if height <= 0.03:
-        return [height / 2]
-    middle = min(height / 2, FINGER_DEPTH)
-    return [min(0.022, middle), middle] if middle > 0.03 else [middle]
-
-
-def _offsets(
-    half: float, axis: Vector | None, across: Vector, center: Vector, low: Vector, high: Vector
-) -> list[float]:
-    if axis is not None and abs(float(axis @ across)) > 0.5:
-        sign = -np.sign(float(axis @ across))  # towards the tail, so that the point stays free
-        return [float(sign * share * half) for share in (0.3, 0.45, 0.15, 0.0, 0.6)]
-    return [share * half for share in (0.0, 0.35, -0.35, 0.7, -0.7)]
+    for wall in across_walls(solids, data, name, slanted):
+        _add(
+            world, grasps, wide, wall.middle, wall.approach, wall.closing, wall.interval,
+            GraspPose.VERTICAL, wall.score + LEAN_COST * wall.lean,
+        )  # fmt: skip
 
 
 def _choices(line: list[Interval]) -> list[tuple[Interval, bool]]:
@@ -228,7 +204,7 @@ def _from_side(
     levels = [center[2], low[2] + 0.62 * height, low[2] + 0.8 * height]
     origins, directions, labels = [], [], []
     for turn in (0.0, 0.35, -0.35, 0.7, -0.7, 1.1, -1.1, 1.5, -1.5):
-        approach = _level(outward + turn)
+        approach = level_direction(outward + turn)
         closing = np.array([-approach[1], approach[0], 0.0])
         for level in levels:
             for back in (0.0, 0.012, -0.012):
