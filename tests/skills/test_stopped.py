@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from etot_cli.skills.action import parse_plan
 from etot_cli.skills.motion.motion import PhaseEnd, PhaseTrace, Press, Trace
 from etot_cli.skills.outcome import arm_stopped
 from etot_cli.skills.placements.motion import put_outcome
@@ -29,8 +30,12 @@ def test_who_touches_the_robot_comes_before_who_presses_on_what_it_holds() -> No
 
 
 def test_what_is_held_ran_into_something() -> None:
-    scene = episode(pen=BALL | {"at": [0.4, 0.0]}).state
-    outcome = put_outcome("pen", trace(("pen",), Press("shelf.low", "pen", 3.0)), scene)
+    run = episode(pen=BALL | {"at": [0.4, 0.0]})
+    run.must("[PICK UP, pen]")
+    belief = run.simulated.believe(run.snapshot)
+    (action,) = parse_plan("[PUT ON, desk]")
+    stopped = trace(("pen",), Press("shelf.low", "pen", 3.0))
+    outcome = put_outcome(belief, action, stopped, run.state)
     assert outcome.cause is not None and outcome.another_way
     assert outcome.cause.kind is CauseKind.BLOCKED
     assert outcome.cause.objects == ("shelf", "pen")
