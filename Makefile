@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format docs figures schemas bench check-tasks check-random check-execute check-reconstruct soak clean
+.PHONY: demo test test-fast lint format docs figures schemas bench bench-paper bench-random check-tasks check-random check-execute check-reconstruct soak clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -40,6 +40,12 @@ schemas: $(VENV)/.run  ## write docs/schemas anew from the report models
 
 bench: $(VENV)/.dev  ## measure speed and success rates
 	$(BIN)/python -m tests.measure.bench
+
+bench-paper: $(VENV)/.dev  ## eight methods on the paper's eight tasks, ten trials each; may be interrupted
+	$(BIN)/python -m tests.measure.bench_tables paper
+
+bench-random: $(VENV)/.dev  ## the same methods on forty random problems
+	$(BIN)/python -m tests.measure.bench_tables random
 
 check-tasks: $(VENV)/.dev  ## check that every shipped task is physically what it is meant to be
 	$(BIN)/python -m tests.measure.check_tasks

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from etot_cli.benchmark.methods.blame import failure_class
 from etot_cli.benchmark.methods.catalogue import METHODS, Means, Method
 from etot_cli.benchmark.methods.kinematic import KinematicSimulator
 from etot_cli.benchmark.methods.planners import WorldModel
@@ -149,6 +150,7 @@ class _Bench:
     def result(self, work: TrialWork, trial: Trial, wall_s: float, report: str) -> TrialResult:
         """The trial as a line of the journal."""
         account, spent = trial.account, trial.timing
+        blamed = failure_class(trial, self._method.foresight)
         rendering_s = sum(thinking.rendering_s for thinking in self._thinking)
         physics_s = account.get("physics_s", 0.0)
         kinematics_s = account.get("kinematics_s", 0.0)
@@ -183,7 +185,7 @@ class _Bench:
             ),
             replans=trial.replans,
             harm=tuple(trial.harm),
-            failure_class=None if trial.failure_class is None else trial.failure_class.value,
+            failure_class=None if blamed is None else blamed.value,
             reason="" if trial.success else trial.reason,
             costs={name: round(costs.get(name, 0.0), 6) for name in COSTS},
             times={name: round(value, 4) for name, value in times.items()},

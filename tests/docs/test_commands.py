@@ -31,6 +31,8 @@ RUN_BY_CI = {
     "lint": "CI runs it",
     "format": "it would rewrite the sources that are being tested",
     "bench": "it measures for minutes",
+    "bench-paper": "it runs 640 trials",
+    "bench-random": "it runs 320 trials",
     "check-tasks": "it simulates for minutes",
     "check-random": "it plans for minutes",
     "check-execute": "it executes for an hour",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from etot_cli.benchmark.methods.blame import Foresight
 from etot_cli.benchmark.methods.planners import (
     RecoveringPlanner,
     SearchPlanner,
@@ -38,12 +39,17 @@ class Means:
 
 @dataclass(frozen=True)
 class Method:
-    """A method: ``title`` as in tables, ``summary`` in a sentence, ``replans`` after a failure."""
+    """A method.
+
+    ``title`` as in tables; ``summary`` in a sentence; ``replans`` after a failure; ``foresight``:
+    what its first plan is tried in.
+    """
 
     name: str
     title: str
     summary: str
     replans: bool
+    foresight: Foresight
     planner: Callable[[Means], Planner]
 
 
@@ -75,31 +81,38 @@ def _reflect(means: Means) -> Planner:
 METHODS = {
     method.name: method
     for method in (
-        Method("rekep", "ReKep", "one plan from the scene, no world model", False, _at_once),
         Method(
-            "rekep_cot", "ReKep, thinking", "one plan after thinking about hazards", False,
-            _by_steps,
+            "rekep", "ReKep", "one plan from the scene, no world model",
+            False, Foresight.NONE, _at_once,
         ),
         Method(
-            "reflect", "Reflect*", "the same, with an oracle's recovery after a failure", True,
-            _reflect,
+            "rekep_cot", "ReKep, thinking", "one plan after thinking about hazards",
+            False, Foresight.NONE, _by_steps,
         ),
-        Method("etot", "EToT", "tree search over the twin, planning anew", True, _search()),
         Method(
-            "etot_without_priori", "without priori",
-            "only the first proposed plan is searched", True, _search(Ablation.PRIORI),
+            "reflect", "Reflect*", "the same, with an oracle's recovery after a failure",
+            True, Foresight.NONE, _reflect,
+        ),
+        Method(
+            "etot", "EToT", "tree search over the twin, planning anew",
+            True, Foresight.PHYSICS, _search(),
+        ),
+        Method(
+            "etot_without_priori", "without priori", "only the first proposed plan is searched",
+            True, Foresight.PHYSICS, _search(Ablation.PRIORI),
         ),
         Method(
             "etot_without_reflective", "without reflective",
-            "failed plans are dropped, never revised", True, _search(Ablation.REFLECTIVE),
+            "failed plans are dropped, never revised",
+            True, Foresight.PHYSICS, _search(Ablation.REFLECTIVE),
         ),
         Method(
             "etot_without_replan", "without replanning", "the first plan is carried out to its end",
-            False, _search(),
+            False, Foresight.PHYSICS, _search(),
         ),
         Method(
-            "etot_kinematic", "kinematic model", "tree search over a model without contact", True,
-            _imagined,
+            "etot_kinematic", "kinematic model", "tree search over a model without contact",
+            True, Foresight.IMAGINED, _imagined,
         ),
     )
 }  # fmt: skip

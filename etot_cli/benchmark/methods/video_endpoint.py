@@ -10,6 +10,7 @@ import base64
 import io
 import os
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import av
@@ -145,29 +146,29 @@ def frames_of(video: bytes, count: int) -> list[Frame]:
     Raises:
         ValueError: it cannot be read, or is larger than it may be.
     """
-    kept: list[Frame] = []
-    stride, seen = 1, 0
     try:
-        with av.open(io.BytesIO(video), mode="r", format="mp4") as container:
-            if not container.streams.video:
-                raise ValueError("there is no picture in it")
-            for frame in container.decode(video=0):
-                if max(frame.width, frame.height) > MAX_SIDE:
-                    raise ValueError(f"frames of {frame.width} × {frame.height} pixels")
-                if seen >= MAX_FRAMES:
-                    raise ValueError(f"more than {MAX_FRAMES} frames")
-                # At most twice as many as are wanted are held at any time.
-                if seen % stride == 0:
-                    kept.append(np.asarray(frame.to_ndarray(format="rgb24"), dtype=np.uint8))
-                    if len(kept) >= max(2 * count, 4):
-                        last = kept[-1]
-                        kept, stride = kept[::2], 2 * stride
-                        if kept[-1] is not last and seen % stride == 0:
-                            kept.append(last)
-                seen += 1
+        total = sum(1 for _ in _decoded(video))
+        wanted = {round(row) for row in np.linspace(0, total - 1, min(max(count, 1), total))}
+        found = [
+            np.asarray(frame.to_ndarray(format="rgb24"), dtype=np.uint8)
+            for number, frame in enumerate(_decoded(video))
+            if number in wanted
+        ]
     except (av.error.FFmpegError, OSError) as error:
         raise ValueError(f"it cannot be decoded: {error}") from None
-    if not kept:
+    if not found:
         raise ValueError("there is no frame in it")
-    rows = np.unique(np.linspace(0, len(kept) - 1, max(count, 1)).round().astype(int))
-    return [kept[int(row)] for row in rows]
+    return found
+
+
+def _decoded(video: bytes) -> Iterator[av.VideoFrame]:
+    """All frames, none of them converted yet, within bounds."""
+    with av.open(io.BytesIO(video), mode="r", format="mp4") as container:
+        if not container.streams.video:
+            raise ValueError("there is no picture in it")
+        for number, frame in enumerate(container.decode(video=0)):
+            if max(frame.width, frame.height) > MAX_SIDE:
+                raise ValueError(f"frames of {frame.width} × {frame.height} pixels")
+            if number == MAX_FRAMES:
+                raise ValueError(f"more than {MAX_FRAMES} frames")
+            yield frame
