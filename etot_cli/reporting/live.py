@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from textwrap import wrap
 from types import TracebackType
 
 from rich.console import Console, Group
@@ -16,7 +17,11 @@ from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unic
 
 REFRESHES_PER_SECOND = 4
 """Often enough for a running clock; drawing must not take time from the simulation."""
-FOOTER_LINES = 3
+FOOTER_LINES = 4
+NARROW = 64
+"""On a narrower screen an action fills its line, and why it failed stands below it."""
+MIN_WORDS = 12
+"""Width that is left for words however deep the tree is [characters]."""
 LINES_LEFT_BEHIND = 40
 """Of a large tree that stays on the screen after the search."""
 
@@ -93,26 +98,36 @@ class LiveView:
             least = LINES_LEFT_BEHIND if self._ended else 3
             lines = window(lines, focus, max(least, self._console.height - FOOTER_LINES))
         title = Text(self._title, style="bold", no_wrap=True, overflow="ellipsis")
-        return Group(title, *lines, self._footer())
+        return Group(title, *lines, *self._footer())
 
-    def _footer(self) -> Text:
+    @property
+    def _narrow(self) -> bool:
+        return self._console.width < NARROW
+
+    def _footer(self) -> list[Text]:
         nodes = list(self._tree)
         evaluated = sum(node.verdict is not None for node in nodes)
         waiting = sum(node.status is NodeStatus.PENDING for node in nodes)
         simulated = sum(node.simulated_s for node in nodes)
-        parts = [
-            f"{evaluated} evaluated",
-            f"{waiting} waiting",
-            counted(self._reflections, "reflection"),
-            f"{simulated:.0f} s simulated",
-            f"{time.monotonic() - self._started:.0f} s elapsed",
-        ]
+        elapsed = f"{time.monotonic() - self._started:.0f} s"
         separator = " · " if self._unicode else " | "
+        parts = [f"{evaluated} done", f"{waiting} waiting", elapsed]
+        if not self._narrow:
+            parts = [
+                f"{evaluated} evaluated",
+                f"{waiting} waiting",
+                counted(self._reflections, "reflection"),
+                f"{simulated:.0f} s simulated",
+                f"{elapsed} elapsed",
+            ]
         text = Text(no_wrap=True, overflow="ellipsis")
         text.append(separator.join(parts), style="dim")
-        if self._note and not self._ended:
-            text.append(f"{separator}{self._note}", style=LOOKS[RUNNING].style)
-        return text
+        if not self._note or self._ended:
+            return [text]
+        if self._narrow:
+            note = Text(self._note, LOOKS[RUNNING].style, no_wrap=True, overflow="ellipsis")
+            return [note, text]
+        return [text.append(f"{separator}{self._note}", style=LOOKS[RUNNING].style)]
 
     def _tree_lines(self) -> tuple[list[Text], int]:
         """All lines of the tree, and the index of the one to keep in sight."""
@@ -127,8 +142,20 @@ class LiveView:
                 focus = len(lines) - 1
             children = [child for child in list(node.children) if self._shown(child)]
             deeper = indent + ("   " if last else self._guide("│  ", "|  "))
+            if self._narrow:
+                lines += self._why(node, deeper)
             stack.extend((child, deeper, child is children[-1]) for child in reversed(children))
         return lines, focus
+
+    def _why(self, node: PlanNode, indent: str) -> list[Text]:
+        """Lines below a failed node that say what happened."""
+        if node.status not in FAILED or node.verdict is None or node.verdict.cause is None:
+            return []
+        room = max(MIN_WORDS, self._console.width - len(indent) - 2)
+        return [
+            Text(no_wrap=True, overflow="ellipsis").append(indent, "dim").append(f"  {words}")
+            for words in wrap(f"{node.status.value}: {node.verdict.cause.text}", room)
+        ]
 
     def _shown(self, node: PlanNode) -> bool:
         return self._detailed or node.status is not NodeStatus.REMOVED
@@ -146,7 +173,7 @@ class LiveView:
         if node.status is NodeStatus.SUCCESS and node.losses and node.survived is not None:
             line.append(f" {counted(len(node.survived), 'world')} left", style="yellow")
         verdict = node.verdict
-        if node.status in FAILED and verdict is not None:
+        if node.status in FAILED and verdict is not None and not self._narrow:
             kind = verdict.cause.kind.value if verdict.cause else ""
             line.append(f"  {' '.join((node.status.value, kind)).strip()}", LOOKS[status].style)
             if verdict.cause is not None:

@@ -58,6 +58,20 @@ def test_live_view_ends_with_the_whole_tree(encoding: str) -> None:
     assert "5 evaluated" in last and "2 reflections" in last
 
 
+@pytest.mark.parametrize("width", [30, 40, 60])
+def test_live_view_says_why_on_a_narrow_screen(width: int) -> None:
+    """... on lines of its own, none of them cut or too long, and the footer whole."""
+    stream = Stream("utf-8")
+    console = Console(file=stream, force_terminal=True, width=width, height=30, color_system=None)
+    with LiveView(console, "toy") as view:
+        toy_search(view)
+    last = stream.getvalue()[stream.getvalue().rindex("toy") :]
+    lines = [line.rstrip() for line in last.splitlines()]
+    assert all(len(line) <= width for line in lines if "\x1b" not in line)
+    assert "unsafe: it was lost" in last and "…" not in last
+    assert "5 done · 0 waiting" in last
+
+
 def test_live_view_in_detail_shows_removed_nodes() -> None:
     stream = Stream("utf-8")
     console = Console(file=stream, force_terminal=True, width=120, height=40, color_system=None)
