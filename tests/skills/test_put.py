@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.action import Action, Keepout, Verb, parse_plan
+from etot_cli.skills.motion.motion import PhaseEnd, PhaseTrace, Trace
+from etot_cli.skills.placements.motion import put_outcome
 from etot_cli.world.spatial import holds
 from etot_cli.world.state import CauseKind, ObjectState
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
@@ -221,3 +223,19 @@ def test_put_beside_things(where: str) -> None:
     after = run.must("[PICK UP, box]", str(action))
     assert all(holds(item, "box", after) for item in action.where)
     assert after.states["box"].on == ("desk",)
+
+
+def test_what_slips_its_last_centimetres_into_place_is_there() -> None:
+    """Placements are told by where the object is; a slip elsewhere stays a failure."""
+    run = episode(ball=BALL, cup=CUP)
+    run.must("[PICK UP, ball]")
+    before, belief = run.state, run.simulated.believe(run.snapshot)
+    (action,) = parse_plan("[PUT INTO, cup]")
+    after = run.must("[PUT INTO, cup]")
+
+    def slipped(phase: str) -> Trace:
+        return Trace((PhaseTrace(phase, PhaseEnd.SLIPPED, 0.0, 1.0, 0.0, ()),))
+
+    assert put_outcome(belief, action, slipped("lower"), after).effect
+    assert not put_outcome(belief, action, slipped("lower"), before).effect
+    assert not put_outcome(belief, action, slipped("transit"), after).effect
