@@ -1,0 +1,60 @@
+"""A benchmark with a scripted model as the reasoner: its calls, tokens and cost in the table."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from etot_cli.cli.app import run
+from etot_cli.reasoning.vlm.fake_server import FakeServer
+from etot_cli.reasoning.vlm.player import Player
+from tests.benchmark.test_suite import write
+from tests.vlm.scripts import rule, with_common
+
+PLAN = "[PICK UP, ball]"
+RULES = with_common(
+    [
+        rule("branches", f"One branch:\nSubtasks of branch 1:\n1. {PLAN}"),
+        rule("oneshot", f"1. {PLAN}"),
+        rule("cot_scene", "A ball lies on the desk."),
+        rule("cot_attention", "- nothing is in the way"),
+        rule("cot_plan", f"1. {PLAN}"),
+    ]
+)
+METHODS = ("rekep", "rekep_cot", "etot", "etot_kinematic")
+
+
+@pytest.mark.slow
+def test_what_a_model_costs_is_in_the_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    monkeypatch.setenv("ETOT_VLM_IMAGES", "0")
+    monkeypatch.setenv("ETOT_VLM_CACHE", "off")
+    monkeypatch.setenv("ETOT_VLM_PRICE_INPUT", "2")
+    monkeypatch.setenv("ETOT_VLM_PRICE_OUTPUT", "10")
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-secret-1234567890")
+    with FakeServer(Player(RULES)) as server:
+        code = run(
+            ["bench", str(write(tmp_path, "one")), "--trials", "1", "--methods", ",".join(METHODS),
+             "--reasoner", "vlm", "--vlm-url", server.url, "--out", str(out)]
+        )  # fmt: skip
+        asked = len(server.requests)
+    assert code == 0
+    report = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    means = {item["method"]: item for item in report["averages"]}
+    assert sum(item["model_calls"] for item in means.values()) == asked
+    assert means["rekep"]["model_calls"] == 1 < means["rekep_cot"]["model_calls"]
+    for item in means.values():
+        # The scripted server states 100 and 20 tokens per call.
+        assert item["input_tokens"] == 100 * item["model_calls"]
+        assert item["cost"] == pytest.approx(item["model_calls"] * (100 * 2 + 20 * 10) / 1e6)
+    assert {row["method"]: row["successes"] for row in report["rows"]} == dict.fromkeys(METHODS, 1)
+    shown = capsys.readouterr().out
+    assert "calls" in shown and "US $" in shown
+    everything = "".join(
+        path.read_text(encoding="utf-8") for path in out.rglob("*") if path.is_file()
+    )
+    assert "sk-secret" not in everything + shown
