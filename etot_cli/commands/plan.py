@@ -146,7 +146,9 @@ def plan_task(
             )
         if (options.worlds or task.worlds) > 1 and result.final is not None:
             with watch.phase("trials"):
-                result = _tried(options, task, scene, result, begun_s, rooms)
+                # The one that planned knows what must not happen on the way.
+                judge = rooms.reasoners["builtin"]() if session else reasoner.inner
+                result = _tried(options, task, scene, result, begun_s, rooms, judge)
     except KeyboardInterrupt:
         interrupted = True
     finally:
@@ -168,6 +170,7 @@ def _tried(
     result: SearchResult,
     begun_s: float,
     rooms: doors.Rooms,
+    judge: Reasoner,
 ) -> SearchResult:
     """The result with the odds of its plan, from worlds that did not choose it."""
     limit = options.limits.time_limit_s
@@ -181,7 +184,6 @@ def _tried(
         fresh=True,
         look=options.look,
     )
-    judge = rooms.reasoners["builtin"]()
     try:
         with closing(simulator):
             survival = try_plan(result.plan, simulator, judge, task.success, until_s)

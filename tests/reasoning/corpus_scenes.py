@@ -186,3 +186,57 @@ def lidded() -> SceneState:
         item("mat", "box", (0.45, 0.02), size=FLAT, color="green"),
     )  # fmt: skip
     return replace(seen, forward=(-1.0, 0.0))
+
+
+def kitchen() -> SceneState:
+    """Two pots, one big, one small and red, a lid for each, a pan, food, a plate, a spatula."""
+    return scene(
+        item("big_pot", "cup", (0.50, 0.20), size=(0.18, 0.18, 0.12), color="gray"),
+        item("small_pot", "cup", (0.50, -0.10), size=(0.12, 0.12, 0.08), color="red"),
+        item("big_lid", "cylinder", (0.35, 0.40), size=(0.18, 0.18, 0.02), color="gray"),
+        item("small_lid", "cylinder", (0.30, -0.30), size=(0.12, 0.12, 0.02), color="red"),
+        item("pan", "bowl", (0.55, -0.40), size=(0.22, 0.22, 0.05), label="frying pan",
+             color="black"),
+        item("spatula", "capsule", (0.30, 0.20), size=(0.20, 0.03, 0.03), color="black"),
+        item("egg", "sphere", (0.28, -0.05), size=(0.05, 0.05, 0.05), color="white"),
+        ball("tomato", (0.35, 0.05), color="red"),
+        item("plate", "box", (0.68, 0.05), size=FLAT, color="white"),
+    )  # fmt: skip
+
+
+def workshop() -> SceneState:
+    """A unit of two drawers, the lower one open with a nut in it, a shelf, tools, a toolbox."""
+    return scene(
+        drawers("unit", (0.60, 0.30), {"upper": 0.0, "lower": 0.9}, label="drawer unit",
+                color="gray"),
+        item("shelf", "shelf", (0.65, -0.35), size=(0.25, 0.30, 0.4), boards=("low", "high")),
+        item("nut", "cylinder", (0.58, 0.15), size=(0.02, 0.02, 0.01), on="unit",
+             inside="unit.lower", color="gray"),
+        item("hammer", "capsule", (0.35, 0.00), size=(0.25, 0.04, 0.04), color="brown"),
+        item("red_driver", "pen", (0.30, 0.15), size=(0.18, 0.02, 0.02), label="red screwdriver",
+             color="red"),
+        item("blue_driver", "pen", (0.30, -0.15), size=(0.18, 0.02, 0.02),
+             label="blue screwdriver", color="blue"),
+        item("tape", "cylinder", (0.40, -0.30), size=(0.08, 0.08, 0.03), color="yellow",
+             on="shelf.low", z=0.3),
+        item("toolbox", "bowl", (0.45, 0.05), size=(0.25, 0.18, 0.10), color="red"),
+        cup("tin", (0.30, 0.35), color="blue"),
+    )  # fmt: skip
+
+
+def stationery() -> SceneState:
+    """A notebook with a ruler on it, a pencil, markers, a cup, a mug with a clip in it, trays."""
+    return scene(
+        item("notebook", "box", (0.45, 0.05), size=(0.20, 0.15, 0.02), color="blue"),
+        item("ruler", "capsule", (0.45, 0.05), size=(0.20, 0.02, 0.01), on="notebook", z=0.16,
+             color="yellow"),
+        item("pencil", "pen", (0.30, 0.25), size=(0.17, 0.01, 0.01), color="yellow"),
+        item("red_marker", "pen", (0.30, -0.05), size=(0.13, 0.02, 0.02), color="red"),
+        item("green_marker", "pen", (0.30, -0.25), size=(0.13, 0.02, 0.02), color="green"),
+        cup("pencil_cup", (0.50, 0.35), color="white"),
+        cup("mug", (0.50, -0.30), color="black"),
+        item("clip", "box", (0.50, -0.30), size=(0.02, 0.01, 0.01), on="mug", inside="mug",
+             z=0.15, color="gray"),
+        item("red_tray", "box", (0.65, 0.10), size=(0.20, 0.16, 0.02), color="red"),
+        item("green_tray", "box", (0.65, -0.15), size=(0.20, 0.16, 0.02), color="green"),
+    )  # fmt: skip

@@ -100,6 +100,21 @@ def test_odds_come_from_worlds_that_did_not_choose_the_plan() -> None:
     assert survival["worlds"] == 20 and survival["alive"] == 12  # type: ignore[index,call-overload]
 
 
+def test_the_trials_are_judged_by_the_reasoner_that_planned() -> None:
+    """Only it knows what the instruction forbids on the way."""
+    made: list[ToyReasoner] = []
+
+    def reasoner() -> ToyReasoner:
+        made.append(ToyReasoner(["a b"]))
+        return made[-1]
+
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a b"])).rooms()
+    rooms.reasoners["builtin"] = reasoner
+    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=2), rooms=rooms)
+    assert report.survival is not None
+    assert len(made) == 1
+
+
 @pytest.mark.parametrize(("asked", "opened"), [(None, 3), (2, 2)])
 def test_worlds_are_the_tasks_unless_asked_for(asked: int | None, opened: int) -> None:
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), worlds=3)

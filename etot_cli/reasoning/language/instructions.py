@@ -41,14 +41,18 @@ def _read(instruction: str, scene: SceneState) -> Goal:
 
 def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene: SceneState) -> str:
     """Which words, why, and one way to say it that is read in this scene."""
+    language = other_language(instruction, scene)
+    foreign = f"it seems to be in {language}; only English is read" if language else ""
     if isinstance(error, UnreadableError):
-        language = other_language(instruction, scene)
-        why = f"it seems to be in {language}; only English is read" if language else error.why
+        why = foreign or error.why
         head = f"cannot read the instruction at {error.words!r}" + (f": {why}" if why else "")
         second = f"  understood up to there: {error.understood or 'nothing'}"
-        refused = Refused(instruction, error.words, without=error.without)
+        refused = Refused(
+            instruction, error.words, without=error.without, understood=error.understood
+        )
     else:
-        head = f"cannot tell what {error.phrase!r} means in the instruction: {error.why}"
+        why = foreign or error.why
+        head = f"cannot tell what {error.phrase!r} means in the instruction: {why}"
         second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
         refused = Refused(instruction, error.phrase, word=error.word, candidates=error.candidates)
     lines = [head, second]

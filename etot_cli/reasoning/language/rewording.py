@@ -1,19 +1,42 @@
-"""Ways of saying it that would be read: built from what was said and from this scene."""
+"""Ways of saying it that would be read: the sentence itself with the least changed, else its verb
+and its things in a shape that is read.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 
 from etot_cli.reasoning.builtin.relations import container_parts
-from etot_cli.reasoning.language.words.lexicon import KIND_NOUNS
-from etot_cli.world.state import ObjectInfo, SceneState
+from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    KIND_NOUNS,
+    LEVELS,
+    is_descriptive,
+    singular,
+)
+from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.world.state import DESK, ObjectInfo, PartInfo, SceneState
 
-MAX_TRIES = 8
-"""Rewordings that are tried before none is shown."""
+MAX_TRIES = 16
+"""Rewordings that are tried before none is shown: a tenth of a second at the usual time each."""
 
 Reads = Callable[[str, SceneState], bool]
+
+_OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
+_UNMADE = re.compile(
+    r"\b(?:not|n't|never|neither|nor|no|none|nothing|without|except|but|instead)\b", re.IGNORECASE
+)
+"""Words that turn a meaning round: what they are about is no part of a rewording, nor are they
+left out of one."""
+_ATTRIBUTES = ("color", "colour", "size", "shape", "side", "same")
+_BESIDE = ("near", "nearest", "beside", "next", "left", "right", "behind", "between", "where")
+_PICKING = words_of((verbs.PICK,)) - {"of", "me", "and", "place", "up"}
+_INTO = ("in", "into", "inside", "within")
+_BEFORE_PLACES = (*_INTO, "on", "onto", "atop", "over", "to", "under", "above", "below", "beside")
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +44,7 @@ class Refused:
     """An instruction that was refused, and at which words.
 
     ``word``: of the phrase, the words to blame. ``without``: the sentence without them.
-    ``candidates``: names that may have been meant.
+    ``candidates``: names that may have been meant. ``understood``: what comes before the phrase.
     """
 
     instruction: str
@@ -29,6 +52,7 @@ class Refused:
     word: str = ""
     without: str = ""
     candidates: tuple[str, ...] = ()
+    understood: str = ""
 
 
 def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[str]:
@@ -45,43 +69,158 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
 
 def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     text = refused.instruction
-    if refused.word and refused.candidates:
-        for name in refused.candidates[:3]:
-            yield _replaced(text, refused.phrase, name)
-    if refused.word:
-        yield _replaced(text, refused.word, "")
-    if refused.without:
-        yield refused.without
-    yield from _of_this_scene(text.casefold(), scene)
+    names = _Names(scene)
+    mentions = _mentions(_UNMADE.split(text, maxsplit=1)[0], scene, names)
+    said = [mention.info.name for mention in mentions]
+    for name in refused.candidates[:3]:
+        yield _replaced(text, refused.phrase, names.of(name))
+    unmade = _UNMADE.findall(text)
+    if refused.without and not refused.understood:
+        yield f"Put {refused.without}"  # in place of a verb that is not known
+    for shorter in (refused.word and _replaced(text, refused.word, ""), refused.without):
+        if shorter and _UNMADE.findall(shorter) == unmade:
+            yield shorter
+    if refused.understood:
+        yield refused.understood
+    if refused.word and not (refused.candidates or unmade or _is_attribute(refused.word)):
+        others = sorted(
+            (info for info in scene.infos.values() if info.name not in said),
+            key=lambda info: (
+                not info.movable,
+                -SequenceMatcher(None, refused.word, info.label).ratio(),
+            ),
+        )
+        for info in others[:4]:
+            yield _replaced(text, refused.phrase, names.of(info.name))
+    yield from _same_shape(text.casefold(), mentions, names, scene)
 
 
-def _of_this_scene(text: str, scene: SceneState) -> Iterator[str]:
-    """Requests about what is there, those about what was spoken of first."""
-    said = set(re.findall(r"[^\W\d_]+", text))
+@dataclass(frozen=True, slots=True)
+class _Mention:
+    """An object that a sentence speaks of, what to call it, and the preposition before it."""
 
-    def mentioned(info: ObjectInfo) -> int:
-        words = re.findall(r"[^\W\d_]+", f"{info.label} {info.name}".casefold())
-        return -len(said & {*words, *KIND_NOUNS.get(info.kind, ())})
+    info: ObjectInfo
+    name: str
+    before: str
 
-    things = sorted(scene.infos.values(), key=mentioned)
-    movable = [info for info in things if info.movable]
-    parts = [part for info in things for part in info.parts]
-    for verb in ("open", "close"):
-        if verb in said and parts:
-            yield f"{verb} {parts[0].owner}.{parts[0].name}"
-    if {"pick", "take", "grab", "lift", "get"} & said and movable:
-        yield f"Pick up {movable[0].name}"
-    for info in movable[:2]:
-        for other in things:
-            if other.name != info.name and (other.container or container_parts(other)):
-                yield f"Put {info.name} into {other.name}"
-                break
-        for other in things:
-            if other.name != info.name and other.surface:
-                yield f"Put {info.name} on {other.name}"
-                break
-    if movable:
-        yield f"Pick up {movable[0].name}"
+
+def _mentions(text: str, scene: SceneState, names: _Names) -> list[_Mention]:
+    """The objects that a sentence speaks of, in its order: those called so, else by their kind."""
+    words = re.findall(r"[^\W_]+", text.casefold())
+    found: list[tuple[int, _Mention]] = []
+    for at, word in enumerate(words):
+        if is_descriptive(word):
+            continue
+        best: tuple[int, ObjectInfo, str] | None = None
+        for info in scene.infos.values():
+            label = re.findall(r"[^\W_]+", f"{info.label} {info.name}".casefold())
+            if singular(word) not in map(singular, (*label[-1:], *label, *_kinds(info))):
+                continue
+            around = {singular(item) for item in words[max(0, at - 3) : at + 2]}
+            look = {info.color} & around if info.color else set()
+            fit = len(around & {singular(item) for item in label}) * 2 + len(look)
+            if best is None or fit > best[0]:
+                best = fit, info, names.of(info.name)
+            elif fit == best[0] and singular(word) == word:
+                best = fit, best[1], f"the {word}"  # any of them, as it is said
+        if best is not None and all(mention.info is not best[1] for _, mention in found):
+            before = next((w for w in words[at - 1 :: -1] if w in _BEFORE_PLACES), "") if at else ""
+            near = words[max(0, at - 4) : at]
+            found.append((at, _Mention(best[1], best[2], before if before in near else "")))
+    return [mention for _, mention in found]
+
+
+def _kinds(info: ObjectInfo) -> tuple[str, ...]:
+    return KIND_NOUNS.get(info.kind, ())
+
+
+def _same_shape(
+    text: str, mentions: Sequence[_Mention], names: _Names, scene: SceneState
+) -> Iterator[str]:
+    """Requests of the sentence's own kind about what it speaks of."""
+    words = set(re.findall(r"[^\W_]+", text))
+    infos = [mention.info for mention in mentions]
+    called = {mention.info.name: mention.name for mention in mentions}
+
+    def name(info: ObjectInfo) -> str:
+        return called.get(info.name) or names.of(info.name)
+
+    for verb, known in (("Open", _OPENING), ("Close", _CLOSING)):
+        if words & known and not words & (_CLOSING - known if verb == "Open" else _OPENING):
+            for info in (*infos, *scene.infos.values()):
+                yield from (f"{verb} {names.part(part)}" for part in info.parts)
+    themes = [mention.info for mention in mentions if mention.info.movable]
+    held = [item.info for item in mentions if item.info.movable and not item.before] or themes
+    if words & _PICKING:
+        yield from (f"Pick up {name(info)}" for info in held[:2])
+    if words & set(_BESIDE) and held:
+        others = [info for info in infos if info is not held[0]]
+        yield from (f"Put {name(held[0])} next to {name(info)}" for info in others[:1])
+    places = [item for item in mentions if _holds(item.info)]
+    for place in places[::-1]:
+        if not place.before and place.info.movable:
+            continue
+        for info in (*held, *_free(infos, scene)):
+            if info is not place.info:
+                yield f"Put {name(info)} {_preposition(place)} {place.name}"
+    if words & set(DESK_NOUNS):
+        yield from (f"Put {name(info)} on the desk" for info in held[:2])
+    yield from (f"Pick up {name(info)}" for info in (*held, *_free(infos, scene))[:3])
+
+
+def _is_attribute(word: str) -> bool:
+    """Whether a word says how or where something is: no other thing stands for it."""
+    return word in _ATTRIBUTES or word in LEVELS or is_descriptive(word)
+
+
+def _free(said: Sequence[ObjectInfo], scene: SceneState) -> list[ObjectInfo]:
+    """Movable things that were not spoken of, those last that hold others."""
+    others = [info for info in scene.infos.values() if info.movable and info not in said]
+    return sorted(others, key=_holds)[:3]
+
+
+def _holds(info: ObjectInfo) -> bool:
+    return info.container or bool(container_parts(info)) or info.surface
+
+
+def _preposition(place: _Mention) -> str:
+    into = place.info.container or bool(container_parts(place.info))
+    if place.before in _INTO or (into and place.before not in ("on", "onto", "atop")):
+        return "in" if into else "on"
+    return "on"
+
+
+class _Names:
+    """What people call the things of a scene."""
+
+    def __init__(self, scene: SceneState) -> None:
+        self._scene = scene
+
+    def of(self, name: str) -> str:
+        """An object or part: by its label, with its colour or number where others have the same."""
+        owner, _, part = name.partition(".")
+        info = self._scene.infos.get(owner)
+        if info is None:
+            return f"the {DESK}"
+        if part:
+            found = next((item for item in info.parts if item.name == part), None)
+            if found is None:
+                return f"the {part} level of {self.of(owner)}"
+            return self.part(found)
+        alike = [other for other in self._scene.infos.values() if other.label == info.label]
+        if len(alike) == 1:
+            return info.label if info.label[-1:].isdigit() else f"the {info.label}"
+        if info.color and sum(other.color == info.color for other in alike) == 1:
+            return f"the {info.color} {info.label}"
+        return info.name.replace("_", " ")
+
+    def part(self, part: PartInfo) -> str:
+        """A drawer or door; the whole thing where it has no other."""
+        info = self._scene.infos[part.owner]
+        if len(info.parts) == 1:
+            return self.of(part.owner)
+        noun = " drawer" if part.joint_type == "slide" and " " not in part.name else ""
+        return f"the {part.name.replace('_', ' ')}{noun} of {self.of(part.owner)}"
 
 
 def _replaced(text: str, words: str, name: str) -> str:
@@ -92,5 +231,5 @@ def _replaced(text: str, words: str, name: str) -> str:
 
 
 def _sentence(text: str) -> str:
-    plain = " ".join(text.split()).strip(" ,.")
+    plain = " ".join(text.split()).strip(" ,.?!")
     return f"{plain[:1].upper()}{plain[1:]}." if plain else plain

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.goals.putting import ensure, put, remove
+from etot_cli.reasoning.language.goals.putting import again, cover, ensure, put, remove
 from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
     AvoidClause,
     Clause,
+    CoverClause,
     EnsureClause,
     MoveClause,
     PickClause,
     PutClause,
     RemoveClause,
     SwapClause,
+    Things,
     TowerClause,
 )
 
@@ -32,7 +37,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
     match clause:
         case PickClause():
             poses = clause.poses or (None,)
-            for index in context.phrases.things(clause.things, Role.THEME):
+            for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
                 context.steps.append(Pick(index, poses))
         case PutClause():
             put(context, clause)
@@ -48,8 +53,22 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             tower(context, clause)
         case SwapClause():
             swap(context, clause)
+        case CoverClause():
+            cover(context, clause)
+        case AgainClause():
+            again(context, clause)
         case AvoidClause():
             avoid(context, clause)
         case _:
             context.turned += context.phrases.things(clause.things, Role.THEME)
+    context.done = tuple(context.steps) or context.done
     return context.steps
+
+
+def _one_of_any(things: Things) -> Things:
+    """Whoever is to pick up "anything but the cup" picks up one thing; elsewhere it is all."""
+    phrases = tuple(
+        replace(phrase, words=("something",)) if phrase.words == ("anything",) else phrase
+        for phrase in things.phrases
+    )
+    return replace(things, phrases=phrases)

@@ -29,6 +29,8 @@ class Context:
         self.constraints: list[Constraint] = []
         self.steps: list[Step] = []
         """Of the clause that is being read."""
+        self.done: tuple[Step, ...] = ()
+        """Of the last clause that asked for something."""
 
     def single(self, thing: Thing, text: str) -> int:
         """A referent for one thing."""

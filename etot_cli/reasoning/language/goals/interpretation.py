@@ -12,6 +12,7 @@ from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
+from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ordering import Timed, in_order
@@ -63,6 +64,7 @@ class _State:
         """An independent copy, for trying a reading."""
         other = _State(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
+        other.context.done = self.context.done
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.sentence = self.sentence
@@ -97,6 +99,7 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
         ReferenceProblem: none fits, or equally simple ones ask for different things.
     """
     problem: ReferenceProblem | None = None
+    blame = 0
     found: dict[Goal, _State] = {}
     cost = -1
     for reading in sentence.readings:
@@ -108,8 +111,9 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
             attempt.read(reading)
             goal = attempt.goal()
         except ReferenceProblem as error:
-            if problem is None or error.weight > problem.weight:
-                problem = error
+            # Of a far-fetched reading it says little that some of its phrases are understood.
+            if problem is None or error.weight - simplicity > blame:
+                problem, blame = error, error.weight - simplicity
             continue
         cost = simplicity
         found.setdefault(_meaning(goal), attempt)
@@ -124,7 +128,7 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
 
 
 def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _State]) -> _State:
-    plans: dict[tuple[object, ...], tuple[str, _State]] = {}
+    plans: dict[tuple[object, ...], _State] = {}
     for attempt in found.values():
         goal = attempt.goal()
         with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
@@ -132,13 +136,14 @@ def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _St
             branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
             if branches:
                 key = tuple(branch.actions for branch in branches)
-                plans.setdefault(key, (branches[0].reason, attempt))
+                plans.setdefault(key, attempt)
     if len(plans) > 1:
-        ways = [f"{number}) {reason}" for number, (reason, _) in enumerate(plans.values(), 1)]
+        goals = (formal(attempt.goal()) for attempt in plans.values())
+        ways = [f"{number}) {goal}" for number, goal in enumerate(goals, 1)]
         raise ReferenceProblem(
             sentence.text, f"it can be read in {len(plans)} ways: {'; '.join(ways)}", 4
         )
-    for _, attempt in plans.values():
+    for attempt in plans.values():
         return attempt
     return next(iter(found.values()))
 

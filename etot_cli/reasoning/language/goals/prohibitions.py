@@ -18,6 +18,8 @@ _KEEPS = {
     Avoid.CLOSE: Keep.OPEN,
 }
 
+_ONES = (("one",), ("ones",))
+
 
 def avoid(context: Context, clause: AvoidClause) -> None:
     """Adds what a clause forbids to the constraints."""
@@ -25,6 +27,8 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         _avoid_others(context, clause)
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
+    if role is Role.ANY and any(phrase.words[-1:] in _ONES for phrase in clause.things.phrases):
+        role = Role.THEME  # "leave the red one" speaks of what was moved, not of where to
     before = len(context.discourse.mentions)
     indices = context.phrases.things(clause.things, role)
     # "Without touching a cup" is about all of them.

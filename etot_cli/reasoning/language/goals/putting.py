@@ -5,11 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Grouping,
+    Open,
+    Pick,
+    Place,
+    Put,
+    Relation,
+    Thing,
+)
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.pairing import by_color, is_by_color, is_one_each, one_each
 from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
 from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    CoverClause,
     Modifier,
     NounPhrase,
     PutClause,
@@ -27,15 +39,23 @@ from etot_cli.reasoning.language.words.places import Prep
 
 def put(context: Context, clause: PutClause) -> None:
     """Adds the steps of a clause that says what goes where."""
-    if clause.first and len(clause.groups) > 1:
-        text = " and ".join(phrase.text for phrase in clause.first)
+    picked_out = (*clause.first, *clause.last)
+    if picked_out and len(clause.groups) > 1:
+        text = " and ".join(phrase.text for phrase in picked_out)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     for group in clause.groups:
-        themes = _in_said_order(context, group, clause.first)
+        if clause.by_color or is_by_color(group):
+            by_color(context, group)
+            continue
+        if clause.one_each or is_one_each(group):
+            one_each(context, group)
+            continue
+        themes = _in_said_order(context, group, clause)
         if any(item.toward is Toward.HOME for item in group.destinations):
             _put_back(context, themes, group)
             continue
-        destinations, grouping = distributed(group, clause.grouping)
+        group, grouping = _shared(context, group, themes, clause.grouping)
+        destinations, grouping = distributed(group, grouping)
         places = context.phrases.places(destinations, themes)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(_spread(context, place) for place in places)
@@ -58,18 +78,62 @@ def ensure(context: Context, state: State) -> None:
                 step = Open(index, final=True) if state.word == "open" else None
                 context.steps.append(step or Close(index, final=True))
         return
-    themes = context.phrases.things(Things(state.subjects), Role.THEME)
-    if any(item.toward is Toward.HOME for item in state.destinations):
-        _put_back(context, themes, PutGroup(Things(state.subjects), state.destinations))
+    group = PutGroup(Things(state.subjects), state.destinations)
+    if is_by_color(group):
+        by_color(context, group)
         return
-    places = context.phrases.places(state.destinations, themes)
+    if is_one_each(group):
+        one_each(context, group)
+        return
+    themes = context.phrases.things(group.things, Role.THEME)
+    if any(item.toward is Toward.HOME for item in state.destinations):
+        _put_back(context, themes, group)
+        return
+    shared, grouping = _shared(context, group, themes, Grouping.ANY)
+    places = context.phrases.places(shared.destinations, themes)
     again = [index for index in themes if index in context.discourse.put]
     if again and any(place.beside for place in places):
         text = context.discourse.referents[again[0]].text
         why = "say where it goes in one: 'on the tray, next to the cup'"
         raise ReferenceProblem(text, why, 3)
-    _add_put(context, themes, places, Grouping.ANY)
+    _add_put(context, themes, places, grouping)
     context.discourse.last_places = places
+
+
+def cover(context: Context, clause: CoverClause) -> None:
+    """Adds the steps that put a lid on something."""
+    lids = clause.cover or Things((NounPhrase("the", ("lid",), text="lid"),))
+    themes = context.phrases.things(lids, Role.THEME)
+    if clause.cover is None:
+        for index in themes:
+            context.only(index, "say with what: 'cover … with …'")
+    places = tuple(
+        place
+        for phrase in clause.things.phrases
+        for index in context.phrases.refer(phrase, Role.PLACE, themes)
+        for place in context.phrases.relations_to(Toward.ON, index, themes)
+    )
+    _add_put(context, themes, places, Grouping.ANY)
+
+
+def again(context: Context, clause: AgainClause) -> None:
+    """Adds the step that was asked for last once more, for other things."""
+    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    before = context.done
+    if not before:
+        raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
+    step = before[-1]
+    if isinstance(step, Put):
+        if any(not isinstance(item, Put) or item.places != step.places for item in before):
+            raise ReferenceProblem(text, "say again what is to be done", 2)
+        themes = context.phrases.things(clause.things, Role.THEME)
+        if set(themes) & {index for place in step.places for index in place.referents()}:
+            raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
+        _add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
+        return
+    role = Role.THEME if isinstance(step, Pick) else Role.PART
+    for index in context.phrases.things(clause.things, role):
+        context.steps.append(replace(step, what=index))
 
 
 def remove(context: Context, clause: RemoveClause) -> None:
@@ -88,25 +152,53 @@ def remove(context: Context, clause: RemoveClause) -> None:
     _add_put(context, themes, (context.phrases.on_the_desk(),), Grouping.ANY, removal=True)
 
 
-def _in_said_order(context: Context, group: PutGroup, first: Sequence[NounPhrase]) -> list[int]:
+def _in_said_order(context: Context, group: PutGroup, clause: PutClause) -> list[int]:
     """The things of a group, those that are to go first before the others."""
     themes = context.phrases.things(group.things, Role.THEME)
-    if not first:
+    if not clause.first and not clause.last:
         return themes
+    things = [thing for index in themes for thing in context.only(index, "say which ones")]
+    ahead = _picked_out(context, group, clause.first, things)
+    behind = _picked_out(context, group, clause.last, things)
+    between = [thing for thing in things if thing not in ahead and thing not in behind]
+    text = " and ".join(phrase.text for phrase in group.things.phrases)
+    return [context.single(thing, text) for thing in (*ahead, *between, *behind)]
+
+
+def _picked_out(
+    context: Context, group: PutGroup, phrases: Sequence[NounPhrase], things: Sequence[Thing]
+) -> list[Thing]:
+    """What "blue first" or "the small one last" means among the things of a group."""
     noun = group.things.phrases[-1].words[-1:]
-    ahead: list[Thing] = []
-    for phrase in first:
+    found: list[Thing] = []
+    for phrase in phrases:
         spoken = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun)
         resolved = context.phrases.meaning(spoken, Role.THEME)
         if len(resolved.options) != 1:
-            raise ReferenceProblem(phrase.text, "say which one goes first", 2)
-        ahead += resolved.options[0]
-    things = [thing for index in themes for thing in context.only(index, "say which ones")]
-    if not all(thing in things for thing in ahead):
-        raise ReferenceProblem(first[0].text, "it is none of what is to be put", 2)
-    ordered = [*ahead, *(thing for thing in things if thing not in ahead)]
-    text = " and ".join(phrase.text for phrase in group.things.phrases)
-    return [context.single(thing, text) for thing in ordered]
+            raise ReferenceProblem(phrase.text, "say which one of them", 2)
+        if not all(thing in things for thing in resolved.options[0]):
+            raise ReferenceProblem(phrase.text, "it is none of what is to be put", 2)
+        found += resolved.options[0]
+    return found
+
+
+def _shared(
+    context: Context, group: PutGroup, themes: Sequence[int], grouping: Grouping
+) -> tuple[PutGroup, Grouping]:
+    """Several things into "the same cup": together in any, unless one was spoken of before."""
+    several = len([thing for i in themes for thing in context.discourse.referents[i].options[0]])
+    destinations = []
+    for item in group.destinations:
+        targets = []
+        for target in item.targets:
+            same = "same" in target.determiner.split()
+            role = Role.CONTAINER if item.toward is Toward.INSIDE else Role.PLACE
+            if same and several > 1 and context.phrases.spoken_of(target, role, themes) is None:
+                target = replace(target, determiner="any")
+                grouping = Grouping.TOGETHER
+            targets.append(target)
+        destinations.append(replace(item, targets=tuple(targets)))
+    return replace(group, destinations=tuple(destinations)), grouping
 
 
 def _with_noun(phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
@@ -154,6 +246,12 @@ def _condition(
         return
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     vessels = [theme for theme in themes if theme not in subjects]
+    if not set(subjects) & set(themes):
+        # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
+        along = [p.where for p in context.phrases.places(condition.destinations, subjects, vessels)]
+        if not set(along) & set(themes):
+            text = " and ".join(phrase.text for phrase in condition.subjects)
+            raise ReferenceProblem(text, "it is not put anywhere here", 1)
     places = context.phrases.places(condition.destinations, subjects, prefer=vessels)
     for subject in subjects:
         places_of[subject] = places

@@ -61,7 +61,9 @@ _UPWARD = sequence(
     either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False)),
     build=lambda upward: upward,
 )
-_TOWER_ENDS = optional(sequence(OPTIONAL_COMMA, WITH, _ENDS, build=lambda ends: ends), None)
+_TOWER_ENDS = optional(
+    sequence(OPTIONAL_COMMA, optional(WITH), _ENDS, build=lambda ends: ends), None
+)
 TOWER = either(
     sequence(
         silent(phrase(verbs.STACK)),

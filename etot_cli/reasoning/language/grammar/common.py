@@ -40,17 +40,19 @@ NOUN_WORD = word(_is_noun)
 OPTIONAL_COMMA = optional(COMMA)
 
 
-def _alternatives(first: Any, listed: tuple[Any, ...], last: Any) -> tuple[Any, ...] | None:
-    """Alternatives; commas stand for "or" only where one follows."""
+def _alternatives(
+    either_said: bool, first: Any, listed: tuple[Any, ...], last: Any
+) -> tuple[Any, ...] | None:
+    """Alternatives; commas stand for "or" only where one follows, "one of" calls for several."""
     if last is None:
-        return None if listed else (first,)
+        return None if listed or either_said else (first,)
     return (first, *listed, last)
 
 
 def alternatives(parser: Parser, most: int) -> Parser:
     """One or several with "or" before the last."""
     return sequence(
-        optional(EITHER),
+        optional(phrase(small_words.EITHER, True), False),
         parser,
         some(sequence(ALTERNATIVE, parser, build=lambda item: item), most=most),
         optional(

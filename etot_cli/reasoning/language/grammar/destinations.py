@@ -92,8 +92,13 @@ destination = Rule(
         ),
     )
 )
-DESTINATIONS = sequence(
-    optional(EITHER), separated(destination, OR, most=5), build=lambda found: found
+DESTINATIONS = either(
+    separated(destination, OR, most=5),
+    sequence(
+        EITHER,
+        separated(destination, OR, most=5),
+        build=lambda found: found if len(found) > 1 else None,
+    ),
 )
 _directed = either(
     sequence(silent(phrase(places.INTO_DIRECTED)), TARGETS, build=_toward(Toward.INSIDE)),

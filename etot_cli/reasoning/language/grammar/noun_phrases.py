@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -22,7 +23,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, nouns, places
-from etot_cli.reasoning.language.words.lexicon import is_descriptive
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, is_descriptive
 from etot_cli.reasoning.language.words.places import Prep
 
 noun_phrase = Rule()
@@ -71,37 +72,101 @@ _plain_modifier = either(
         silent(phrase("[in] between")), noun_phrase, build=lambda np: Modifier(Prep.BETWEEN, (np,))
     ),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
+    sequence(
+        word(lambda given, text: text in ORDINALS),
+        valued(SIDE, lambda text: tuple(text.split())),
+        build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
+    ),
 )
+_INSIDE_IT = silent(either(phrase("inside, in there, in"), phrase("(inside|in) (it|them|which)")))
+_UPON_IT = silent(phrase("on [top of] (it|them), on top"))
+_WITHOUT = silent(phrase(nouns.LACKING))
+_HAVING = silent(either(WITH, phrase(nouns.CONTAINING)))
+
+
+def _contents_with(having: Parser, denied: bool) -> Parser:
+    return either(
+        sequence(
+            having,
+            noun_phrase,
+            # "Without" before a bare noun may stand before anything.
+            build=lambda np: (
+                None if denied and not np.determiner else Modifier(Prep.WITH, (np,), denied=denied)
+            ),
+        ),
+        sequence(
+            having,
+            noun_phrase,
+            _INSIDE_IT,
+            build=lambda np: Modifier(Prep.CONTAINING, (np,), denied=denied),
+        ),
+        sequence(
+            having,
+            noun_phrase,
+            _UPON_IT,
+            build=lambda np: Modifier(Prep.BEARING, (np,), denied=denied),
+        ),
+    )
+
+
 _contents = either(
+    _contents_with(_HAVING, denied=False),
+    _contents_with(_WITHOUT, denied=True),
     sequence(
-        silent(either(WITH, phrase(nouns.CONTAINING))),
-        noun_phrase,
-        build=lambda np: Modifier(Prep.CONTAINING, (np,)),
+        _HAVING,
+        silent(phrase("nothing")),
+        _INSIDE_IT,
+        build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
     ),
-    sequence(
-        WITH,
-        noun_phrase,
-        silent(either(phrase("inside, in there, in"), phrase("(inside|in) (it|them)"))),
-        build=lambda np: Modifier(Prep.CONTAINING, (np,)),
+    quiet(
+        sequence(
+            silent(optional(phrase("that, which"), None)),
+            noun_phrase,
+            either(
+                phrase("(is|are|lies|lie|sits) [currently] in", Prep.CONTAINING),
+                phrase("(is|are|stands|stand|lies|lie|sits) [currently] on", Prep.BEARING),
+            ),
+            build=lambda np, prep: Modifier(prep, (np,)),
+        )
     ),
-    sequence(
-        WITH,
-        noun_phrase,
-        silent(phrase("on [top of] (it|them), on top")),
-        build=lambda np: Modifier(Prep.BEARING, (np,)),
-    ),
+)
+_matching = sequence(
+    silent(phrase(nouns.MATCHING)),
+    silent(optional(phrase("as (it|them|its own|their own)"), None)),
+    build=lambda: Modifier(Prep.MATCHING),
 )
 _quality = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
+_none_of = sequence(
+    ADJECTIVE,
+    some(sequence(OR, ADJECTIVE, build=lambda text: text), least=1, most=2),
+    build=lambda first, more: Modifier(Prep.QUALITY, words=(first, *more)),
+)
 _described = either(_plain_modifier, _contents, _quality)
-MODIFIER = either(
+MODIFIER = Rule()
+MODIFIERS = some(MODIFIER, most=4)
+_modifier = either(
     _plain_modifier,
     _contents,
+    _matching,
     sequence(RELATIVE, _described, build=lambda modifier: modifier),
-    sequence(DENIED, _described, build=lambda modifier: replace(modifier, denied=True)),
+    sequence(
+        DENIED,
+        either(_described, _none_of),
+        build=lambda modifier: replace(modifier, denied=True),
+    ),
+    sequence(
+        silent(phrase(nouns.RELATIVE_NEITHER)),
+        valued(
+            separated(ADJECTIVE, silent(phrase("nor, or")), most=3),
+            lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
+        ),
+        build=lambda modifier: modifier,
+    ),
     sequence(
         silent(phrase(nouns.NOT_PLACED)),
         _plain_modifier,
-        build=lambda modifier: replace(modifier, denied=True),
+        # "The right not of the cup" is no English.
+        build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
     ),
     sequence(
         silent(optional(phrase("~comma"), None)),
@@ -110,7 +175,9 @@ MODIFIER = either(
         build=lambda nps: Modifier(Prep.EXCEPT, nps),
     ),
 )
-MODIFIERS = some(MODIFIER, most=4)
+MODIFIER.define(_modifier)
+_MATCHING_ADJECTIVE = silent(phrase(nouns.MATCHING_ADJECTIVES))
+ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
 
 
@@ -146,6 +213,19 @@ noun_phrase.define(
     spanned(
         either(
             sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
+            sequence(
+                silent(optional(phrase("the, a, their, its, his"), None)),
+                _MATCHING_ADJECTIVE,
+                WORDS,
+                build=lambda words: NounPhrase("the", words, (Modifier(Prep.MATCHING),)),
+            ),
+            sequence(
+                silent(phrase(nouns.FREE_RELATIVE)),
+                _plain_modifier,
+                MODIFIERS,
+                build=lambda first, more: NounPhrase("all", ("objects",), (first, *more)),
+            ),
+            sequence(OPTIONAL_DETERMINER, ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
             sequence(OPTIONAL_DETERMINER, NON, NOUN_WORD, WORDS, MODIFIERS, build=_negative),
             sequence(
                 OPTIONAL_DETERMINER,
@@ -191,6 +271,12 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
     for index in range(len(found) - 1, -1, -1):
         item = found[index]
         adjectives = bool(item.words) and all(map(is_descriptive, item.words))
+        if index and (*item.words, item.determiner)[0].isdigit():
+            # "Cubes 1, 2 and 4": the numbers of things, no counts of them.
+            before = next((np.words for np in found[index - 1 :: -1] if len(np.words) > 1), ("",))
+            if before[-1].isdigit() and len(item.words) < 2 and not item.modifiers:
+                number = (*item.words, item.determiner)[0]
+                item = replace(item, determiner="", words=(*before[:-1], number))
         if index and not item.determiner and item.words and first.determiner:
             item = replace(item, loose=True)
         following = found[index + 1] if index + 1 < len(found) else None

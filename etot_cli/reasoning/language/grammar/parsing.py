@@ -208,6 +208,19 @@ def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     ]
 
 
+def quiet(parser: Parser) -> Parser:
+    """As a guess: how far it got without success does not count as understood."""
+
+    def parse(given: Input, at: int) -> Sequence[Result]:
+        before = given.reached
+        found = parser(given, at)
+        if not found:
+            given.reached = before
+        return found
+
+    return parse
+
+
 def located(parser: Parser, build: Callable[[int, Any], Any]) -> Parser:
     """With a value that knows where it begins."""
     return lambda given, at: [(end, build(at, value)) for end, value in parser(given, at)]

@@ -6,7 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, OR, WITH, alternatives
+from etot_cli.reasoning.language.grammar.common import (
+    BE,
+    LIST,
+    OPTIONAL_COMMA,
+    OR,
+    WITH,
+    alternatives,
+)
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, destination
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -22,9 +29,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
     Clause,
+    CoverClause,
     Destination,
+    EnsureClause,
     Modifier,
+    MoveClause,
     NounPhrase,
     PickClause,
     PutClause,
@@ -33,8 +44,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     State,
     Things,
     Toward,
+    TowerClause,
 )
-from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 
@@ -78,9 +90,19 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
+
+
+def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """Things that go first or last; none of them is "the first" itself."""
+    return None if any(np.words[-1:] in (("first",), ("last",)) for np in nps) else nps
+
+
 FIRST_OF_THEM = either(
-    sequence(separated(noun_phrase, LIST, most=2), silent(phrase("first")), build=lambda nps: nps),
+    sequence(separated(noun_phrase, LIST, most=2), silent(phrase("first")), build=_named_ones),
     sequence(silent(phrase(manner.STARTING_WITH)), noun_phrase, build=lambda np: (np,)),
+)
+LAST_OF_THEM = sequence(
+    separated(noun_phrase, LIST, most=2), silent(phrase("last")), build=_named_ones
 )
 EXTRA = sequence(
     OPTIONAL_COMMA,
@@ -94,6 +116,10 @@ EXTRA = sequence(
             build=lambda found: ("not", found),
         ),
         valued(FIRST_OF_THEM, lambda nps: ("first", nps)),
+        valued(LAST_OF_THEM, lambda nps: ("last", nps)),
+        phrase(manner.BY_COLOR, ("color", ())),
+        phrase(manner.ONE_EACH, ("each", ())),
+        phrase("each, apiece", ("apart", ())),
         silent(phrase(manner.IN_THIS_ORDER)),
     ),
     build=lambda *found: found[0] if found else (),
@@ -105,12 +131,27 @@ def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     conditions = tuple(item for item in extras if isinstance(item, State))
     said = [item for item in extras if isinstance(item, tuple) and item]
     firsts = [item[1] for item in said if item[0] == "first"]
+    lasts = [item[1] for item in said if item[0] == "last"]
+    named = {item[0] for item in said}
     ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
-    if len(groupings) > 1 or len(firsts) > 1:
+    if "apart" in named and not groupings and len(groups) == 1:
+        groupings = [Grouping.SEPARATELY]
+    elif "apart" in named:
+        return None
+    if len(groupings) > 1 or len(firsts) > 1 or len(lasts) > 1:
         return None
     grouping = groupings[0] if groupings else Grouping.ANY
     first = firsts[0] if firsts else ()
-    return PutClause(groups, grouping, conditions, first, ruled_out)
+    return PutClause(
+        groups,
+        grouping,
+        conditions,
+        first,
+        ruled_out,
+        last=lasts[0] if lasts else (),
+        by_color="color" in named,
+        one_each="each" in named,
+    )
 
 
 def _group(directions: Parser, particle: str) -> Parser:
@@ -123,11 +164,62 @@ def _group(directions: Parser, particle: str) -> Parser:
     )
 
 
-PUT_GROUP = _group(DESTINATIONS, "down, upright, away, back, over, inside")
+PUT_GROUP = _group(
+    DESTINATIONS, "down, upright, away, back, over, inside, somewhere, anywhere, some place"
+)
 EXTRAS = some(EXTRA, most=3)
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
+_BY_COLOR = sequence(
+    THINGS, silent(phrase(manner.BY_COLOR)), OPTIONAL_COMMA, DESTINATIONS, build=PutGroup
+)
+_ONE_BY_ONE = sequence(
+    silent(phrase("first")),
+    noun_phrase,
+    some(
+        sequence(
+            OPTIONAL_COMMA,
+            silent(phrase(small_words.THEN_JOINTS)),
+            noun_phrase,
+            build=lambda np: np,
+        ),
+        least=1,
+        most=4,
+    ),
+    DESTINATIONS,
+    build=lambda first, more, where: PutGroup(Things((first, *more)), where),
+)
+_SO_THAT_IT_IS = sequence(
+    THINGS,
+    OPTIONAL_COMMA,
+    silent(phrase(small_words.SO_THAT)),
+    silent(phrase("it, they")),
+    BE,
+    DESTINATIONS,
+    build=PutGroup,
+)
 PUT = either(
+    sequence(
+        silent(phrase(verbs.PUT)),
+        either(_ONE_BY_ONE, _SO_THAT_IT_IS),
+        build=lambda group: PutClause((group,)),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        _BY_COLOR,
+        build=lambda group: PutClause((group,), by_color=True),
+    ),
+    sequence(
+        silent(phrase(verbs.DISTRIBUTE)),
+        sequence(
+            THINGS,
+            silent(phrase(places.AMONG)),
+            NP_LIST,
+            build=lambda things, nps: PutGroup(things, (Destination(Toward.TO, nps),)),
+        ),
+        EXTRAS,
+        build=lambda group, extras: _put((group,), extras),
+    ),
     sequence(
         silent(phrase(verbs.STACK)),
         separated(PUT_GROUP, LIST, most=5),
@@ -225,4 +317,86 @@ EMPTY = either(
         build=lambda nps, where: _emptied(Things(nps), where),
     ),
     sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+    sequence(
+        silent(phrase("clear[ing]")),
+        THINGS,
+        SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
 )
+COVER = either(
+    sequence(
+        silent(phrase(verbs.COVER)),
+        THINGS,
+        WITH,
+        THINGS,
+        build=lambda things, cover: CoverClause(things, cover),
+    ),
+    sequence(
+        silent(phrase(verbs.COVER)),
+        THINGS,
+        silent(optional(phrase("with (its|their|a) lid"), None)),
+        build=CoverClause,
+    ),
+    sequence(
+        silent(phrase(verbs.UNCOVER)),
+        NP_LIST,
+        build=lambda nps: RemoveClause(Things(tuple(_contents_of(np, Prep.ON) for np in nps))),
+    ),
+)
+VERBLESS = sequence(separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put)
+"""Places for things without a word for doing; only whole sentences are so."""
+WANTED = either(
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.DONE)),
+        DESTINATIONS,
+        build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.TAKEN)),
+        SOURCE,
+        build=lambda nps, source: RemoveClause(Things(nps), source),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.TAKEN)),
+        SOURCE,
+        silent(phrase("and")),
+        silent(phrase(verbs.DONE)),
+        DESTINATIONS,
+        build=lambda nps, source, where: PutClause((PutGroup(_from(Things(nps), source), where),)),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase("[to be] (picked up|lifted [up])")),
+        build=lambda nps: PickClause(Things(nps)),
+    ),
+)
+AGAIN = either(
+    sequence(silent(phrase(small_words.SAME_AGAIN)), THINGS, build=AgainClause),
+    sequence(THINGS, silent(phrase(small_words.ALSO)), build=AgainClause),
+)
+
+
+def excluding(clause: Clause, out: tuple[NounPhrase, ...]) -> Clause | None:
+    """A clause without some of the things that it is about ("…, except the blue one")."""
+    left_out = Modifier(Prep.EXCEPT, out)
+
+    def without(things: Things) -> Things:
+        last = replace(things.phrases[-1], modifiers=(*things.phrases[-1].modifiers, left_out))
+        return replace(things, phrases=(*things.phrases[:-1], last))
+
+    match clause:
+        case PutClause(groups=(group,)):
+            return replace(clause, groups=(replace(group, things=without(group.things)),))
+        case EnsureClause(states=(state,)):
+            return EnsureClause((replace(state, subjects=without(Things(state.subjects)).phrases),))
+        case PickClause() | RemoveClause() | MoveClause() | TowerClause():
+            return replace(clause, things=without(clause.things))
+    return None

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
+    QUESTION,
     Correction,
     corrected,
     normalized,
@@ -148,6 +149,11 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
 def _stopped(given: Input, before: str) -> UnreadableError:
     """Where reading stopped and why: at a word that is never understood, else where it got to."""
     words, stop = given.words, given.reached
+    if words[-1] == QUESTION:
+        if stop >= len(words) - 1:
+            why = known.REASONS["what"]
+            return UnreadableError(_some(words[:-1]), before, why)
+        words = words[:-1]
     for index, word in enumerate(words):
         why = "" if word in given.nouns else known.REASONS.get(word, "")
         if not why and word not in given.nouns and known.is_adverb(word):

@@ -7,6 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, exceptions
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
     Rule,
@@ -19,17 +20,42 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.pick_and_put import EMPTY, PICK, PUT, REMOVE
+from etot_cli.reasoning.language.grammar.pick_and_put import (
+    AGAIN,
+    COVER,
+    EMPTY,
+    PICK,
+    PUT,
+    REMOVE,
+    VERBLESS,
+    WANTED,
+    excluding,
+)
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
-from etot_cli.reasoning.language.grammar.syntax import EnsureClause, Order, Spoken
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    EnsureClause,
+    Order,
+    PutClause,
+    Spoken,
+)
+from etot_cli.reasoning.language.grammar.text import QUESTION
+from etot_cli.reasoning.language.words import nouns, small_words
 
 Reading = tuple[Spoken, ...]
+LEFT_OUT = sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps)
+_ASKED = either(
+    PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID,
+    KEEP_STILL, AGAIN,
+)  # fmt: skip
 CLAUSE = located(
     sequence(
         EMPTY_WORDS,
-        either(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, REORIENT, TOWER, SWAP, AVOID, KEEP_STILL),
+        either(
+            _ASKED,
+            sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
+        ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),
         optional(phrase(small_words.TRAILING_LAST, Order.LAST), None),
@@ -101,6 +127,16 @@ _JOINED = either(
         located(states, lambda at, found: (Spoken(EnsureClause(found), at),)),
         build=lambda clause: ("and", clause),
     ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.THEN_JOINTS)),
+        OPTIONAL_COMMA,
+        either(
+            located(THINGS, lambda at, things: (Spoken(AgainClause(things), at),)),
+            located(VERBLESS, lambda at, put: (Spoken(put, at),)),
+        ),
+        build=lambda clause: ("then", clause),
+    ),
 )
 
 
@@ -122,8 +158,34 @@ def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
 
 
 CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
+
+
+def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+    """A sentence without a verb; one that begins like a question is none."""
+    clause = first[0].clause
+    asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
+    return None if str(asks).startswith("what") else _chained(first, more)
+
+
+def _without(orders: tuple[Order, ...], out: Any, rest: Reading) -> Reading | None:
+    """A sentence that begins with what is left out."""
+    clause = excluding(rest[0].clause, out)
+    return None if orders or clause is None else (replace(rest[0], clause=clause), *rest[1:])
+
+
+_PLACED = located(
+    either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)),
+    lambda at, clause: (Spoken(clause, at),),
+)
 SENTENCE = either(
     CHAIN,
+    sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
+    sequence(
+        silent(phrase(small_words.LEADING_THEN)),
+        OPTIONAL_COMMA,
+        located(THINGS, lambda at, things: Spoken(AgainClause(things), at, Order.THEN)),
+        build=lambda again: (again,),
+    ),
     sequence(
         LEAD,
         located(WITHOUT, lambda at, clause: Spoken(clause, at)),
@@ -148,12 +210,10 @@ SENTENCE = either(
         build=lambda orders, later, rest: None if orders else (*rest, *_then(later)),
     ),
 )
-WHOLE = sequence(
-    SENTENCE,
-    OPTIONAL_COMMA,
-    EMPTY_WORDS,
-    OPTIONAL_COMMA,
-    build=lambda reading: reading,
+_END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA, build=lambda: ())
+WHOLE = either(
+    sequence(SENTENCE, silent(_END), silent(optional(phrase(QUESTION), None)), build=lambda r: r),
+    sequence(EMPTY_WORDS, _PLACED, some(_JOINED, most=12), silent(_END), build=_verbless),
 )
 
 

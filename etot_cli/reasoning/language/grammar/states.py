@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     silent,
+    some,
 )
 from etot_cli.reasoning.language.grammar.syntax import EnsureClause, MoveClause, NounPhrase, State
 from etot_cli.reasoning.language.words import manner, verbs
@@ -75,7 +76,9 @@ ENSURE = either(
         NP_LIST,
         silent(phrase(verbs.MODAL)),
         PREDICATE,
-        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
+        # "…, the ball in the cup": the verb is left out.
+        some(sequence(LIST, NP_LIST, DESTINATIONS, build=state_of), most=4),
+        build=lambda nps, predicate, more: EnsureClause((state_of(nps, predicate), *more)),
     ),
     sequence(
         silent(phrase(verbs.WANT)),

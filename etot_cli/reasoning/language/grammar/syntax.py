@@ -128,6 +128,12 @@ class PutClause:
     """Those of the things that go first ("the blue one first")."""
     ruled_out: tuple[Destination, ...] = ()
     """Where they must not go ("in a cup, but not in the red one")."""
+    last: tuple[NounPhrase, ...] = ()
+    """Those of the things that go last."""
+    by_color: bool = False
+    """Each goes to a place of its own colour."""
+    one_each: bool = False
+    """Every place gets one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +187,21 @@ class SwapClause:
     things: Things
 
 
+@dataclass(frozen=True, slots=True)
+class CoverClause:
+    """Something gets a cover, the one lid that there is where none is named."""
+
+    things: Things
+    cover: Things | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class AgainClause:
+    """What was asked for last is asked for of other things, too."""
+
+    things: Things
+
+
 class Avoid(StrEnum):
     """What must not happen on the way."""
 
@@ -209,6 +230,8 @@ Clause = (
     | ReorientClause
     | TowerClause
     | SwapClause
+    | CoverClause
+    | AgainClause
     | AvoidClause
 )
 

@@ -11,9 +11,12 @@ MAX_WORDS = 80
 """Longer sentences are refused: the number of readings grows steeply with length."""
 MAX_SENTENCES = 24
 COMMA = "~comma"
+QUESTION = "~question"
+"""Behind a question: it may be a request, but not one without a verb."""
 
 _SENTENCE_END = re.compile(r"[.!?;\n]+(?:\s+|$)")
 _NUMBERING = re.compile(r"(^|[.!?;\n]\s*)(?:\(?\d{1,2}[.)]|[-*\N{BULLET}])\s+")
+_HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _CLITICS = (
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
@@ -46,8 +49,10 @@ def normalized(text: str) -> str:
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
+    text = re.sub(rf"(?<=\w)[{_HYPHENS}]most\b", "most", text)
+    text = re.sub(rf"\b(left|right)[{_HYPHENS}]hand(?:ed)?\b", r"\1", text)
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
-    text = re.sub(r"(?<=\w)[-\N{NON-BREAKING HYPHEN}\N{HYPHEN}](?=\w)|/(?=\w)", " ", text)
+    text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
@@ -56,9 +61,9 @@ def normalized(text: str) -> str:
 
 def sentences_of(text: str) -> list[str]:
     """The sentences of normalized text, without numbering."""
-    plain = _NUMBERING.sub(r"\1", text)
+    plain = re.sub(r"\?", f" {QUESTION}?", _NUMBERING.sub(r"\1", text))
     parts = (" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain))
-    return [part for part in parts if part]
+    return [part for part in parts if part.removesuffix(QUESTION).strip(" ,")]
 
 
 def words_in(sentence: str) -> tuple[str, ...]:
@@ -75,7 +80,13 @@ def words_in(sentence: str) -> tuple[str, ...]:
 
 def spaced(words: Sequence[str]) -> str:
     """Words as a person writes them."""
-    return " ".join(words).replace(f" {COMMA}", ",").replace(" 's", "'s").replace("_", " ")
+    return (
+        " ".join(words)
+        .replace(f" {COMMA}", ",")
+        .replace(f" {QUESTION}", "")
+        .replace(" 's", "'s")
+        .replace("_", " ")
+    )
 
 
 def corrected(word: str, known: Iterable[str]) -> str | None:

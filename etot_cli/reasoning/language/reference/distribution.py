@@ -6,6 +6,19 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, PutGroup
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def is_matching(phrase: NounPhrase) -> bool:
+    """Whether a phrase asks for the colour of what it goes with."""
+    return any(item.prep is Prep.MATCHING for item in phrase.modifiers)
+
+
+def unmatched(phrase: NounPhrase) -> NounPhrase:
+    """A phrase that asks for no colour, whatever its number."""
+    kept = tuple(item for item in phrase.modifiers if item.prep is not Prep.MATCHING)
+    return replace(phrase, modifiers=kept)
+
 
 _DIFFERENT = frozenset({"different", "separate", "distinct"})
 
@@ -30,8 +43,6 @@ def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination,
 
 def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
     words = phrase.words
-    if "same" in phrase.determiner.split():
-        return replace(phrase, determiner="any"), Grouping.TOGETHER
     if words[:1] == ("own",) and phrase.determiner in ("its", "their"):
         return replace(phrase, determiner="any", words=words[1:]), Grouping.SEPARATELY
     if words and words[0] in _DIFFERENT:

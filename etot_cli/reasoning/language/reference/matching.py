@@ -59,6 +59,7 @@ def match_words(
     noun: str | None = None,
     *,
     by_name: bool = True,
+    parts_first: bool = False,
 ) -> Match:
     """Finds what a noun phrase's words fit; every word of them counts.
 
@@ -69,6 +70,8 @@ def match_words(
         noun: what "one" stands for, the noun of an earlier phrase.
         by_name: a name that a word is means that thing alone ("the book"); else it is a noun like
             any other ("the book that is not red").
+        parts_first: what follows the noun tells parts of one piece of furniture from each other
+            ("the drawer with the pen in it").
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
@@ -87,7 +90,7 @@ def match_words(
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found
-    for pool in _pools(vocabulary, head, adjectives):
+    for pool in _pools(vocabulary, head, adjectives, parts_first):
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
             # "The drawers" of the only chest.
@@ -116,15 +119,20 @@ def _by_color(
     return replace(found, notes=(*found.notes, f"read {color!r} as the colour of {names}"))
 
 
-def _pools(vocabulary: Vocabulary, head: str, adjectives: Sequence[str]) -> list[list[Entry]]:
+def _pools(
+    vocabulary: Vocabulary, head: str, adjectives: Sequence[str], parts_first: bool
+) -> list[list[Entry]]:
     """Where to look, in this order: parts come first where a level or their own name is said."""
     fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
     one_of_many = len(fitting) == 1 and _is_stacked(fitting[0])
-    level = any(
+    level = (parts_first and any(map(_is_stacked, fitting))) or any(
         word in LEVELS or (one_of_many and (word in ORDINALS or word in STATES))
         for word in adjectives
     )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
+    if any(entry.info is not None and entry.info.boards for entry in fitting):
+        # "The top shelf" is a board of the shelf before it is a drawer of something else.
+        parts, boards = boards, parts
     named = [
         part
         for part in parts

@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.reference.selection import select, state_holds
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
     SIDES,
     SIZES,
     STATES,
@@ -60,6 +61,13 @@ class Resolved:
     noun: str
     every: bool = False
     notes: tuple[str, ...] = ()
+
+
+def _tells_parts(modifier: Modifier) -> bool:
+    """Whether a modifier is about one drawer rather than about the whole chest."""
+    state = modifier.prep is Prep.QUALITY and any(word in STATES for word in modifier.words)
+    side = modifier.prep is Prep.SIDE and any(word in LEVELS for word in modifier.words)
+    return state or side or modifier.prep in (Prep.CONTAINING, Prep.WITH)
 
 
 class Resolver:
@@ -107,7 +115,8 @@ class Resolver:
                 phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
                 word=quantity.unclear,
             )  # fmt: skip
-        match = self._match(phrase, words, noun)
+        parts = quantity.other and any(thing.part for thing in excluded)
+        match = self._match(phrase, words, noun, parts_first=parts)
         if quantity.every and not match.plural:
             match = self._parts(match, words, phrase)
         things = [entry.thing for entry in match.entries]
@@ -151,7 +160,14 @@ class Resolver:
 
     # -- words -------------------------------------------------------------------------------------
 
-    def _match(self, phrase: NounPhrase, words: tuple[str, ...], noun: str | None) -> Match:
+    def _match(
+        self,
+        phrase: NounPhrase,
+        words: tuple[str, ...],
+        noun: str | None,
+        *,
+        parts_first: bool = False,
+    ) -> Match:
         """What the words fit, with the qualities that stand behind the noun."""
         extra = [
             word
@@ -169,6 +185,7 @@ class Resolver:
                 phrase.text,
                 noun,
                 by_name=plain and quantity.definite and not quantity.other,
+                parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
             )
         adjectives, head = words[:-1], words[-1]
         every = match_words((head,), self._vocabulary, phrase.text, noun)
@@ -245,6 +262,11 @@ class Resolver:
         vocabulary = self._vocabulary
         return (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
 
+    def colors_of(self, thing: Thing) -> frozenset[str]:
+        """The basic colours that a thing is called by, or the one that it has."""
+        entry = next((entry for entry in self._entries() if entry.thing == thing), None)
+        return frozenset() if entry is None else entry.colors()
+
     # -- modifiers ---------------------------------------------------------------------------------
 
     def _modified(
@@ -258,6 +280,9 @@ class Resolver:
     ) -> list[Thing]:
         """Things that all modifiers are true of, or that they fit best."""
         for modifier in sorted(modifiers, key=lambda item: item.prep in RANKED):
+            if modifier.prep is Prep.MATCHING:
+                why = "say which thing's colour is meant"
+                raise ReferenceProblem(phrase.text, why, 2)
             if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT):
                 continue
             landmarks = self._landmark_sets(modifier, phrase, pronoun)

@@ -19,6 +19,14 @@ from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, D
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.usual_form import is_robot
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    SIDES,
+    is_descriptive,
+    same_noun,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -72,9 +80,35 @@ class Phrases:
             for index in found:
                 self.discourse.mention_again(index, role)
             return found
+        if "same" in phrase.determiner.split():
+            index = self._the_same(phrase, role, excluded)
+            self.discourse.mention_again(index, role)
+            return (index,)
         index = self.discourse.add(self._resolved(phrase, role), phrase.text, role)
         self._note_landmarks(phrase)
         return (index,)
+
+    def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
+        """The latest referent that "the same …" may mean."""
+        plain = replace(phrase, determiner="all")
+        fitting = {thing for option in self._resolved(plain, role).options for thing in option}
+        for mention in reversed(self.discourse.mentions):
+            things = self.discourse.things(mention.referent)
+            if mention.referent not in excluded and things and set(things) <= fitting:
+                return mention.referent
+        return None
+
+    def _the_same(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int:
+        found = self.spoken_of(phrase, role, excluded)
+        if found is None:
+            raise ReferenceProblem(
+                phrase.text, "'same': nothing was spoken of before that it could be", 3, word="same"
+            )
+        return found
+
+    def colors_of(self, thing: Thing) -> frozenset[str]:
+        """The basic colours that a thing is called by, or the one that it has."""
+        return self._resolver.colors_of(thing)
 
     def _note_landmarks(self, phrase: NounPhrase) -> None:
         """Things that were only mentioned to tell others by can be spoken of later on."""
@@ -103,6 +137,8 @@ class Phrases:
             owner = Modifier(Prep.OF, (NounPhrase(pronoun="it", text="its"),))
             phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
         noun_before = discourse.last_noun(role)
+        if noun_before is not None and _leaves_noun_out(phrase):
+            phrase = replace(phrase, words=(*phrase.words, singular(noun_before)))
         resolved = self._resolver.resolve(
             phrase,
             role,
@@ -112,7 +148,20 @@ class Phrases:
         )
         if resolved.other and resolved.every:
             return self._others(resolved)
-        return self._of_spoken_owner(resolved)
+        return self._of_spoken_owner(self._spoken_part(resolved))
+
+    def _spoken_part(self, resolved: Resolved) -> Resolved:
+        """After "the lower drawer" "the drawer" is that one, not the whole chest."""
+        named = {(thing.name, thing.part) for option in resolved.options for thing in option}
+        if not resolved.definite or resolved.other or len(named) != 1:
+            return resolved
+        ((owner, part),) = named
+        for mention in reversed(self.discourse.mentions):
+            things = self.discourse.things(mention.referent)
+            parts = things and all(thing.name == owner and thing.part for thing in things)
+            if part is None and parts and same_noun(mention.noun, resolved.noun):
+                return replace(resolved, options=self.discourse.referents[mention.referent].options)
+        return resolved
 
     def _of_spoken_owner(self, resolved: Resolved) -> Resolved:
         """Of several pieces' doors "the door" is that of the piece that was spoken of last."""
@@ -170,6 +219,8 @@ class Phrases:
 
     def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
         role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
+        if toward is Toward.TO and phrase.words and all(word in SIDES for word in phrase.words):
+            raise ReferenceProblem(phrase.text, "say to which side of what", 2)
         found = []
         for index in self.refer(phrase, role, themes):
             options = self.discourse.referents[index].options
@@ -177,20 +228,26 @@ class Phrases:
                 raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
-            things = self.discourse.things(index)
-            fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
-            laid = [thing for theme in themes for thing in self.discourse.things(theme)]
-            fits_on = any(
-                can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
-                for thing in things
-            )
-            if fits_in and (toward is not Toward.ON or not fits_on):
-                found.append(Place(Relation.INSIDE, index))
-            if fits_on and toward is not Toward.INSIDE:
-                found.append(Place(Relation.ON, index))
-            if toward is Toward.ON and fits_in and not fits_on:
-                names = " or ".join(dict.fromkeys(thing.name for thing in things))
-                self.discourse.notes.append(f"read 'on' as into {names}")
+            found += self.relations_to(toward, index, themes)
+        return found
+
+    def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
+        """In or on a referent, whichever fits it and what is asked for."""
+        found = []
+        things = self.discourse.things(index)
+        fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
+        laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        fits_on = any(
+            can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
+            for thing in things
+        )
+        if fits_in and (toward is not Toward.ON or not fits_on):
+            found.append(Place(Relation.INSIDE, index))
+        if fits_on and toward is not Toward.INSIDE:
+            found.append(Place(Relation.ON, index))
+        if toward is Toward.ON and fits_in and not fits_on:
+            names = " or ".join(dict.fromkeys(thing.name for thing in things))
+            self.discourse.notes.append(f"read 'on' as into {names}")
         return found
 
     def _narrowed(
@@ -201,6 +258,14 @@ class Phrases:
         surfaces = [place for place in places if place.relation is Relation.ON]
         if not surfaces:
             raise ReferenceProblem(text, "there is no left or right inside a container", 2)
+        if all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside):
+            # "On the plate on the left" is the left one of several, not the left part of any.
+            targets = [item for item in destination.targets if not item.pronoun]
+            meant = [self._resolved(item, Role.SURFACE).options for item in targets]
+            things = [thing for options in meant for option in options for thing in option]
+            stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
+            if len(things) > 1 or (stacked and things[0].board is None):
+                raise ReferenceProblem(text, "say which one of them", 2)
         near = tuple(self._near(item, themes) for item in destination.beside)
         return [replace(place, beside=near) for place in surfaces]
 
@@ -277,6 +342,10 @@ class Phrases:
             return (self.on_the_desk(),)
         if word == "there" and discourse.last_places:
             return discourse.last_places
+        if word == "on top" and discourse.put_into:
+            # On what the last thing was put into, not on the thing in it.
+            index = next(reversed(discourse.put_into.values()))
+            return tuple(self.relations_to(Toward.ON, index, themes))
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
         for index in prefer:
             if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
@@ -294,6 +363,19 @@ def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
     mouth = LID * min(info.size[:2])
     return all(
         thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
+    )
+
+
+def _leaves_noun_out(phrase: NounPhrase) -> bool:
+    """Whether a phrase has but adjectives ("on the middle board … on the highest")."""
+    several = any(item.prep is Prep.OF for item in phrase.modifiers)  # "the left of the cups"
+    return (
+        bool(phrase.words)
+        and not several
+        and all(
+            (is_descriptive(word) or word in LEVELS) and word not in COMMON_NOUNS
+            for word in phrase.words
+        )
     )
 
 

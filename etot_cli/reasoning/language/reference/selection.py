@@ -16,7 +16,10 @@ from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
 def side_word(phrase: str) -> str | None:
     """The side that "on the far left of the desk" names."""
-    return next((word for word in phrase.split() if word in SIDES and word != "far"), None)
+    return next(
+        (word for word in phrase.split() if word in (*SIDES, "top", "bottom") and word != "far"),
+        None,
+    )
 
 
 def select(
@@ -43,7 +46,7 @@ def select(
     denied = [item for item in modifiers if item.prep is Prep.SIDE and item.denied]
     for item in denied:
         side = side_word(" ".join(item.words))
-        at_side = _at_side(SIDES[side], things, 1, scene, phrase) if side else []
+        at_side = _at_side(SIDES.get(side, side), things, 1, scene, phrase) if side else []
         things = [thing for thing in things if thing not in at_side]
     sides = [
         side_word(" ".join(item.words))
@@ -73,7 +76,7 @@ def select(
     if len(selected) > 1:  # "the far left cup"
         selected = [word for word in selected if word not in ("far", "near")]
     for word in (*selected, *(side for side in sides if side is not None)):
-        things = _at_side(SIDES[word], things, count, scene, phrase)
+        things = _at_side(SIDES.get(word, word), things, count, scene, phrase)
     return things
 
 
@@ -104,7 +107,11 @@ def _nth(
 ) -> Thing:
     """The n-th from the left unless another side is said; parts count from the top."""
     if all(thing.part is not None or thing.board is not None for thing in things):
-        ordered = things
+        # Parts are listed from the top down, boards from the bottom up.
+        upward = things[0].board is not None
+        ordered = things[::-1] if origin == ("top" if upward else "bottom") else things
+    elif origin in ("top", "bottom"):
+        raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=origin)
     else:
         if origin is None and space.is_deep(things, scene):
             why = "they stand one behind the other; say 'front', 'middle' or 'back'"
@@ -134,6 +141,8 @@ def _by_size(
 def _at_side(
     side: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
+    if side in ("top", "bottom"):
+        return [_nth("first", side, things, scene, phrase)]
     if side == "middle":
         if len(things) % 2 == 0:
             names = ", ".join(thing.name for thing in things)

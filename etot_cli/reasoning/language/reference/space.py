@@ -97,6 +97,9 @@ def holds_at(
         ),
         Prep.OF: lambda landmark: thing.name == landmark.name,
         Prep.CONTAINING: lambda landmark: lies_in(landmark, thing, scene),
+        Prep.WITH: lambda landmark: (
+            lies_in(landmark, thing, scene) or rests_on(landmark, thing, scene)
+        ),
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
         Prep.UNDER: lambda landmark: thing.name in _bearers(landmark, scene),
         Prep.ABOVE: lambda landmark: landmark.name in _bearers(thing, scene),

@@ -32,6 +32,13 @@ def is_robot(phrase: NounPhrase) -> bool:
 
 def usual_form(phrase: NounPhrase) -> NounPhrase:
     """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
+    for item in phrase.modifiers:
+        if item.prep is Prep.SIDE and item.words[0] in ORDINALS and phrase.words:
+            # "The drawer second from the top"
+            side = replace(item, words=item.words[1:])
+            words = (*phrase.words[:-1], item.words[0], phrase.words[-1])
+            modifiers = tuple(side if one is item else one for one in phrase.modifiers)
+            return usual_form(replace(phrase, words=words, modifiers=modifiers))
     last = phrase.words[-1] if phrase.words else ""
     if last in _GENERAL and len(phrase.words) == 1:
         determiner = _GENERAL[last]

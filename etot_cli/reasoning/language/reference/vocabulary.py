@@ -92,6 +92,11 @@ class Entry:
         named = {word for word in self.own if basic_color(word)}
         return color in named or (not named and self.color == color)
 
+    def colors(self) -> frozenset[str]:
+        """The basic colours that it is called by, or else the one that it has."""
+        named = frozenset(color for word in self.own if (color := basic_color(word)) is not None)
+        return named or frozenset(() if self.color is None else (self.color,))
+
     def is_colored(self) -> bool:
         """Whether anything is known of its colour."""
         return self.color is not None or any(basic_color(word) for word in self.own)

@@ -159,12 +159,13 @@ REASONS = {
     "rather": "say only what is to be done",
     "instead": "say only what is to be done",
     "upside": "how a thing is to lie cannot be asked for",
+    "where": "where something is does not say what is there: say into, onto or beside what",
     "nothing": "say what is to be done",
     "never": "say first what is to be done",
 }  # fmt: skip
 """Why words are not understood, wherever they stand."""
 BLAMED = frozenset(
-    {"push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
+    {"where", "push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
 )
 """Words that are understood in some places only, and where they are not are what is wrong."""
 ALL_WORDS = GRAMMAR_WORDS | words_of(

@@ -29,6 +29,14 @@ ANYHOW = """
 """
 TOGETHER = "[all|both] together"
 SEPARATELY = "separately, apart from each other, individually, apart"
+ONE_EACH = """
+    one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
+    one to each, one in each one
+"""
+BY_COLOR = """
+    by [their] (color|colour), according to [their] (color|colour), sorted by (color|colour),
+    matched by (color|colour)
+"""
 STARTING_WITH = "starting with, beginning with"
 IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,

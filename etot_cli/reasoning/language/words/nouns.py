@@ -38,6 +38,28 @@ RELATIVE_NOT = """
     (that|which|who) (is|are) not [currently|yet], (that|which) do not (stand|lie|sit|rest),
     (that|which) does not (stand|lie|sit|rest), (that|which) isn t, not being
 """
+FREE_RELATIVE = """
+    (what|whatever) (is|lies|stands|sits|rests) [currently|now|left],
+    (that|all) which (is|lies|stands|sits)
+"""
+"""Before a place: everything that is there."""
+LACKING = """
+    without, with no, not (containing|holding), (that|which) (has|have|holds|hold) no,
+    (that|which) (contains|contain) no, (that|which) (does|do) not (have|hold|contain), has no
+"""
+MATCHING = """
+    of (the same|its|their|its own|their own|the matching|a matching|matching) (color|colour),
+    (with|in) (the|a) (same|matching) (color|colour), (with|in) (matching|its|their) (color|colour),
+    (that|which) (matches|match) [it|them] in (color|colour), (that|which) (matches|match) them,
+    (that|which) (matches|match) (its|their|the) (color|colour), (that|which) (matches|match) it,
+    (that|which) (has|have|is of|are of) the same (color|colour),
+    (that|which) (has|have) (its|their) (color|colour), matching (its|their) (color|colour),
+    in (its own|their own) (color|colour)
+"""
+MATCHING_ADJECTIVES = (
+    "matching, corresponding, same color, same colour, same colored, same coloured"
+)
+RELATIVE_NEITHER = "(that|which) (is|are) neither"
 NOT_PLACED = "not"
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,

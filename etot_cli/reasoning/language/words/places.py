@@ -25,11 +25,15 @@ class Prep(StrEnum):
     NEAREST = "nearest"
     FARTHEST = "farthest"
     CONTAINING = "containing"
+    WITH = "with"
+    """It is in or on what is meant."""
     BEARING = "bearing"
     SIDE = "side"
     """"on the left", "at the back": the word says which."""
     QUALITY = "quality"
     """"that is red", "red" after "everything": the words say which."""
+    MATCHING = "matching"
+    """"of the same colour": as each of the things that go there."""
     EXCEPT = "except"
     """Those that fit, without the phrases' things."""
 
@@ -42,7 +46,8 @@ SIDE = """
     (desk|table|scene|room|row),
     (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
     (on|at) the (left|right) of the (desk|table|scene),
-    on the far (left|right), in front, in back, at the very (left|right|front|back), in the row
+    on the far (left|right), in front, in back, at the very (left|right|front|back), in the row,
+    (at|from|on) the (top|bottom)
 """
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on [top of], upon, atop, on the top of, (standing|lying|sitting) on",
@@ -56,14 +61,18 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FRONT: "in front of",
     Prep.UNDER: "underneath, under, below, beneath",
     Prep.ABOVE: "above, over",
-    Prep.NEAREST: "(closest|nearest) [to]",
-    Prep.FARTHEST: "(farthest|furthest|far) [away] from, away from",
+    Prep.NEAREST: "(closest|nearest|closer|nearer) [to]",
+    Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from, away from",
 }
 INTO = "in to, into, inside [of], in, within"
 ONTO = "onto, on to, on [the] top of, on, upon, atop, over"
 INTO_DIRECTED = "in to, into, inside [of]"
 ONTO_DIRECTED = "onto, on to, on top of, over"
 TO = "[over] to"
+AMONG = """
+    over, among, amongst, between, across, into, in, onto, on, to
+"""
+"""Before places that things are to be distributed over."""
 HERE = "inside, in there, on there, there, on top, in, into it"
 HOME = """
     back [to its place], to (its|their|the) [original|old|previous] (place|places|position|spot),

@@ -18,8 +18,17 @@ FRAMES = """
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like, i want, let us, try to, the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, would you mind, your job is, it is time to,
-    i would appreciate it if you could, help me, help me to, we need to, you are to
+    i would appreciate it if you could, help me, help me to, we need to, you are to,
+    (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
+    be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
+    do me a favour and, i would be (glad|happy|grateful) if you (would|could)
 """
+SAME_AGAIN = """
+    do the same (with|for|to), [and] so (do|does|should|must), the same (goes|applies|holds) for,
+    likewise [for|with], same (with|for)
+"""
+"""Before things that what was just asked for is asked for, too."""
+ALSO = "too, as well, also, likewise"
 LEADING_FIRST = "first, firstly, first of all, to begin with, to start with, as a first step"
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = "finally, lastly, last, last of all, at the end, in the end, as a last step"

@@ -6,7 +6,7 @@ PICK = """
     pick[ing] up, pick[ing], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up], fetch[ing],
     get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up], seiz(e|ing), collect[ing], hand me,
     rais(e|ing), choose and pick up, bring me, giv(e|ing) me, pass[ing] me, retriev(e|ing),
-    gather[ing]
+    gather[ing], (fetch|fetching|get|getting|grab|find|take) me
 """
 PUT = """
     put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
@@ -17,6 +17,9 @@ PUT = """
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
     add[ing]
 """
+DISTRIBUTE = """
+    distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
+"""
 PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 BRING = """
@@ -24,7 +27,7 @@ BRING = """
     transfer[ring]
 """
 REMOVE = """
-    remov(e|ing), clear[ing] [away], unload[ing], extract[ing], tak(e|ing) (out|off|away),
+    remov(e|ing), clear[ing] away, unload[ing], extract[ing], tak(e|ing) (out|off|away),
     get[ting] (out|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
@@ -43,10 +46,22 @@ MODAL = """
     put|be placed),
     (is|are) supposed to be, goes, go, belong[s]
 """
-WANT = "i want, i would like, i d like, i need, we want, we need, i would love, i prefer"
+WANT = """
+    i want, i would like, i d like, i need, we want, we need, i would love, i prefer,
+    (can|could|may) (i|we) have, i would (like|love) to (have|see), i want to (have|see)
+"""
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), stay[s], remain[s], end[s] up,
     get[s]
+"""
+COVER = "cover[ing] [up]"
+UNCOVER = "uncover[ing]"
+DONE = """
+    [to be] (put|placed|moved|brought|taken|set|stored|dropped|inserted|transferred)
+"""
+"""What is wanted of a thing that is to go somewhere."""
+TAKEN = """
+    [to be] (taken|removed|moved|lifted|cleared) [away]
 """
 KEEP = "keep[ing], leav(e|ing)"
 REORIENT = """

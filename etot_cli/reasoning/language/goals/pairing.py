@@ -1,0 +1,127 @@
+"""Things that each get a place of their own: of their colour, or one for each place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations, islice
+
+from etot_cli.reasoning.builtin.goal import Grouping, Put, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import (
+    NounPhrase,
+    PutGroup,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.distribution import is_matching, unmatched
+from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+
+_ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE, Toward.TO: Role.PLACE}
+
+
+def is_by_color(group: PutGroup) -> bool:
+    """Whether a phrase of a group says that things and places match."""
+    targets = [target for item in group.destinations for target in item.targets]
+    return any(map(is_matching, (*group.things.phrases, *targets)))
+
+
+def by_color(context: Context, group: PutGroup) -> None:
+    """Adds a step for each thing, to the places of its colour."""
+    phrases = group.things.phrases
+    text = " and ".join(phrase.text for phrase in phrases)
+    toward, targets = _places(context, group, text)
+    if any(map(is_matching, phrases)):
+        # "The matching lid on the pot": the pot is known, its lid is sought.
+        plain = [context.phrases.meaning(unmatched(phrase), Role.THEME) for phrase in phrases]
+        fitting = [thing for item in plain for option in item.options for thing in option]
+        themes = [_of_color(context, target, fitting, text) for target in targets]
+        if any(len(found) != 1 for found in themes):
+            raise ReferenceProblem(text, "several match in colour", 2)
+        things = [found[0] for found in themes]
+    else:
+        indices = context.phrases.things(Things(phrases, group.things.either), Role.THEME)
+        things = [thing for index in indices for thing in context.only(index, "say which ones")]
+    things = [thing for thing in dict.fromkeys(things) if thing not in targets]
+    for thing in things:
+        theme = context.single(thing, text)
+        found = _of_color(context, thing, targets, group.destinations[0].targets[0].text)
+        referent = Resolved(
+            tuple((target,) for target in found), definite=False, other=False, noun=found[0].name
+        )
+        where = context.discourse.add(referent, text, _ROLES[toward])
+        places = tuple(context.phrases.relations_to(toward, where, [theme]))
+        context.discourse.put |= {theme}
+        context.steps.append(Put((theme,), places))
+        context.discourse.last_places = places
+
+
+def _places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[Thing]]:
+    """The relation, and all things that the group's one destination may mean."""
+    destination = group.destinations[0]
+    toward = destination.toward
+    if len(group.destinations) > 1 or destination.beside or toward not in _ROLES:
+        raise ReferenceProblem(text, "say into or onto which things of the same colour", 2)
+    resolved = [
+        context.phrases.meaning(unmatched(target), _ROLES[toward]) for target in destination.targets
+    ]
+    found = [thing for item in resolved for option in item.options for thing in option]
+    return toward, list(dict.fromkeys(found))
+
+
+def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str) -> list[Thing]:
+    colors = context.phrases.colors_of(thing)
+    if not colors:
+        raise ReferenceProblem(text, f"the scene does not say what colour {thing.name} has", 2)
+    found = [item for item in among if context.phrases.colors_of(item) == colors]
+    if not found:
+        raise ReferenceProblem(text, f"none of them has the colour of {thing.name}", 3)
+    return found
+
+
+def is_one_each(group: PutGroup) -> bool:
+    """Whether every place is to get one of some things ("a ball in every cup")."""
+    things, destinations = group.things.phrases, group.destinations
+    return (
+        len(things) == len(destinations) == 1
+        and len(destinations[0].targets) == 1
+        and quantity_of(destinations[0].targets[0].determiner).every
+        and _is_one(things[0])
+    )
+
+
+def _is_one(phrase: NounPhrase) -> bool:
+    quantity = quantity_of(phrase.determiner)
+    return quantity.count == 1 and not quantity.definite and not quantity.other
+
+
+def one_each(context: Context, group: PutGroup) -> None:
+    """Adds a step in which every place gets exactly one of the things."""
+    text = group.destinations[0].targets[0].text if group.destinations[0].targets else ""
+    toward, targets = _places(context, group, text)
+    count = len(targets)
+    (phrase,) = group.things.phrases if len(group.things.phrases) == 1 else (None,)
+    if phrase is not None and _is_one(phrase):
+        if not phrase.words:
+            raise ReferenceProblem(phrase.text, "say which things go there", 2)
+        resolved = context.phrases.meaning(phrase, Role.THEME)
+        fitting = dict.fromkeys(thing for option in resolved.options for thing in option)
+        free = [thing for thing in fitting if thing not in targets]
+        options = tuple(islice(combinations(free, count), MAX_OPTIONS))
+        if not options:
+            raise ReferenceProblem(phrase.text, f"there are {len(free)} for {count} places", 2)
+        chosen = Resolved(options, definite=False, other=False, noun=resolved.noun)
+        themes = [context.discourse.add(chosen, phrase.text, Role.THEME)]
+    else:
+        themes = context.phrases.things(group.things, Role.THEME)
+        number = sum(len(context.only(index, "say which ones")) for index in themes)
+        if number != count:
+            raise ReferenceProblem(text, f"there are {number} things for {count} places", 2)
+    every = Resolved((tuple(targets),), definite=True, other=False, noun=text.split()[-1])
+    where = context.discourse.add(every, text, _ROLES[toward])
+    places = tuple(context.phrases.relations_to(toward, where, themes))
+    context.discourse.put |= {*themes}
+    context.steps.append(Put(tuple(themes), places, Grouping.SEPARATELY))
+    context.discourse.last_places = places
