@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format docs figures schemas bench bench-paper bench-random check-tasks check-random check-execute check-reconstruct soak clean
+.PHONY: demo test test-fast lint format docs figures schemas bench bench-paper bench-random calibrate check-tasks check-random check-execute check-reconstruct soak clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -49,6 +49,9 @@ bench-random: $(VENV)/.dev  ## the same methods on forty random problems
 
 check-tasks: $(VENV)/.dev  ## check that every shipped task is physically what it is meant to be
 	$(BIN)/python -m tests.measure.check_tasks
+
+calibrate: $(VENV)/.dev  ## compare the odds that --worlds tells with what then happens
+	$(BIN)/python -m tests.measure.calibrate
 
 check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
 	$(BIN)/python -m tests.measure.check_random

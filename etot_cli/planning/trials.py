@@ -24,7 +24,19 @@ def try_plan(
     success: Sequence[Condition] = (),
     until_s: float = NEVER,
 ) -> Survival:
-    """Carries a plan out in all worlds but the nominal one.
+    """In how many worlds a plan holds; see :func:`survivors`."""
+    alive = survivors(plan, simulator, reasoner, success, until_s)
+    return Survival(len(alive), simulator.world_count - 1)
+
+
+def survivors(
+    plan: Sequence[Action],
+    simulator: Simulator,
+    reasoner: Reasoner,
+    success: Sequence[Condition] = (),
+    until_s: float = NEVER,
+) -> tuple[int, ...]:
+    """Carries a plan out in all worlds but the nominal one; the worlds in which it holds.
 
     Args:
         plan: the actions.
@@ -38,7 +50,7 @@ def try_plan(
     """
     state, scene = simulator.start(until_s)
     alive = [world for world in range(simulator.world_count) if world != NOMINAL]
-    trials, finals = len(alive), dict.fromkeys(alive, scene)
+    finals = dict.fromkeys(alive, scene)
     for action in plan:
         simulated = simulator.submit(state, action, until_s).result()
         records = {world: simulated.outcomes[world].record for world in alive}
@@ -49,5 +61,4 @@ def try_plan(
             if reasoner.judge(action, record).outcome is Outcome.SUCCESS
         ]
         state = simulated.end
-    done = [world for world in alive if all(holds(item, finals[world]) for item in success)]
-    return Survival(len(done), trials)
+    return tuple(world for world in alive if all(holds(item, finals[world]) for item in success))

@@ -33,6 +33,7 @@ RUN_BY_CI = {
     "bench": "it measures for minutes",
     "bench-paper": "it runs 640 trials",
     "bench-random": "it runs 320 trials",
+    "calibrate": "it simulates for minutes",
     "check-tasks": "it simulates for minutes",
     "check-random": "it plans for minutes",
     "check-execute": "it executes for an hour",
