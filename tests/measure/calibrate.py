@@ -58,13 +58,14 @@ class Setting:
 
 def settings() -> Iterator[Setting]:
     """Easy to hopeless: start poses further and further off, frictions towards their cliffs."""
-    unit = UNIT | {"at": [0.45, 0.02], "yaw_deg": -90}
+    ajar = [{"name": "top", "travel": 0.14, "open": 0.03}, {"name": "bottom", "travel": 0.0}]
+    unit = UNIT | {"at": [0.45, 0.02], "yaw_deg": -90, "drawers": ajar}
     poses = [
         ("ball", {"ball": BALL | {"at": [0.36, 0.15]}}, "[PICK UP, ball]"),
         ("big ball", {"ball": BIG_BALL | {"at": [0.4, -0.1]}}, "[PICK UP, ball]"),
         ("box", {"box": BOX | {"at": [0.36, -0.2]}}, "[PICK UP, box]"),
         ("pen", {"pen": PEN | {"at": [0.4, 0.1]}}, "[PICK UP, pen]"),
-        ("drawer", {"unit": unit}, "[OPEN, unit]"),
+        ("drawer ajar", {"unit": unit}, "[OPEN, unit]"),
         ("put", {"box": BOX | {"at": [0.36, -0.2]}, "base": BOX | {
             "size": [0.08, 0.08, 0.05], "at": [0.4, 0.15], "mass": 0.3}},
          "[PICK UP, box] [PUT ON, base]"),

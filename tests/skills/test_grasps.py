@@ -8,7 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from etot_cli.skills.action import GraspPose
+from etot_cli.control.simulated_world import SimulatedWorld
+from etot_cli.skills.action import GraspPose, parse_plan
 from etot_cli.skills.grasps.candidates import (
     FINGER_ROOM,
     WIDTH_MARGIN,
@@ -17,6 +18,8 @@ from etot_cli.skills.grasps.candidates import (
     sample_grasps,
 )
 from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.motion.motion import Motion
+from etot_cli.skills.motions import plan_motions
 from tests.skills.helpers import BALL, BOX, CUP, PEN
 from tests.world.helpers import Stage, make_scene, set_up
 
@@ -182,3 +185,18 @@ def test_a_line_across_a_corner_is_no_grasp(yaw: float) -> None:
 def test_a_chord_of_a_wide_round_thing_is_no_grasp(thing: dict[str, Any]) -> None:
     _, found = sample(thing | {"at": [0.4, 0.1]})
     assert all(grasp.width > 0.06 for grasp in found.grasps), "only near its widest line"
+
+
+def test_a_ball_as_wide_as_the_gripper_is_held_as_low_as_it_fits() -> None:
+    """The fingers slide off less, the nearer to the equator they close."""
+    apple = BALL | {"diameter": 0.085, "mass": 0.15, "at": [0.4, 0.0]}
+    world = SimulatedWorld(make_scene(apple=apple, box=BOX | {"at": [0.4, 0.3]}), 0)
+    belief = world.believe(world.start()[0])
+    for name, least, most in (("apple", 0.25, 0.45), ("box", 0.0, 0.01)):
+        found = sample_grasps(belief.world, belief.solids, belief.data, name, GraspPose.VERTICAL)
+        assert least <= found.grasps[0].friction <= most
+    motion = next(plan_motions(belief, parse_plan("[PICK UP, apple]")[0]))
+    assert isinstance(motion, Motion)
+    weight = 0.15 * 9.81 / (2 * 30.0)
+    assert motion.details["friction_needed"] == pytest.approx(motion.details["slant"] + weight)
+    assert motion.details["friction_share"] == pytest.approx(motion.details["friction_needed"])

@@ -7,8 +7,9 @@ fingers and there is room for a finger on either side of it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -41,6 +42,10 @@ SQUARE = 0.8
 """Cosine of the largest angle between the closing direction and a surface's normal: 37°, within the
 friction cone of the pads (45° at their friction of 1) by a margin for what is perceived wrongly. A
 line across a box's corner meets its sides at more."""
+SLANTED = 0.2
+"""Needed friction above which others are looked for: surfaces 11° off the square."""
+FRICTION_COST = 0.1
+"""Added to the score for a needed friction of 1: as much as 12 mm beside the centre."""
 LEAN_COST = 0.25
 """Added to the score per radian of lean."""
 TOO_WIDE_TRIES = 1.35
@@ -52,7 +57,9 @@ class Grasp:
     """A tool pose to close the fingers at.
 
     ``width``: distance between the surfaces [m]; ``opening``: distance between the pads for the
-    approach [m]; ``pose``: from above or from the side; ``score``: lower is better.
+    approach [m]; ``pose``: from above or from the side; ``score``: lower is better; ``friction``:
+    coefficient without which the fingers slide off as they close, the tangent of the larger angle
+    between their line and a surface's normal.
     """
 
     tool: Pose
@@ -60,6 +67,7 @@ class Grasp:
     opening: float
     pose: GraspPose
     score: float
+    friction: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -96,6 +104,10 @@ def sample_grasps(
     if pose in (None, GraspPose.VERTICAL):
         bounds = low, high, center, axis
         _from_above(world, solids, data, name, bounds, grid(bounds, closings), grasps, wide)
+        if all(grasp.friction > SLANTED for grasp in grasps):
+            # Too wide at the middle, as large balls are. The lower, the less friction it takes.
+            lines = grid(bounds, closings, between=True)
+            _from_above(world, solids, data, name, bounds, lines, grasps, wide)
         if not grasps:
             lines = through_parts(world, data, name, bounds, closings)
             _from_above(world, solids, data, name, bounds, lines, grasps, wide)
@@ -242,16 +254,19 @@ def _add(
     if interval.squareness < SQUARE:
         return
     largest = world.robot.spec.gripper.opening
+    cosine = min(interval.squareness, 1.0)
+    friction = math.sqrt(1.0 - cosine**2) / cosine
+    score += FRICTION_COST * friction
     tool = Pose(point, rotation_from_axes(approach, closing))
     if interval.width + WIDTH_MARGIN <= largest:
         opening = min(largest, interval.width + 2 * FINGER_ROOM)
-        grasps.append(Grasp(tool, interval.width, opening, pose, score))
+        grasps.append(Grasp(tool, interval.width, opening, pose, score, friction))
     elif interval.width <= largest * TOO_WIDE_TRIES:
-        wide.append(Grasp(tool, interval.width, largest, pose, score))
+        wide.append(Grasp(tool, interval.width, largest, pose, score, friction))
 
 
 def tilted(grasp: Grasp, angle: float) -> Grasp:
     """The same contact with the hand tilted about the closing direction by ``angle`` [rad]."""
     rotation = turn_about(grasp.tool.rotation[:, 1], angle) @ grasp.tool.rotation
     tool = Pose(grasp.tool.position, rotation)
-    return Grasp(tool, grasp.width, grasp.opening, grasp.pose, grasp.score + LEAN_COST * abs(angle))
+    return replace(grasp, tool=tool, score=grasp.score + LEAN_COST * abs(angle))

@@ -17,6 +17,8 @@ Bounds = tuple[Vector, Vector, Vector, Vector | None]
 
 FINGER_DEPTH = 0.05
 """Depth of the space between the fingers, from the tool point backwards [m]."""
+BETWEEN = 3
+"""Depths between the upper one and the middle."""
 MAX_PARTS = 32
 """Parts of an object that are looked at one by one where nothing else can be grasped."""
 
@@ -32,14 +34,19 @@ class Line(NamedTuple):
     depth: float
 
 
-def grid(bounds: Bounds, closings: Iterable[Vector]) -> list[Line]:
-    """Lines all over the object."""
+def grid(bounds: Bounds, closings: Iterable[Vector], *, between: bool = False) -> list[Line]:
+    """Lines all over the object; ``between``: at the depths between those usually looked at."""
     low, high, center, axis = bounds
     lines = []
+    depths = sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))})
+    if between:
+        depths = (
+            np.linspace(depths[0], depths[-1], BETWEEN + 2)[1:-1].tolist() if depths[1:] else []
+        )
     for closing in closings:
         across = np.array([-closing[1], closing[0], 0.0])
         offsets = _offsets(float(np.abs(across) @ (high - low)) / 2, axis, across)
-        for depth in sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))}):
+        for depth in depths:
             for offset in offsets:
                 point = center + across * offset
                 point[2] = high[2] - depth

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import chain, islice
 
 import numpy as np
@@ -14,6 +15,7 @@ from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, arm_stopped, failed
+from etot_cli.world.build.pads import grip_friction
 from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
@@ -34,6 +36,8 @@ MAX_SUSPECTS = 4
 """Objects that are taken away one at a time to see whether that helps ..."""
 MAX_TRIED_AGAIN = 48
 """... and the grasps that are then looked at again."""
+GRAVITY = 9.81
+"""[m/s²]"""
 TILTS = (-0.3, 0.3, -0.6, 0.6)
 """Leans of the hand about the closing direction [rad]."""
 
@@ -77,7 +81,7 @@ def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Gras
     level = abs(float(tool.rotation[2, 2])) < 0.5
     pose = GraspPose.HORIZONTAL if level else GraspPose.VERTICAL
     details = rehearsed.details
-    yield Grasp(tool, details["width"], details["opening"], pose, 0.0)
+    yield Grasp(tool, details["width"], details["opening"], pose, 0.0, details["slant"])
 
 
 def _motion(belief: Belief, action: Action, prepared: PreparedGrasp) -> Motion | None:
@@ -97,8 +101,23 @@ def _motion(belief: Belief, action: Action, prepared: PreparedGrasp) -> Motion |
             Wait("hold", HOLD_TIME, holding=holding),
         ),
         tool_at=framed(action.target, belief.object_pose(action.target), grasp.tool),
-        details={"width": grasp.width, "opening": grasp.opening},
+        details={
+            "width": grasp.width,
+            "opening": grasp.opening,
+            "slant": grasp.friction,
+            **_friction(belief, action.target, grasp),
+        },
     )
+
+
+def _friction(belief: Belief, name: str, grasp: Grasp) -> dict[str, float]:
+    """The coefficient that a grasp needs, for its slant and the weight, and the share of what there
+    is between pads and thing.
+    """
+    world, weight = belief.world, belief.world.entries[name].info.mass * GRAVITY
+    needed = grasp.friction + weight / (2.0 * world.robot.spec.gripper.force)
+    there = grip_friction(world.model, world.robot.pads[0], world.geoms_of(name))
+    return {"friction_needed": needed, "friction_share": needed / there}
 
 
 def pick_outcome(
@@ -172,9 +191,7 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
 def _spun(grasp: Grasp) -> Grasp:
     """The same grasp with the fingers exchanged."""
     rotation = grasp.tool.rotation @ np.diag([-1.0, -1.0, 1.0])
-    return Grasp(
-        Pose(grasp.tool.position, rotation), grasp.width, grasp.opening, grasp.pose, grasp.score
-    )
+    return replace(grasp, tool=Pose(grasp.tool.position, rotation))
 
 
 def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:

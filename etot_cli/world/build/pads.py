@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 STANDARD = 0.6
 """Friction of the surface against which a pad's own friction is stated: that of things by default.
@@ -49,6 +51,19 @@ def add_pad_pairs(mj: mujoco.MjSpec, pads: list[str], objects: list[str], factor
                     solref=list(thing.solref),
                     solimp=list(thing.solimp),
                 )
+
+
+def grip_friction(model: mujoco.MjModel, pad: int, geoms: NDArray[np.int64]) -> float:
+    """Smallest friction between a pad and some geoms of a compiled model, pads as described."""
+    own, priority = float(model.geom_friction[pad][0]), int(model.geom_priority[pad])
+    found = []
+    for geom in geoms:
+        friction, other = float(model.geom_friction[geom][0]), int(model.geom_priority[geom])
+        if other == priority:
+            found.append(own * friction / STANDARD)
+        else:
+            found.append(friction if other > priority else own)
+    return min(found, default=own)
 
 
 def _moving_geoms(body: Any, *, moves: bool) -> Iterator[Any]:
