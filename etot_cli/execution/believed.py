@@ -31,6 +31,8 @@ CREEP_STEPS = 120
 """Physics steps without momentum, in which overlaps come apart and gaps of 4 mm close."""
 SETTLE_S = 0.4
 """Time for what then still is not at rest, at most [s]."""
+FELL = 0.03
+"""What settles this much lower than it was seen hung in the air [m]."""
 GRIP_STEPS = 250
 """Physics steps in which the fingers close on what is held: half a second, as a real grip takes."""
 HELD_GAP = 0.002
@@ -78,16 +80,14 @@ class BelievedTwin:
             The stored state, to plan from, and the same state as relations see it.
         """
         world, data = self.world, self._data
-        mujoco.mj_resetData(world.model, data)
+        self._place_fastened(observation)
         self._put(observation)
         held = self._held(observation.robot, command)
-        closed = held is not None
-        self._hand(observation.robot, command, closed=closed)
-        if held is not None:
-            self._grip(held)
-        self._creep(held)
-        robot = SimulatedRobot(world, data)
-        robot.wait(SETTLE_S, Guards(), until_rest=True)
+        self._settle(observation, held)
+        if held is None and (hanging := self._hanging(observation)):
+            self._put(observation)
+            near = self._near_fingers(hanging)
+            self._settle(observation, min(near, key=near.__getitem__, default=None))
         data.time = 0.0
         data.qvel[:] = 0.0
         mujoco.mj_forward(world.model, data)
@@ -95,6 +95,30 @@ class BelievedTwin:
             self._memory = initial_memory(world, data)
         scene, self._memory = read_scene(world, data, self._memory)
         return save(world, data, self._memory), scene
+
+    def _settle(self, observation: Observation, held: str | None) -> None:
+        """Lets what was seen come to rest, with something in the hand or not."""
+        self._put(observation)
+        self._hand(observation.robot, closed=held is not None)
+        if held is not None:
+            self._grip(held)
+        self._creep()
+        robot = SimulatedRobot(self.world, self._data)
+        robot.wait(SETTLE_S, Guards(), until_rest=True)
+
+    def _hanging(self, observation: Observation) -> list[str]:
+        """What was seen in the air and fell in the twin. Between fingers it may be held even where
+        these are wide open, as what is a little too wide for them stays stuck.
+        """
+        return [
+            name
+            for name, entry in self.world.entries.items()
+            if entry.free
+            and entry.info.movable
+            and (seen := observation.objects.get(name)) is not None
+            and seen.mark is not Mark.LOST
+            and seen.position[2] - float(self._data.body(entry.body).xpos[2]) > FELL
+        ]
 
     def remember(self, memory: Memory) -> None:
         """Takes over what relations remember from the episode's start, for objects known here."""
@@ -121,12 +145,12 @@ class BelievedTwin:
 
     def _put(self, observation: Observation) -> None:
         world, data = self.world, self._data
+        mujoco.mj_resetData(world.model, data)
         robot, sensed = world.robot, observation.robot
         data.qpos[robot.qpos] = sensed.joints
         data.ctrl[robot.ctrl] = sensed.targets
         robot.set_opening(data, min(max(sensed.opening, 0.0), robot.spec.gripper.opening))
         missing = [name for name, item in world.entries.items() if item.free]
-        self._place_fastened(observation)
         for rank, (name, entry) in enumerate(world.entries.items()):
             for part in entry.parts:
                 value = observation.parts.get(f"{name}.{part.info.name}", part.lower)
@@ -169,28 +193,33 @@ class BelievedTwin:
         """What is in the hand: the object between fingers that did not close as far as told."""
         if command is None or robot.opening < command + HELD_GAP:
             return None
+        near = self._near_fingers(
+            [name for name, item in self.world.entries.items() if item.free and item.info.movable]
+        )
+        return min(near, key=near.__getitem__, default=None)
+
+    def _near_fingers(self, names: list[str]) -> dict[str, float]:
+        """Those objects that are seen near both fingers, and how far from the farther one [m]."""
         world, data = self.world, self._data
         sides: tuple[list[int], list[int]] = ([], [])
         for geom in range(world.model.ngeom):
             side = world.robot.finger_side.get(int(world.model.geom_bodyid[geom]))
             if side is not None and world.model.geom_contype[geom]:
                 sides[side].append(geom)
-        near = {}
-        for name, entry in world.entries.items():
-            if entry.free and entry.info.movable:
-                geoms = world.geoms_of(name)
-                near[name] = max(
-                    min(
-                        mujoco.mj_geomDistance(world.model, data, one, int(two), 0.1, None)
-                        for one in side
-                        for two in geoms
-                    )
-                    for side in sides
+        near = {
+            name: max(
+                min(
+                    mujoco.mj_geomDistance(world.model, data, one, int(two), 0.1, None)
+                    for one in side
+                    for two in world.geoms_of(name)
                 )
-        nearest = min(near, key=near.__getitem__, default="")
-        return nearest if nearest and near[nearest] <= NEAR_FINGERS else None
+                for side in sides
+            )
+            for name in names
+        }
+        return {name: far for name, far in near.items() if far <= NEAR_FINGERS}
 
-    def _hand(self, robot: RobotState, command: float | None, *, closed: bool) -> None:
+    def _hand(self, robot: RobotState, *, closed: bool) -> None:
         """Sends the twin's gripper where the robot's was sent."""
         gripper = self.world.robot.spec.gripper
         opening = 0.0 if closed else robot.opening
@@ -223,7 +252,7 @@ class BelievedTwin:
             data.qvel[others] = 0.0
         mujoco.mj_forward(world.model, data)
 
-    def _creep(self, held: str | None) -> None:
+    def _creep(self) -> None:
         """Steps without momentum, so that what overlaps comes apart without being flung away."""
         model, data = self.world.model, self._data
         for _ in range(CREEP_STEPS):

@@ -61,7 +61,7 @@ CASES = (
     Case("vessel knocked over that is not needed", "task2",
          {"when": "after_action", "after_action": 1, "knock_over": "black_holder"}),
     Case("vessel knocked over that is needed", "task6",
-         {"when": "committed", "knock_over": "target"}, "has fallen over"),
+         {"when": "committed", "knock_over": "chosen"}, "has fallen over"),
     Case("target taken away", "task2",
          {"when": "after_action", "after_action": 1, "remove": "target"}, "is gone"),
     Case("drawer pushed to half way", "task4",
