@@ -15,7 +15,7 @@ from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.perception.fitting import Freedom, Pose, Support, improved, support
 from etot_cli.execution.perception.scan import Scan, scan_of
-from etot_cli.execution.perception.search import NEAR, Match, chroma, find
+from etot_cli.execution.perception.search import NEAR, Match, chroma, find, start
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.protocols import Camera
@@ -29,7 +29,7 @@ STILL_THERE = 0.7
 """An object that agrees with so much of what is visible of its last place is still there."""
 STANDS = 0.9
 """... and in the same attitude, when that much agrees."""
-PLAINLY = 0.1
+PLAINLY = 0.25
 """Gain in what agrees for which another height or attitude is believed."""
 LEAST_AGREE = 20
 """... in so many points."""
@@ -41,14 +41,21 @@ MOVED_ON = 0.06
 """An object that is still there is this near to its last place [m]; else it was looked for."""
 GRIPPED = 0.003
 """Fingers less than this from closed or from fully open hold nothing [m]."""
-REACH = 0.035
-"""What is in the hand has a point this near to the tool point [m]."""
+AT_PADS = 0.014
+"""What is in the hand has surface this near to both pads [m]: perception errs by less."""
+BELOW = 0.02
+"""What was let go is in a container rather than on the desk when that is this near to the hand
+[m], seen from above."""
+SOMETHING = 60
+"""Readings that hang together and belong to nothing, from which a missing object may be there."""
+LET_GO = 0.004
+"""Fingers that have opened by more since they held something hold it no longer [m]."""
 PART_STEPS, PART_ROUNDS = 15, 3
 """Values of a part's joint that are compared, and how often between the two best ones."""
 PART_POINTS = 2500
 OF_FURNITURE = 0.005
 """Readings this near to furniture are its own [m]; what lies flat on it begins there."""
-MATCHED = 0.35
+MATCHED = 0.25
 """Matches with a lower score are none."""
 
 
@@ -68,6 +75,7 @@ class CameraEyes:
         self._known = KnownScene(scene)
         self._colors: dict[str, Array] = {}
         self._held: dict[str, Pose] = {}
+        self._grip = 0.0
         self._connected = False
         self._parts = {name: self._known.joint_value(name) for name in self._known.parts}
 
@@ -102,6 +110,8 @@ class CameraEyes:
         for name in known.free:
             if name not in found:
                 objects[name] = self._unseen(name, before[name], scan, state, in_hand, moved, last)
+        if in_hand and not self._held:
+            self._grip = state.opening
         self._held = in_hand
         return Observation(state, {name: objects[name] for name in known.free}, dict(self._parts))
 
@@ -282,7 +292,7 @@ class CameraEyes:
         last: Observation,
     ) -> Sighting:
         known = self._known
-        closed_on = self._closed_on_something(state) and not in_hand
+        closed_on = self._holding(state) and not in_hand
         if closed_on and name in self._held:
             in_hand[name] = self._held[name]
             return _sighting(known.tool() @ self._held[name], Mark.HELD)
@@ -306,7 +316,7 @@ class CameraEyes:
                 pose = Pose(before.rotation, known.tool().position - middle)
                 in_hand[name] = known.tool().inverse() @ pose
                 return _sighting(pose, Mark.HELD)
-        hidden = self._inside_something(surface, before, scan)
+        hidden = self._out_of_sight(name, before, scan)
         if hidden is not None:
             return _sighting(hidden, Mark.HIDDEN)
         return _sighting(before, Mark.LOST)
@@ -324,17 +334,29 @@ class CameraEyes:
                     return moved[region.body] @ pose
         return pose
 
-    def _inside_something(self, surface: Surface, before: Pose, scan: Scan) -> Pose | None:
-        """The container in which the object may be unseen, the nearest to the hand first."""
-        tool = self._known.tool().position
+    def _out_of_sight(self, name: str, before: Pose, scan: Scan) -> Pose | None:
+        """Where the object may be unseen: in a container, or on the desk below the hand that let
+        it go; what is nearest to the hand comes first.
+        """
+        surface, tool = self._known.surfaces[name], self._known.tool()
         options: list[tuple[float, Pose]] = []
         for region in self._known.regions:
             pose = self._in_region(region, surface, before)
-            borne = support(surface, pose, scan.view, scan.depth)
-            if not _contradicted(borne):
-                apart = float(np.linalg.norm((pose.position - tool)[:2]))
-                options.append((apart, pose))
-        return min(options, key=lambda item: item[0])[1] if options else None
+            aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
+            options.append((max(0.0, aside - float(max(region.half[:2]))), pose))
+        if name in self._held:
+            let_go = tool @ self._held[name]
+            lowest = float(let_go.place(surface.points)[:, 2].min())
+            drop = np.array([0.0, 0.0, lowest - self._known.scene.desk.top])
+            options.append((BELOW, Pose(let_go.rotation, let_go.position - drop)))
+        for _, pose in sorted(options, key=lambda item: item[0]):
+            if not _contradicted(support(surface, pose, scan.view, scan.depth)):
+                return pose
+        clusters = scan.clusters()
+        if clusters and len(clusters[0]) >= SOMETHING:
+            # Something lies there that nothing else explains, if in no way that was recognized.
+            return start(surface, before.rotation, scan.points[clusters[0]], scan.view)
+        return None
 
     def _in_region(self, region: Region, surface: Surface, before: Pose) -> Pose:
         """The object on the floor of a container, in the middle."""
@@ -349,17 +371,20 @@ class CameraEyes:
 
     # -- the hand -------------------------------------------------------------------------------
 
-    def _closed_on_something(self, state: RobotState) -> bool:
+    def _holding(self, state: RobotState) -> bool:
+        """Whether the fingers may hold something: between closed and open, not opened since."""
         opening = self._known.world.robot.spec.gripper.opening
-        return GRIPPED < state.opening < opening - GRIPPED
+        between = GRIPPED < state.opening < opening - GRIPPED
+        return between and (not self._held or state.opening < self._grip + LET_GO)
 
     def _in_hand(self, name: str, pose: Pose, state: RobotState) -> bool:
-        """Whether an object is where the fingers hold things."""
-        if not self._closed_on_something(state):
+        """Whether an object is between the pads and as wide as they are apart."""
+        if not self._holding(state):
             return False
-        surface, tool = self._known.surfaces[name], self._known.tool().position
-        apart, _ = surface.tree.query(pose.local(tool[None]))
-        return bool(apart[0] < REACH)
+        half = np.array([[0.0, state.opening / 2, 0.0]])
+        pads = self._known.tool().place(np.vstack([half, -half]))
+        apart, _ = self._known.surfaces[name].tree.query(pose.local(pads))
+        return bool(apart.max() < AT_PADS)
 
 
 def _contradicted(borne: Support) -> bool:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.execution.perception.fitting import Pose, Support, improved, rotation_by, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
-from etot_cli.reconstruction.capture.view import Array
+from etot_cli.reconstruction.capture.view import Array, View
 
 HEADINGS = 8
 MOST_CLUSTERS = 6
@@ -109,14 +109,20 @@ def _best(
 ) -> Match | None:
     readings = scan.points[cluster]
     few = readings[:: max(1, len(readings) // THINNED)]
+    ahead = few.mean(axis=0) - scan.view.position
+    ahead /= np.linalg.norm(ahead)
     guesses = []
     for attitude in attitudes:
         level = surface.round and abs(attitude[2, 2]) > 0.99
         for heading in [0.0] if level or _ball(surface) else np.arange(HEADINGS) / HEADINGS:
             turn = rotation_by(np.array([0.0, 0.0, 2 * np.pi * heading])) @ attitude
-            pose = improved(surface, _start(surface, turn, few, scan), few, scan.view, gates=COARSE)
-            apart, _ = surface.tree.query(pose.local(few))
-            guesses.append((float(np.minimum(apart, 0.03).mean()), pose))
+            first = start(surface, turn, few, scan.view)
+            # Which of a vessel's walls is seen is not known: it may stand nearer or farther.
+            for step in (0.0, 0.5, -0.5) if level else (0.0,):
+                moved = Pose(first.rotation, first.position + step * surface.radius * ahead)
+                pose = improved(surface, moved, few, scan.view, gates=COARSE)
+                apart, _ = surface.tree.query(pose.local(few))
+                guesses.append((float(np.minimum(apart, 0.03).mean()), pose))
     guesses.sort(key=lambda item: item[0])
     best: Match | None = None
     for _, guess in guesses[:PROMISING]:
@@ -126,7 +132,7 @@ def _best(
         own = np.isfinite(apart)
         if borne.share < LEAST_SHARE or own.sum() < LEAST_POINTS:
             continue
-        score = borne.share * (0.5 + 0.5 * float(own.mean()))
+        score = borne.share * (0.25 + 0.75 * float(own.mean()))
         if color is not None:
             unlike = float(np.linalg.norm(chroma(scan.colors[cluster[own]]) - color))
             score /= 1.0 + (unlike / UNLIKE) ** 2
@@ -135,15 +141,15 @@ def _best(
     return best
 
 
-def _start(surface: Surface, rotation: Array, readings: Array, scan: Scan) -> Pose:
+def start(surface: Surface, rotation: Array, readings: Array, view: View) -> Pose:
     """The thing with the middle of what would be seen of it in the middle of the readings."""
     middle = readings.mean(axis=0)
-    ahead = scan.view.position - middle
-    ahead /= np.linalg.norm(ahead)
+    towards = view.position - middle
+    towards /= np.linalg.norm(towards)
     normals = surface.normals @ rotation.T
-    facing = normals @ ahead > 0.2
+    facing = normals @ towards > 0.2
     shown = surface.points[facing] if facing.any() else surface.points
     # Inner walls face the camera too, but are behind what is nearer.
     placed = shown @ rotation.T
-    nearer = placed @ ahead > np.median(placed @ ahead) - surface.radius / 2
+    nearer = placed @ towards > np.median(placed @ towards) - surface.radius / 2
     return Pose(rotation, middle - placed[nearer].mean(axis=0))
