@@ -16,6 +16,7 @@ from etot_cli.execution.cameras.files import FileCamera
 from etot_cli.execution.cameras.realsense import RealSense
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.cameras.watched import WatchedCamera
+from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Camera, Eyes, RobotDevice
 from etot_cli.execution.robots.confirmation import ask, assumed, require_terminal
@@ -171,4 +172,10 @@ def open_cell(request: DeviceRequest) -> Cell:
     """
     check_names(request.robot, request.perception)
     opened = ROBOTS[request.robot_name](request)
-    return Cell(opened.robot, EYES[request.perception](request, opened), opened.world)
+    eyes = EYES[request.perception](request, opened)
+    grasps = None
+    if request.grasp_url is not None:
+        if not isinstance(eyes, CameraEyes):
+            raise EtotError("--grasp-url shows the server a picture; expected --perception camera")
+        grasps = GraspServer(request.grasp_url, eyes)
+    return Cell(opened.robot, eyes, opened.world, grasps)

@@ -41,6 +41,7 @@ from etot_cli.execution.trial import (
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.protocol import Outcome
 from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Motion, Trace
 from etot_cli.skills.motions import outcome_of, plan_motions
 from etot_cli.skills.outcome import SkillOutcome, failed
@@ -268,7 +269,9 @@ class Loop:
         command, look = self._command, self._looks[-1]
         with self._timed("motions"):
             belief = self._twin.belief(self._scene, f"{action}/{len(self._looks)}")
-            motion = next(plan_motions(belief, action, rehearsed), None)
+            motion = self._from_server(belief, action) or next(
+                plan_motions(belief, action, rehearsed), None
+            )
         if motion is None or isinstance(motion, SkillOutcome):
             nothing = failed(CauseKind.NO_EFFECT, [], "there is no motion for it")
             return _Tried(motion or nothing, look, command, truth)
@@ -288,6 +291,12 @@ class Loop:
         self._look(f"after {action}")
         outcome = outcome_of(belief, action, motion, trace, self._scene)
         return _Tried(outcome, look, command, truth, motion, trace, trajectory)
+
+    def _from_server(self, belief: Belief, action: Action) -> Motion | None:
+        grasps = self._cell.grasps
+        if grasps is None or action.verb is not Verb.PICK_UP:
+            return None
+        return grasps.motion(belief, action)
 
     def _class_of(self, carried: Carried, last: _Tried) -> FailureClass | None:
         if last.truth is None:

@@ -11,6 +11,7 @@ from typing import Protocol, runtime_checkable
 from etot_cli.control.simulator import world_seed
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.evaluation import Evaluation
+from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Eyes, Planner, RobotDevice
@@ -270,6 +271,8 @@ class Cell:
     robot: RobotDevice
     eyes: Eyes
     world: ExecutionWorld | None = None
+    grasps: GraspServer | None = None
+    """Who proposes grasps; the built-in sampler alone when None."""
 
 
 def simulated_world(task: Task, options: TrialOptions) -> ExecutionWorld:

@@ -7,19 +7,28 @@ lost. The arm is left out by where its joints are sensed to be; no OpenGL is nee
 
 from __future__ import annotations
 
+import cv2
 import mujoco
 import numpy as np
 from scipy.spatial import cKDTree
 
 from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
-from etot_cli.execution.perception.fitting import Freedom, Pose, Support, improved, support
-from etot_cli.execution.perception.scan import Scan, scan_of
+from etot_cli.execution.perception.fitting import (
+    TOLERANCE,
+    Freedom,
+    Pose,
+    Support,
+    improved,
+    support,
+    visible_points,
+)
+from etot_cli.execution.perception.scan import Scan, scan_of, view_of
 from etot_cli.execution.perception.search import NEAR, Match, chroma, find, start
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
-from etot_cli.execution.protocols import Camera
-from etot_cli.reconstruction.capture.view import Array
+from etot_cli.execution.protocols import Camera, Frame
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Region
 
@@ -76,6 +85,8 @@ class CameraEyes:
         self._colors: dict[str, Array] = {}
         self._held: dict[str, Pose] = {}
         self._grip = 0.0
+        self._frame: Frame | None = None
+        self._found: dict[str, Pose] = {}
         self._connected = False
         self._parts = {name: self._known.joint_value(name) for name in self._known.parts}
 
@@ -91,7 +102,8 @@ class CameraEyes:
         state = robot.state()
         known = self._known
         known.set_robot(state)
-        scan = scan_of(self._camera.frame(), known.scene.desk)
+        self._frame = self._camera.frame()
+        scan = scan_of(self._frame, known.scene.desk)
         self._leave_out_arm(scan)
         before = {name: _pose(last.objects[name]) if name in last.objects else known.nominal(name)
                   for name in known.free}  # fmt: skip
@@ -100,6 +112,7 @@ class CameraEyes:
         found = self._still_there(scan, before)
         for match in self._matched(scan, before, [n for n in known.free if n not in found]):
             found[match.name] = match.pose
+        self._found = found
         objects: dict[str, Sighting] = {}
         in_hand: dict[str, Pose] = {}
         for name, pose in found.items():
@@ -114,6 +127,22 @@ class CameraEyes:
             self._grip = state.opening
         self._held = in_hand
         return Observation(state, {name: objects[name] for name in known.free}, dict(self._parts))
+
+    def picture_of(self, name: str) -> tuple[Frame, Mask] | None:
+        """The last picture and an object's pixels (h, w) in it; None where it was not seen."""
+        if self._frame is None or name not in self._found:
+            return None
+        view, depth = view_of(self._frame), self._frame.depth
+        surface, pose = self._known.surfaces[name], self._found[name]
+        points = pose.place(surface.points[visible_points(surface, pose, view)])
+        pixels = np.round(view.project(points)).astype(np.int64)
+        inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
+        pixels, expected = pixels[inside], view.depth_of(points[inside])
+        read = depth[pixels[:, 1], pixels[:, 0]]
+        own = pixels[(read == 0) | (read > expected - TOLERANCE)]
+        mask = np.zeros(depth.shape, np.uint8)
+        mask[own[:, 1], own[:, 0]] = 1
+        return self._frame, cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((5, 5))) > 0
 
     def close(self) -> None:
         """Lets go of the camera; idempotent."""
