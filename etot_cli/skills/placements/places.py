@@ -86,6 +86,9 @@ DIRECTIONS = 16
 """Sides from which that is looked at."""
 NEXT_ROOM = 1.1
 """Room for another of its kind is left with so many times its own half width."""
+NEARLY_SWEPT = 4.0
+"""Cost of places by how much a door or drawer may come nearer than seen [m per m], as of room
+around them: what is pushed by a door is worse off than what a hand has little room at."""
 NO_ROOM_COST = 0.2
 """Cost of places that leave none [m], where others do."""
 LOOK_AHEAD = 24
@@ -272,7 +275,7 @@ class PlaceFinder:
         lift = rest + low[2] - relief.floor
         gap = least(self._free, 1.0, underside, self._cells) - cell
         kind = self._kinds(rest, lift, drop, gap, underside, float(high[2] - low[2]))
-        cost = self._costs(lift, drop, gap, kind, rotation)
+        cost = self._costs(lift, drop, gap, kind, rotation, underside)
         kind = self._forbid(kind, cost, underside)
         return _Turned(rotation, underside, float(high[2] - low[2]), rest, drop, kind, cost)
 
@@ -321,7 +324,13 @@ class PlaceFinder:
         return kind
 
     def _costs(
-        self, lift: Vector, drop: Vector, gap: Vector, kind: Cells, rotation: Vector
+        self,
+        lift: Vector,
+        drop: Vector,
+        gap: Vector,
+        kind: Cells,
+        rotation: Vector,
+        underside: Stamp,
     ) -> Vector:
         belief, support, points = self._belief, self._support, self._points
         away = np.linalg.norm(points - support.center[:2], axis=1)
@@ -332,6 +341,7 @@ class PlaceFinder:
                 np.hypot(*points.T) - belief.arm.comfortable_radius(support.center[2] + HAND_ABOVE)
             )
             cost += 0.3 * np.linalg.norm(points - near, axis=1)
+            cost += NEARLY_SWEPT * self._too_near_sweeps(underside)
         else:
             cost = -4 * np.minimum(gap, COMFORT) + 0.5 * away + 2 * drop
             if support.from_front:
@@ -346,6 +356,17 @@ class PlaceFinder:
             # The turns that a hand goes through a front with come in order.
             cost = cost + 0.03 * discomfort(belief, self._request.attached, rotation, points)
         return np.asarray(cost)
+
+    def _too_near_sweeps(self, underside: Stamp) -> Vector | float:
+        """By how much a door or drawer may get at places if it is not where it is seen [m] (m,)."""
+        if not self.relief.reserved.any():
+            return 0.0
+        error = self._belief.world.scene.perception
+        levers = [np.hypot(*entry.info.size[:2]) for entry in self._belief.world.entries.values()
+                  if entry.parts]  # fmt: skip
+        margin = error.position_m + np.radians(error.yaw_deg) * max(levers)
+        away = least(self._to_sweep, 1.0, underside, self._cells) - self.relief.cell
+        return np.asarray(np.maximum(margin - away, 0.0))
 
     def _forbid(self, kind: Cells, cost: Vector, underside: Stamp) -> Cells:
         """The kinds, with regard to keepouts, sweeps and preferences."""
