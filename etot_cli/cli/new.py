@@ -24,7 +24,9 @@ def new(
     ] = None,
     scene: Annotated[
         str | None,
-        typer.Option("--scene", metavar="NAME", help="A shipped scene or a file. [default: desk]"),
+        typer.Option(
+            "--scene", metavar="NAME", help="Shipped scene or task, or a file. [default: desk]"
+        ),
     ] = None,
     add: Annotated[
         list[str] | None,

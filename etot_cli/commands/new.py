@@ -13,13 +13,15 @@ from typing import Any
 
 import yaml
 
-from etot_cli.errors import EtotError
+from etot_cli.errors import EtotError, SpecError
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.topview import top_view
+from etot_cli.specs.document import read_document
 from etot_cli.specs.load import load_scene, load_task
-from etot_cli.specs.scene import Mesh, Mjcf
-from etot_cli.specs.shipped import find_shipped
+from etot_cli.specs.reading import MAX_BYTES, read_utf8
+from etot_cli.specs.scene import Mesh, Mjcf, Scene
+from etot_cli.specs.shipped import find_shipped, shipped_files
 from etot_cli.world.state import SceneState
 
 TEMPLATES: dict[str, dict[str, Any]] = {
@@ -48,7 +50,7 @@ _MOVE = re.compile(rf"(?P<name>\w+)@(?P<x>{_NUMBER}),(?P<y>{_NUMBER})")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewOptions:
-    """What the task is to be. ``scene``: a shipped scene's name or a file."""
+    """What the task is to be. ``scene``: a shipped scene or task by name, or a file of either."""
 
     file: Path
     instruction: str
@@ -78,13 +80,12 @@ def write_task(options: NewOptions) -> NewTask:
     """Writes a task file and a drawing of its scene beside it.
 
     Raises:
-        EtotError: an option cannot be used, or the file exists; SpecError with the place in the
-            new file when the scene cannot be as asked for.
+        EtotError: an option cannot be used, the file exists, or the scene cannot be as asked for;
+            nothing is written then.
     """
     if options.file.exists() and not options.force:
         raise EtotError(f"{options.file} exists already; --force replaces it")
-    source = find_shipped("scenes", options.scene)
-    scene = load_scene(source)
+    source, scene = _start(options.scene)
     if any(isinstance(item, Mesh | Mjcf) for item in scene.objects.values()):
         raise EtotError(f"{source} has objects from files; copy it with them and edit the copy")
     document = scene.model_dump(
@@ -112,8 +113,32 @@ def write_task(options: NewOptions) -> NewTask:
         raise EtotError(
             "the scene would be empty; add an object, e.g. --object ball=sphere@0.4,0.2"
         )
+    kept = options.file.exists()
+    before = read_utf8(options.file, MAX_BYTES, "a task") if kept else None
     write_atomically(options.file, _text(options.instruction, document))
-    return _look(options.file)
+    try:
+        return _look(options.file)
+    except EtotError as error:
+        # Whoever mends an option and tries again must not find a file in the way.
+        if before is None:
+            options.file.unlink(missing_ok=True)
+        else:
+            write_atomically(options.file, before)
+        if isinstance(error, SpecError):
+            raise SpecError(error.message, path=error.path) from None
+        raise
+
+
+def _start(name: str) -> tuple[Path, Scene]:
+    """The scene to start from, and the file that has it."""
+    tasks = shipped_files("tasks")
+    if name in tasks:
+        return tasks[name], load_task(tasks[name]).scene
+    source = find_shipped("scenes", name)
+    document = read_document(source).value
+    if isinstance(document, dict) and "scene" in document:
+        return source, load_task(source).scene
+    return source, load_scene(source)
 
 
 def _object(written: str) -> tuple[str, dict[str, Any]]:

@@ -70,6 +70,31 @@ def test_bad_input_gets_one_line(
     assert message in error and error.count("\n") == 1
 
 
+def test_what_cannot_be_leaves_nothing_behind(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """So the same command with a better option needs no --force."""
+    file = tmp_path / "mine.yaml"
+    command = ["new", str(file), "-i", "Take the box.", "--object", "box=box@0.4,0.1"]
+    assert run([*command, "--object", "b=box@0.4,0.1"]) == 2
+    said = capsys.readouterr().err
+    assert "overlaps" in said and str(file) not in said and not list(tmp_path.iterdir())
+    assert run(command) == 0
+    text = file.read_text()
+    assert run([*command, "--object", "b=box@0.4,0.1", "--force"]) == 2
+    assert file.read_text() == text
+
+
+def test_a_task_begins_with_the_scene_of_another(tmp_path: Path) -> None:
+    shipped, own = tmp_path / "one.yaml", tmp_path / "two.yaml"
+    made = write_task(
+        NewOptions(file=shipped, instruction="Close the drawer.", scene="task4", removals=["toy"])
+    )
+    assert set(made.state.states) == {"drawer"}
+    again = write_task(NewOptions(file=own, instruction="Open the drawer.", scene=str(shipped)))
+    assert set(again.state.states) == {"drawer"}
+
+
 def test_existing_file_is_kept(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text("precious")
