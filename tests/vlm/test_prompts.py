@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from etot_cli.control.simulated import WorldOutcome
 from etot_cli.reasoning.protocol import Assignment, FailedStep
 from etot_cli.reasoning.vlm import describe, schemas
 from etot_cli.reasoning.vlm.asking import Asker
@@ -23,6 +24,7 @@ from etot_cli.reasoning.vlm.notes import Notebook, NoteKind
 from etot_cli.reasoning.vlm.player import Player
 from etot_cli.reasoning.vlm.prompts import BUILTIN, Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
+from etot_cli.reasoning.vlm.rendered import Unseen
 from etot_cli.reasoning.vlm.session import VlmSession
 from etot_cli.skills.action import Action, GraspPose, Verb, parse_plan
 from etot_cli.specs.scene import Scene
@@ -376,3 +378,18 @@ def test_every_place_that_plans_know_is_named_and_understood(make_settings: Make
     with model(make_settings, rule("branches", json.dumps(plan))) as (reasoner, _, _):
         (branch,) = reasoner.propose(Assignment("Put the spoon left of the ball."), SCENE)
     assert branch.actions == parse_plan("[PICK UP, spoon] [PUT ON, desk] (left of ball)")
+
+
+# -- several worlds ----------------------------------------------------------------------------
+
+
+def test_without_pictures_varied_worlds_are_judged_by_their_state(make_settings: Make) -> None:
+    """One question for an action, however many worlds it was tried in."""
+    rules = [rule("compare", '{"before": [], "after": [], "outcome": "success"}')]
+    unseen = Unseen()
+    records = [RolloutRecord(SCENE, SCENE, True, None) for _ in range(5)]
+    unseen.remember(WorldOutcome(records[0]))
+    with model(make_settings, *rules, nominal=unseen.knows) as (reasoner, server, _):
+        verdicts = [reasoner.judge(Action(Verb.OPEN, "chest"), record) for record in records]
+    assert verdicts == [SUCCESS] * 5
+    assert [request.role for request in server.requests] == ["compare"]
