@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 
 from etot_cli.reasoning.builtin.relations import container_parts
+from etot_cli.reasoning.language.grammar.text import normalized
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
@@ -28,7 +29,7 @@ Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _UNMADE = re.compile(
-    r"\b(?:not|n't|never|neither|nor|no|none|nothing|without|except|but|instead)\b", re.IGNORECASE
+    r"\b(?:not|never|neither|nor|no|none|nothing|without|except|but|instead)\b", re.IGNORECASE
 )
 """Words that turn a meaning round: what they are about is no part of a rewording, nor are they
 left out of one."""
@@ -70,15 +71,15 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
 def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     text = refused.instruction
     names = _Names(scene)
-    mentions = _mentions(_UNMADE.split(text, maxsplit=1)[0], scene, names)
+    mentions = _mentions(_UNMADE.split(normalized(text), maxsplit=1)[0], scene, names)
     said = [mention.info.name for mention in mentions]
     for name in refused.candidates[:3]:
         yield _replaced(text, refused.phrase, names.of(name))
-    unmade = _UNMADE.findall(text)
+    unmade = _UNMADE.findall(normalized(text))
     if refused.without and not refused.understood:
         yield f"Put {refused.without}"  # in place of a verb that is not known
     for shorter in (refused.word and _replaced(text, refused.word, ""), refused.without):
-        if shorter and _UNMADE.findall(shorter) == unmade:
+        if shorter and _UNMADE.findall(normalized(shorter)) == unmade:
             yield shorter
     if refused.understood:
         yield refused.understood

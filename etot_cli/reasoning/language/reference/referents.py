@@ -23,7 +23,9 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     SIDES,
+    THING_NOUNS,
     is_descriptive,
+    matches_any,
     same_noun,
     singular,
 )
@@ -137,6 +139,9 @@ class Phrases:
             owner = Modifier(Prep.OF, (NounPhrase(pronoun="it", text="its"),))
             phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
         noun_before = discourse.last_noun(role)
+        named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
+        if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
+            raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         if noun_before is not None and _leaves_noun_out(phrase):
             phrase = replace(phrase, words=(*phrase.words, singular(noun_before)))
         resolved = self._resolver.resolve(
