@@ -144,7 +144,7 @@ class Session:
         except KeyboardInterrupt:
             report.interrupted = True
         except Exception as error:  # a defect of the page must not hide the answer
-            known = isinstance(error, EtotError)
+            known = isinstance(error, EtotError | OSError)  # too many files open, a full disk
             words = str(error) if known else f"{type(error).__name__}: {error} (a defect of etot)"
             print(f"warning: no page was written: {words}", file=sys.stderr)
         self.save(report)
