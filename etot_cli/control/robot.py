@@ -22,13 +22,15 @@ class RobotState:
     """What a robot senses of itself.
 
     ``joints`` and ``targets``: (n,) measured and commanded joint values [rad]; ``opening``:
-    distance between the pads [m]; ``time_s``: since the robot was handed the motion [s].
+    distance between the pads [m]; ``time_s``: since the robot was handed the motion [s]; ``sent``:
+    the opening that the gripper was last sent to [m], None where that is not known.
     """
 
     joints: Vector
     targets: Vector
     opening: float
     time_s: float
+    sent: float | None = None
 
 
 @dataclass(frozen=True)

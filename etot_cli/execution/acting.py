@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,22 +15,23 @@ Vector = NDArray[np.float64]
 
 
 class FromNow:
-    """A robot whose clock begins with the motion, whatever its own clock says.
+    """A robot whose clock begins now, whatever its own clock says, and whose last word to the
+    gripper is remembered.
 
     Args:
         robot: who moves.
+        sent: the opening that its gripper was last sent to [m]; None where that is not known.
+        clock: whether the clock begins anew.
     """
 
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-        self._begun = robot.state().time_s
+    def __init__(self, robot: Robot, sent: float | None, *, clock: bool = True) -> None:
+        self._robot, self._sent = robot, sent
+        self._begun = robot.state().time_s if clock else 0.0
 
     def state(self) -> RobotState:
         """What it senses now."""
         sensed = self._robot.state()
-        return RobotState(
-            sensed.joints, sensed.targets, sensed.opening, sensed.time_s - self._begun
-        )
+        return replace(sensed, time_s=sensed.time_s - self._begun, sent=self._sent)
 
     def follow(self, targets: Vector, guards: Guards) -> PhaseEnd:
         """As the robot does."""
@@ -36,6 +39,7 @@ class FromNow:
 
     def set_opening(self, opening: float) -> None:
         """As the robot does."""
+        self._sent = opening
         self._robot.set_opening(opening)
 
     def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:

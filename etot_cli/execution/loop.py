@@ -148,8 +148,8 @@ class Loop:
         """Looks, and brings the twin into the state that was seen; what is not as expected."""
         last = self._looks[-1].observation if self._looks else None
         with self._timed("looking") as spent:
-            empty = Observation(self._cell.robot.state())
-            seen = self._cell.eyes.look(self._cell.robot, last or empty)
+            robot = FromNow(self._cell.robot, self._command, clock=False)
+            seen = self._cell.eyes.look(robot, last or Observation(robot.state()))
             self._meet(seen)
             known = {name: item for name, item in seen.objects.items() if name in self._known}
             seen = replace(seen, objects=known)
@@ -281,7 +281,7 @@ class Loop:
             world.watch()
         self._schedule(motion, index)
         with self._timed("execution"):
-            trace = run_motion(motion, FromNow(robot), self._twin.limits)
+            trace = run_motion(motion, FromNow(robot, self._command), self._twin.limits)
         self._command = last_command((trace,), self._command)
         trajectory = None
         if world is not None and true_before is not None:

@@ -403,6 +403,8 @@ class CameraEyes:
     def _holding(self, state: RobotState) -> bool:
         """Whether the fingers may hold something: between closed and open, not opened since."""
         opening = self._known.world.robot.spec.gripper.opening
+        if state.sent is not None and state.opening < state.sent + GRIPPED:
+            return False  # the fingers are where they were sent: nothing keeps them apart
         between = GRIPPED < state.opening < opening - GRIPPED
         return between and (not self._held or state.opening < self._grip + LET_GO)
 
