@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +15,8 @@ from etot_cli.control.controller import replay, run_motion
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.control.simulated_world import SimulatedWorld
+from etot_cli.reporting.motion_report import trajectory_model
+from etot_cli.reporting.recordings import recorded_plan
 from etot_cli.skills.action import parse_plan
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits
@@ -217,3 +222,39 @@ def test_a_replay_ends_in_the_same_bytes(world: SimulatedWorld, start: Snapshot)
     ends.append(world.data.qpos.tobytes())
     assert ends[0] == ends[1]
     assert [phase.end_s for phase in again.phases] == [phase.end_s for phase in trace.phases]
+
+
+def test_one_recorded_file_on_three_robots(
+    world: SimulatedWorld, start: Snapshot, grasp: Motion, tmp_path: Path
+) -> None:
+    """Written, read back and sent: to the simulated robot, to one that logs, to one that slips."""
+    restore(world.world, world.data, start)
+    recorded = run_motion(grasp, SimulatedRobot(world.world, world.data), LIMITS)
+    end = world.data.qpos.tobytes()
+    spec = world.world.robot.spec
+    model = trajectory_model(grasp.action, spec.name, list(spec.joints), "0" * 64, recorded)
+    text = model.model_dump_json()
+    (tmp_path / "001.json").write_text(text)
+    entry = {
+        "action": grasp.action, "file": "001.json", "details": dict(grasp.details),
+        "sha256": hashlib.sha256(text.encode()).hexdigest(),
+    }  # fmt: skip
+    report = {"schema": "etot.plan/1", "plan": [grasp.action], "motions": [entry]}
+    (tmp_path / "report.json").write_text(json.dumps(report))
+    (recording,) = recorded_plan(tmp_path / "report.json").recordings
+
+    restore(world.world, world.data, start)
+    again = replay(recording.trace, SimulatedRobot(world.world, world.data))
+    assert world.data.qpos.tobytes() == end and again.stopped is None
+
+    logging = scripted(grasp, held_width=BALL["diameter"])
+    traced = replay(recording.trace, logging)
+    assert [line.split(" to ")[0] for line in logging.log] == [
+        "open", "follow", "follow", "open", "follow"
+    ]  # fmt: skip
+    assert names(traced) == names(recorded) and traced.stopped is None
+
+    slips = scripted(grasp, held_width=BALL["diameter"], script={2: PhaseEnd.SLIPPED})
+    slipped = replay(recording.trace, slips)
+    assert slipped.stopped is not None and slipped.stopped.name == "lift"
+    assert ended(slipped, "lift") is PhaseEnd.SLIPPED and names(slipped) == names(recorded)
