@@ -81,7 +81,7 @@ def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Gras
     level = abs(float(tool.rotation[2, 2])) < 0.5
     pose = GraspPose.HORIZONTAL if level else GraspPose.VERTICAL
     details = rehearsed.details
-    yield Grasp(tool, details["width"], details["opening"], pose, 0.0, details["slant"])
+    yield Grasp(tool, details["width"], details["opening"], pose, 0.0, details.get("slant", 0.0))
 
 
 def _motion(belief: Belief, action: Action, prepared: PreparedGrasp) -> Motion | None:
