@@ -79,7 +79,7 @@ def execute(
         typer.Option("--max-nodes", min=1, metavar="N", help="Actions to simulate per plan."),
     ] = DEFAULT_MAX_NODES,
     video: Annotated[
-        bool, typer.Option("--video", help="Render video.mp4: the twin and the execution world.")
+        bool, typer.Option("--video", help="Render world.mp4 and twin.mp4 of the first trial.")
     ] = False,
     html: Html = True,
     out: Out = None,
@@ -112,22 +112,26 @@ def execute(
         dry_run=dry_run,
         yes=yes,
         grasp_url=grasp_url,
-        record=video or (html and trials == 1),
+        record=video,
         limits=Limits(max_nodes=max_nodes),
     )
     with session.execution_observer() as observer:
         execution = run_execute(options, observer)
     report = execution.report
     path = session.save(report)
-    if (video or html) and not report.interrupted and execution.trials:
-        from etot_cli.commands.execute_page import write_execute_files
+    if execution.trials and not report.interrupted:
+        from etot_cli.commands.execute_page import write_execute_page, write_films
 
-        session.add_page(
-            report,
-            lambda told: write_execute_files(
-                execution, session.folder, told, video=video, html=html
-            ),
-        )
+        try:
+            if video:
+                with session.progress("rendering film") as told:
+                    write_films(execution, session.folder, told)
+                session.save(report)
+        except KeyboardInterrupt:
+            report.interrupted = True
+            session.save(report)
+        if html and not report.interrupted:
+            session.add_page(report, lambda told: write_execute_page(execution, session.folder))
     code = session.conclude(report, path, lambda summary: summary.execute(report, path))
     if execution.lost and not report.interrupted:
         print(f"error: {report.reason}", file=sys.stderr)

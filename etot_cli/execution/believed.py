@@ -11,16 +11,19 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.control.controller import run_motion
 from etot_cli.control.physics_world import PhysicsWorld
 from etot_cli.control.robot import Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import WorldError
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.skills.belief import Belief, build_twin
+from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.scene import Scene
+from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.robot_index import ROBOT_PREFIX
-from etot_cli.world.snapshot import Memory, Snapshot, save
+from etot_cli.world.snapshot import Memory, Snapshot, copy_configuration, save
 from etot_cli.world.state import SceneState
 
 Vector = NDArray[np.float64]
@@ -138,6 +141,18 @@ class BelievedTwin:
         self._believed.ctrl[:] = self._data.ctrl
         mujoco.mj_forward(self.world.model, self._believed)
         return Belief(self._twin, self._believed, self._physics.random(salt), scene)
+
+    def foresee(self, motion: Motion) -> Trajectory | None:
+        """What the twin does with a motion from the state of the last look, for a film of it."""
+        data = mujoco.MjData(self.world.model)
+        copy_configuration(self._data, data)
+        mujoco.mj_forward(self.world.model, data)
+        recorder = Recorder(self.world, data)
+        try:
+            run_motion(motion, SimulatedRobot(self.world, data, recorder), self.limits)
+        except WorldError:
+            return None
+        return recorder.trajectory()
 
     def working_data(self) -> mujoco.MjData:
         """The state of the last look, to be stepped; the next look overwrites it."""

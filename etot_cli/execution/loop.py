@@ -7,7 +7,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -255,6 +255,7 @@ class Loop:
             before=before,
             after=self._scene,
             trajectories=tuple(one.trajectory for one in tried if one.trajectory is not None),
+            foreseen=tuple(one.foreseen for one in tried if one.foreseen is not None),
         )
         if verdict.outcome is not Outcome.SUCCESS:
             carried = replace(carried, failure_class=self._class_of(carried, tried[-1]))
@@ -276,6 +277,7 @@ class Loop:
             nothing = failed(CauseKind.NO_EFFECT, [], "there is no motion for it")
             return _Tried(motion or nothing, look, command, truth)
         world, robot = self._cell.world, self._cell.robot
+        foreseen = self._twin.foresee(motion) if self._options.record else None
         true_before = None if world is None else world.read()
         if world is not None:
             world.watch()
@@ -290,7 +292,7 @@ class Loop:
             trajectory = world.watched()[1]
         self._look(f"after {action}")
         outcome = outcome_of(belief, action, motion, trace, self._scene)
-        return _Tried(outcome, look, command, truth, motion, trace, trajectory)
+        return _Tried(outcome, look, command, truth, motion, trace, trajectory, foreseen)
 
     def _from_server(self, belief: Belief, action: Action) -> Motion | None:
         grasps = self._cell.grasps
@@ -425,21 +427,18 @@ class Loop:
             self._spent[what] += time.monotonic() - begun
 
 
+@dataclass(frozen=True)
 class _Tried:
-    """One attempt at an action."""
+    """One attempt at an action: what it was worked out from, and what became of it."""
 
-    def __init__(
-        self,
-        outcome: SkillOutcome,
-        look: Look,
-        command: float | None,
-        truth: Observation | None,
-        motion: Motion | None = None,
-        trace: Trace | None = None,
-        trajectory: Trajectory | None = None,
-    ) -> None:
-        self.outcome, self.look, self.command, self.truth = outcome, look, command, truth
-        self.motion, self.trace, self.trajectory = motion, trace, trajectory
+    outcome: SkillOutcome
+    look: Look
+    command: float | None
+    truth: Observation | None
+    motion: Motion | None = None
+    trace: Trace | None = None
+    trajectory: Trajectory | None = None
+    foreseen: Trajectory | None = None
 
 
 def _told(unexpected: tuple[Difference, ...]) -> str:

@@ -123,6 +123,8 @@ class Carried:
     before: SceneState | None = None
     after: SceneState | None = None
     trajectories: tuple[Trajectory, ...] = ()
+    foreseen: tuple[Trajectory, ...] = ()
+    """What the twin did with the same motions from what was seen, where that was to be recorded."""
     failure_class: FailureClass | None = None
 
 

@@ -27,7 +27,7 @@ def execute_page(
     Args:
         report: what happened.
         trials: the same with the states that were believed, for the pictures.
-        films: caption and file name, relative to the page, shown side by side.
+        films: caption and address, shown side by side.
     """
     pictures: dict[str, Picture] = {}
     shown = []
