@@ -146,6 +146,7 @@ class BelievedTwin:
         """What the twin does with a motion from the state of the last look, for a film of it."""
         data = mujoco.MjData(self.world.model)
         copy_configuration(self._data, data)
+        data.ctrl[:] = self._data.ctrl
         mujoco.mj_forward(self.world.model, data)
         recorder = Recorder(self.world, data)
         try:

@@ -225,3 +225,13 @@ def test_failures_are_attributed_by_experiment(tmp_path: Path) -> None:
     trial = run_trial(task, Scripted([IN_TWO]), TrialOptions(replan=False), cell=slippery)
     assert trial.status == "failure"
     assert trial.failure_class is FailureClass.WORLD_MODEL
+
+
+def test_the_twin_foresees_what_happens(tmp_path: Path) -> None:
+    """What the film of the twin shows is the motion that was run, and it ends much the same."""
+    trial = run(small_task(tmp_path), Scripted(["[PICK UP, ball]"]), record=True)
+    (action,) = trial.actions
+    (happened,), (foreseen,) = action.trajectories, action.foreseen
+    lasted = [float(film.times[-1] - film.times[0]) for film in (happened, foreseen)]
+    assert lasted[0] == pytest.approx(lasted[1], abs=0.3)  # delays of the robot between them
+    assert happened.qpos[-1][:6] == pytest.approx(foreseen.qpos[-1][:6], abs=0.05)
