@@ -80,11 +80,14 @@ def disturb(world: ExecutionWorld, given: Disturbance, roles: Roles) -> str:
         elif given.knock_over is not None:
             _knock_over(world, name)
         elif given.object is not None:
-            world.absent.discard(name)
-            _put(world, name, given.object, 0.0)
             text = f"{text} ({given.object.kind})"
-        else:
-            _put(world, name, _destination(world, given, name), DROP_HEIGHT * bool(given.drop))
+            if not _put(world, name, given.object, 0.0):
+                return f"{text}: there is no room for it"
+            world.absent.discard(name)
+        elif not _put(
+            world, name, _destination(world, given, name), DROP_HEIGHT * bool(given.drop)
+        ):
+            return f"{text}: there is no room for it"
     SimulatedRobot(world.world, world.data, world.recorder).wait(
         SETTLE_S, Guards(), until_rest=True
     )
@@ -101,7 +104,8 @@ def _destination(world: ExecutionWorld, given: Disturbance, name: str) -> Object
     return spec.model_copy(update={"at": at, "on": given.on, "inside": given.inside})
 
 
-def _put(world: ExecutionWorld, name: str, spec: ObjectBase, height: float) -> None:
+def _put(world: ExecutionWorld, name: str, spec: ObjectBase, height: float) -> bool:
+    """Puts an object somewhere, lifted clear of what is there; whether it fits."""
     joint = world.data.joint(name)
     before = joint.qpos.copy()
     try:
@@ -111,10 +115,11 @@ def _put(world: ExecutionWorld, name: str, spec: ObjectBase, height: float) -> N
         fits = False
     if not fits:
         joint.qpos[:] = before
-        return
+        return False
     joint.qpos[2] += height
     joint.qvel[:] = 0.0
     mujoco.mj_forward(world.world.model, world.data)
+    return True
 
 
 def _move_part(world: ExecutionWorld, address: str, share: float) -> None:
