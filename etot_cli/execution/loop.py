@@ -53,6 +53,8 @@ from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
 
 FEASIBLE = "feasible"
 """A planner's status that says that its actions, none where none is needed, lead to the goal."""
+LOOKS_WITHOUT_PLAN = 2
+"""Looks in a row from which there was no plan, and then there is none."""
 UNMOVED = 0.01
 """What a person's deed displaced further than this is not the robot's doing [m]."""
 
@@ -98,8 +100,13 @@ class Loop:
         self._look("before planning")
         status = self._plan("the task begins")
         while True:
+            if status.status != FEASIBLE and self._may_look_again():
+                self._look("again, as there is no plan")
+                status = self._plan(f"{self._plans[-1].reason}; no plan from the look before")
+                continue
             if status.status != FEASIBLE:
-                since = f" since {self._plans[-1].reason}" if len(self._plans) > 1 else ""
+                cause = self._plans[-1].reason.partition("; no plan from")[0]
+                since = f" since {cause}" if len(self._plans) > LOOKS_WITHOUT_PLAN else ""
                 return Ended.FAILED, f"no plan{since}: {status.reason or status.status}"
             if self._options.dry_run:
                 return Ended.PLANNED, "there is a plan; nothing was moved (dry run)"
@@ -111,6 +118,13 @@ class Loop:
             if len(self._plans) > self._options.max_replans:
                 return Ended.FAILED, f"{reason}; given up after {len(self._plans) - 1} replans"
             status = self._plan(reason)
+
+    def _may_look_again(self) -> bool:
+        """Whether another look may show a way: what fails by a hair may be an error of the eyes."""
+        if not self._options.replan or len(self._plans) > self._options.max_replans:
+            return False
+        without = [plan.status != FEASIBLE for plan in self._plans]
+        return False in without[-LOOKS_WITHOUT_PLAN:] or len(without) < LOOKS_WITHOUT_PLAN
 
     def _follow_plan(self) -> tuple[Ended | None, str]:
         """Carries the plan out; (None, why) where a new one is needed."""

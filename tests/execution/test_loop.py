@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -13,6 +14,7 @@ from etot_cli.errors import RobotStoppedError, ServiceError
 from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.planner import TreePlanners
+from etot_cli.execution.protocols import Planned
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
 from etot_cli.execution.trial import (
@@ -85,12 +87,26 @@ def test_the_target_taken_away_ends_with_the_reason(tmp_path: Path) -> None:
     trial = run(task, Scripted([IN_TWO]))
     assert trial.status == "failure"
     assert trial.reason == "no plan since ball is gone: nothing is left to try"
-    assert trial.plans[1].reason == "ball is gone"
+    assert [plan.reason for plan in trial.plans[1:]] == [
+        "ball is gone", "ball is gone; no plan from the look before",
+    ]  # fmt: skip
+    assert trial.looks[-1].why == "again, as there is no plan"
     assert not trial.actions
     assert trial.failure_class is None  # it was nobody's failure
     assert trial.looks[-1].observation.objects["ball"].mark is Mark.LOST
     stubborn = run(task, Scripted([IN_TWO]), replan=False)
     assert "ball is off the desk; replanning is switched off" in stubborn.reason
+
+
+def test_another_look_may_show_a_way(tmp_path: Path) -> None:
+    class Hesitant(Scripted):
+        def plan(self, *given: Any) -> Planned:
+            planned = super().plan(*given)
+            return planned if len(self.asked) > 1 else Planned((), (), "infeasible", "by a hair")
+
+    trial = run(small_task(tmp_path), Hesitant([IN_TWO, IN_TWO]))
+    assert trial.success
+    assert [plan.status for plan in trial.plans] == ["infeasible", "feasible"]
 
 
 def test_something_new_comes_into_a_new_twin(tmp_path: Path) -> None:
