@@ -20,6 +20,8 @@ from etot_cli.execution.perception.fitting import (
     Pose,
     Support,
     improved,
+    outlined,
+    rotation_by,
     support,
     visible_points,
 )
@@ -57,6 +59,15 @@ BELOW = 0.02
 [m], seen from above."""
 SOMETHING = 60
 """Readings that hang together and belong to nothing, from which a missing object may be there."""
+SLIDE, TURN = 0.012, 0.15
+"""First steps in which a rod is moved and turned to fit its outline [m, rad]."""
+LEANS = tuple(
+    (lean, heading)
+    for lean in (0.0, 0.15, 0.35, 0.55)
+    for heading in np.arange(8) * np.pi / 4
+    if lean > 0.0 or heading == 0.0
+)
+"""How a rod may lean in a container: angles from upright and their directions [rad]."""
 LET_GO = 0.004
 """Fingers that have opened by more since they held something hold it no longer [m]."""
 PART_STEPS, PART_ROUNDS = 15, 3
@@ -182,7 +193,7 @@ class CameraEyes:
             was = last.parts.get(address, self._parts[address])
             offset = place.get(address.split(".")[0], Pose(np.eye(3), np.zeros(3)))
             before = offset @ known.set_part(address, was)
-            surface = _thinned(known.part_surfaces[address])
+            surface = known.part_surfaces[address].thinned(PART_POINTS)
             value = self._part_value(address, surface, offset, scan, was)
             self._parts[address] = value
             pose = offset @ known.set_part(address, value)
@@ -222,6 +233,7 @@ class CameraEyes:
         """Objects near where they were, with their poses made exact; explains their readings."""
         known = self._known
         fits: list[tuple[float, str, Pose]] = []
+        outlines: set[str] = set()
         for name, pose in before.items():
             surface = known.surfaces.get(name)
             if surface is None:
@@ -234,10 +246,19 @@ class CameraEyes:
             shift = np.linalg.norm(better.place(surface.middle[None]) - pose.place(
                 surface.middle[None]))  # fmt: skip
             like = self._like(name, scan, surface, better)
-            if borne.share >= STILL_THERE and borne.agree >= LEAST_AGREE and shift < MOVED_ON:
-                fits.append((borne.share * like, name, better))
+            thin = surface.long_axis is not None and borne.unread > borne.visible
+            share = borne.outlined if thin else borne.share
+            read = borne.agree + borne.unread if thin else borne.agree
+            if share >= STILL_THERE and read >= LEAST_AGREE and shift < MOVED_ON:
+                fits.append((share * like, name, better))
+                if thin:
+                    outlines.add(name)
         fits.sort(key=lambda item: -item[0])
-        return {name: pose for _, name, pose in fits if self._explains(scan, name, pose)}
+        return {
+            name: pose
+            for _, name, pose in fits
+            if self._explains(scan, name, pose) or name in outlines
+        }
 
     def _followed(
         self, surface: Surface, pose: Pose, scan: Scan, readings: Array
@@ -254,6 +275,8 @@ class CameraEyes:
                 best, borne, share = tried, found, found.share + PLAINLY
             if borne.share >= STANDS:
                 break
+        if surface.long_axis is not None and borne.unread > borne.visible:
+            return outlined(surface, pose, scan.view, scan.depth, _level_moves(surface, pose))
         return best, borne
 
     def _like(self, name: str, scan: Scan, surface: Surface, pose: Pose) -> float:
@@ -323,8 +346,12 @@ class CameraEyes:
         known = self._known
         closed_on = self._holding(state) and not in_hand
         if closed_on and name in self._held:
-            in_hand[name] = self._held[name]
-            return _sighting(known.tool() @ self._held[name], Mark.HELD)
+            carried = known.tool() @ self._held[name]
+            axis = known.surfaces[name].long_axis
+            if axis is not None:
+                carried = self._slid(known.surfaces[name], carried, scan)
+            in_hand[name] = known.tool().inverse() @ carried
+            return _sighting(carried, Mark.HELD)
         was = last.objects[name].mark if name in last.objects else Mark.SEEN
         if was is Mark.LOST:
             return _sighting(before, Mark.LOST)
@@ -336,19 +363,36 @@ class CameraEyes:
             borne = support(surface, carried, scan.view, scan.depth)
             if not _contradicted(borne):
                 return _sighting(carried, Mark.HIDDEN)
-            if (
-                closed_on
-                and np.linalg.norm(before.place(surface.middle[None])[0] - known.tool().position)
-                < np.inf
-            ):
-                middle = before.rotation @ surface.middle
-                pose = Pose(before.rotation, known.tool().position - middle)
+            if closed_on:
+                pose = self._in_the_fingers(surface, before, scan)
                 in_hand[name] = known.tool().inverse() @ pose
                 return _sighting(pose, Mark.HELD)
         hidden = self._out_of_sight(name, before, scan)
         if hidden is not None:
             return _sighting(hidden, Mark.HIDDEN)
         return _sighting(before, Mark.LOST)
+
+    def _in_the_fingers(self, surface: Surface, before: Pose, scan: Scan) -> Pose:
+        """An object that must be in the hand, though nothing is read of it: its middle between the
+        pads, a rod across them.
+        """
+        tool, axis, turn = self._known.tool(), surface.long_axis, np.eye(3)
+        if axis is not None:
+            along = before.rotation @ axis
+            across = tool.rotation[:, 1]
+            wanted = along - across * (along @ across)
+            wanted /= max(float(np.linalg.norm(wanted)), 1e-9)
+            turn = _turn_between(along, wanted)
+        rotation = turn @ before.rotation
+        pose = Pose(rotation, tool.position - rotation @ surface.middle)
+        return pose if axis is None else self._slid(surface, pose, scan)
+
+    def _slid(self, surface: Surface, pose: Pose, scan: Scan) -> Pose:
+        """A rod that is held, moved along itself and turned between the pads to fit its outline."""
+        assert surface.long_axis is not None
+        along = np.concatenate([pose.rotation @ surface.long_axis * SLIDE, np.zeros(3)])
+        turn = np.concatenate([np.zeros(3), self._known.tool().rotation[:, 1] * TURN])
+        return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
 
     def _carried(self, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
         """Where an unseen object is when the drawer that it lay in has moved."""
@@ -369,10 +413,17 @@ class CameraEyes:
         """
         surface, tool = self._known.surfaces[name], self._known.tool()
         options: list[tuple[float, Pose]] = []
+        leaning: list[tuple[float, Pose]] = []
         for region in self._known.regions:
             pose = self._in_region(region, surface, before)
+            if surface.long_axis is not None and region.opening[2] > 0.5:
+                standing = self._standing_in(region, surface, before, scan)
+                if standing is not None:
+                    leaning.append(standing)
             aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
             options.append((max(0.0, aside - float(max(region.half[:2]))), pose))
+        if leaning:
+            return max(leaning, key=lambda item: item[0])[1]
         if name in self._held:
             let_go = tool @ self._held[name]
             lowest = float(let_go.place(surface.points)[:, 2].min())
@@ -386,6 +437,39 @@ class CameraEyes:
             # Something lies there that nothing else explains, if in no way that was recognized.
             return start(surface, before.rotation, scan.points[clusters[0]], scan.view)
         return None
+
+    def _standing_in(
+        self, region: Region, surface: Surface, before: Pose, scan: Scan
+    ) -> tuple[float, Pose] | None:
+        """A rod that leans in an open container, by its outline, and what that is worth; None where
+        there is none.
+        """
+        assert surface.long_axis is not None
+        body = self._known.body(region.body)
+        room = np.array(region.center) - np.array([0.0, 0.0, region.half[2]])
+        floor = body.place(room[None])[0]
+        best: tuple[float, Pose] | None = None
+        few = surface.thinned(400)
+        for up in (1.0, -1.0):
+            for lean, heading in LEANS:
+                flat = np.array([np.cos(heading), np.sin(heading), 0.0])
+                wanted = flat * np.sin(lean) + np.array([0.0, 0.0, np.cos(lean)])
+                turn = _turn_between(before.rotation @ surface.long_axis * up, wanted)
+                rotation = turn @ before.rotation
+                placed = few.points @ rotation.T
+                foot = placed[int(np.argmin(placed @ wanted))]
+                aside = -flat * (np.sin(lean) > 0) * 0.6 * min(region.half[:2])
+                pose = Pose(rotation, floor + aside - foot)
+                worth = support(few, pose, scan.view, scan.depth).worth
+                if best is None or worth > best[0]:
+                    best = (worth, pose)
+        assert best is not None
+        moves = [np.eye(6)[axis] * (0.008 if axis < 3 else TURN) for axis in (0, 1, 2, 3, 4)]
+        pose, borne = outlined(surface, best[1], scan.view, scan.depth, moves)
+        shown = borne.agree + borne.unread
+        if borne.outlined < STILL_THERE or shown < LEAST_AGREE:
+            return None
+        return borne.worth, pose
 
     def _in_region(self, region: Region, surface: Surface, before: Pose) -> Pose:
         """The object on the floor of a container, in the middle."""
@@ -430,9 +514,28 @@ def _explain(scan: Scan, name: str, surface: Surface, pose: Pose) -> None:
     scan.owner[rest[np.isfinite(apart)]] = name
 
 
-def _thinned(surface: Surface) -> Surface:
-    step = max(1, len(surface.points) // PART_POINTS)
-    return Surface(surface.points[::step], surface.normals[::step])
+def _level_moves(surface: Surface, pose: Pose) -> list[Array]:
+    """Ways in which a lying rod may be elsewhere: along and across itself, and turned."""
+    assert surface.long_axis is not None
+    along = pose.rotation @ surface.long_axis
+    along[2] = 0.0
+    along /= max(float(np.linalg.norm(along)), 1e-9)
+    across = np.array([-along[1], along[0], 0.0])
+    return [
+        np.concatenate([along * SLIDE, np.zeros(3)]),
+        np.concatenate([across * SLIDE, np.zeros(3)]),
+        np.array([0.0, 0.0, 0.0, 0.0, 0.0, TURN]),
+    ]
+
+
+def _turn_between(one: Array, other: Array) -> Array:
+    """The shortest rotation (3, 3) that takes one direction (3,) to another."""
+    cross, cosine = np.cross(one, other), float(np.clip(one @ other, -1.0, 1.0))
+    length = float(np.linalg.norm(cross))
+    if length < 1e-9:
+        aside = np.cross(one, np.eye(3)[int(np.abs(one).argmin())])
+        return rotation_by(aside / np.linalg.norm(aside) * (0.0 if cosine > 0 else np.pi))
+    return rotation_by(cross / length * float(np.arccos(cosine)))
 
 
 def _pose(sighting: Sighting) -> Pose:

@@ -21,6 +21,8 @@ FEWEST, MOST = 600, 30_000
 """Points of a body."""
 SEEN_GROUPS = 3
 """Geoms of lower groups are what is drawn."""
+LONG = 3.0
+"""Length over width from which a thing is a rod."""
 SYMMETRIC = 0.0015
 """A thing turned by 40° whose surface is off by less than this, in the median, is round [m]."""
 
@@ -46,6 +48,19 @@ class Surface:
     def radius(self) -> float:
         """Half the diagonal of the bounding box [m]."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)) / 2)
+
+    @cached_property
+    def long_axis(self) -> Array | None:
+        """Direction (3,) of a thing at least three times as long as wide; None for others."""
+        centred = self.points - self.middle
+        _, _, axes = np.linalg.svd(centred, full_matrices=False)
+        extents = np.ptp(centred @ axes.T, axis=0)
+        return np.asarray(axes[0]) if extents[0] > LONG * extents[1:].max() else None
+
+    def thinned(self, most: int) -> Surface:
+        """The same with fewer points."""
+        step = max(1, len(self.points) // most)
+        return self if step == 1 else Surface(self.points[::step], self.normals[::step])
 
     @cached_property
     def round(self) -> bool:
