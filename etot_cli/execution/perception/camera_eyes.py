@@ -276,7 +276,9 @@ class CameraEyes:
             if borne.share >= STANDS:
                 break
         if surface.long_axis is not None and borne.unread > borne.visible:
-            return outlined(surface, pose, scan.view, scan.depth, _level_moves(surface, pose))
+            if borne.share >= STILL_THERE and borne.agree >= LEAST_AGREE:
+                return best, borne
+            return outlined(surface, best, scan.view, scan.depth, _level_moves(surface, best))
         return best, borne
 
     def _like(self, name: str, scan: Scan, surface: Surface, pose: Pose) -> float:
