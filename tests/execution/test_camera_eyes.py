@@ -11,7 +11,14 @@ import pytest
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.perception.camera_eyes import CameraEyes
-from etot_cli.execution.perception.fitting import Freedom, Pose, improved, rotation_by, support
+from etot_cli.execution.perception.fitting import (
+    Freedom,
+    Pose,
+    improved,
+    outlined,
+    rotation_by,
+    support,
+)
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reconstruction.capture.view import View
@@ -114,3 +121,25 @@ def test_a_pose_is_borne_out_hidden_or_contradicted_by_depth():
         assert found.position == pytest.approx(pose.position, abs=0.001)
     level = improved(ball, off, readings, view, freedom=Freedom.ON_LEVEL)
     assert level.position[2] == off.position[2]
+
+
+def test_a_rod_of_which_only_the_outline_is_left_is_found_along_itself():
+    from etot_cli.execution.perception.surfaces import Surface
+
+    angle = np.random.default_rng(0).uniform(0, 2 * np.pi, 4000)
+    along = np.linspace(-0.085, 0.085, 4000)
+    normals = np.column_stack([np.zeros(4000), np.cos(angle), np.sin(angle)])
+    rod = Surface(np.column_stack([along, 0.008 * normals[:, 1:]]), normals)
+    assert rod.long_axis is not None and abs(rod.long_axis[0]) > 0.999
+    view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
+    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    u, v = np.round(view.project(true.place(rod.points))).astype(int).T
+    depth = np.full((240, 320), 1.0)
+    for right in range(-2, 3):
+        for down in range(-2, 3):
+            depth[v + down, u + right] = 0.0
+    off = Pose(rotation_by(np.array([0, 0, 0.12])), true.position + np.array([0.05, 0.0, 0.0]))
+    moves = [np.array([0.012, 0, 0, 0, 0, 0]), np.array([0, 0, 0, 0, 0, 0.15])]
+    found, borne = outlined(rod, off, view, depth, moves)
+    assert found.position == pytest.approx(true.position, abs=0.006)
+    assert borne.outlined > 0.95 > support(rod, off, view, depth).outlined

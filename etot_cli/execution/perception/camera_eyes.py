@@ -21,53 +21,39 @@ from etot_cli.execution.perception.fitting import (
     Support,
     improved,
     outlined,
-    rotation_by,
     support,
     visible_points,
 )
 from etot_cli.execution.perception.scan import Scan, scan_of, view_of
-from etot_cli.execution.perception.search import NEAR, Match, chroma, find, start
+from etot_cli.execution.perception.search import NEAR, Match, chroma, find
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
+from etot_cli.execution.perception.unseen import (
+    LEAST_AGREE,
+    STILL_THERE,
+    carried,
+    contradicted,
+    in_the_fingers,
+    level_moves,
+    out_of_sight,
+    slid,
+)
 from etot_cli.execution.protocols import Camera, Frame
 from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.specs.scene import Scene
-from etot_cli.world.index import Region
 
 ARM_MARGIN = 0.009
 """Readings this near to the arm's surface are the arm's [m]."""
-STILL_THERE = 0.7
-"""An object that agrees with so much of what is visible of its last place is still there."""
 STANDS = 0.9
 """... and in the same attitude, when that much agrees."""
 PLAINLY = 0.25
 """Gain in what agrees for which another height or attitude is believed."""
-LEAST_AGREE = 20
-"""... in so many points."""
-GONE = 0.5
-"""With less of it, something else is to be seen where it was."""
-HIDDEN = 0.6
-"""Share of an object behind nearer things from which it may be there unseen."""
 MOVED_ON = 0.06
 """An object that is still there is this near to its last place [m]; else it was looked for."""
 GRIPPED = 0.003
 """Fingers less than this from closed or from fully open hold nothing [m]."""
 AT_PADS = 0.014
 """What is in the hand has surface this near to both pads [m]: perception errs by less."""
-BELOW = 0.02
-"""What was let go is in a container rather than on the desk when that is this near to the hand
-[m], seen from above."""
-SOMETHING = 60
-"""Readings that hang together and belong to nothing, from which a missing object may be there."""
-SLIDE, TURN = 0.012, 0.15
-"""First steps in which a rod is moved and turned to fit its outline [m, rad]."""
-LEANS = tuple(
-    (lean, heading)
-    for lean in (0.0, 0.15, 0.35, 0.55)
-    for heading in np.arange(8) * np.pi / 4
-    if lean > 0.0 or heading == 0.0
-)
-"""How a rod may lean in a container: angles from upright and their directions [rad]."""
 LET_GO = 0.004
 """Fingers that have opened by more since they held something hold it no longer [m]."""
 PART_STEPS, PART_ROUNDS = 15, 3
@@ -278,7 +264,7 @@ class CameraEyes:
         if surface.long_axis is not None and borne.unread > borne.visible:
             if borne.share >= STILL_THERE and borne.agree >= LEAST_AGREE:
                 return best, borne
-            return outlined(surface, best, scan.view, scan.depth, _level_moves(surface, best))
+            return outlined(surface, best, scan.view, scan.depth, level_moves(surface, best))
         return best, borne
 
     def _like(self, name: str, scan: Scan, surface: Surface, pose: Pose) -> float:
@@ -348,12 +334,11 @@ class CameraEyes:
         known = self._known
         closed_on = self._holding(state) and not in_hand
         if closed_on and name in self._held:
-            carried = known.tool() @ self._held[name]
-            axis = known.surfaces[name].long_axis
-            if axis is not None:
-                carried = self._slid(known.surfaces[name], carried, scan)
-            in_hand[name] = known.tool().inverse() @ carried
-            return _sighting(carried, Mark.HELD)
+            placed = known.tool() @ self._held[name]
+            if known.surfaces[name].long_axis is not None:
+                placed = slid(known, known.surfaces[name], placed, scan)
+            in_hand[name] = known.tool().inverse() @ placed
+            return _sighting(placed, Mark.HELD)
         was = last.objects[name].mark if name in last.objects else Mark.SEEN
         if was is Mark.LOST:
             return _sighting(before, Mark.LOST)
@@ -361,128 +346,17 @@ class CameraEyes:
         if surface is None:
             return _sighting(before, Mark.HIDDEN)
         if name not in self._held:
-            carried = self._carried(name, before, moved)
-            borne = support(surface, carried, scan.view, scan.depth)
-            if not _contradicted(borne):
-                return _sighting(carried, Mark.HIDDEN)
+            there = carried(known, name, before, moved)
+            if not contradicted(support(surface, there, scan.view, scan.depth)):
+                return _sighting(there, Mark.HIDDEN)
             if closed_on:
-                pose = self._in_the_fingers(surface, before, scan)
+                pose = in_the_fingers(known, surface, before, scan)
                 in_hand[name] = known.tool().inverse() @ pose
                 return _sighting(pose, Mark.HELD)
-        hidden = self._out_of_sight(name, before, scan)
+        hidden = out_of_sight(known, name, before, self._held.get(name), scan)
         if hidden is not None:
             return _sighting(hidden, Mark.HIDDEN)
         return _sighting(before, Mark.LOST)
-
-    def _in_the_fingers(self, surface: Surface, before: Pose, scan: Scan) -> Pose:
-        """An object that must be in the hand, though nothing is read of it: its middle between the
-        pads, a rod across them.
-        """
-        tool, axis, turn = self._known.tool(), surface.long_axis, np.eye(3)
-        if axis is not None:
-            along = before.rotation @ axis
-            across = tool.rotation[:, 1]
-            wanted = along - across * (along @ across)
-            wanted /= max(float(np.linalg.norm(wanted)), 1e-9)
-            turn = _turn_between(along, wanted)
-        rotation = turn @ before.rotation
-        pose = Pose(rotation, tool.position - rotation @ surface.middle)
-        return pose if axis is None else self._slid(surface, pose, scan)
-
-    def _slid(self, surface: Surface, pose: Pose, scan: Scan) -> Pose:
-        """A rod that is held, moved along itself and turned between the pads to fit its outline."""
-        assert surface.long_axis is not None
-        along = np.concatenate([pose.rotation @ surface.long_axis * SLIDE, np.zeros(3)])
-        turn = np.concatenate([np.zeros(3), self._known.tool().rotation[:, 1] * TURN])
-        return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
-
-    def _carried(self, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
-        """Where an unseen object is when the drawer that it lay in has moved."""
-        surface = self._known.surfaces[name]
-        middle = pose.place(surface.middle[None])[0]
-        for region in self._known.regions:
-            if region.body in moved:
-                now = self._known.body(region.body)
-                then = moved[region.body].inverse() @ now
-                local = then.local(middle[None])[0] - region.center
-                if (np.abs(local) <= np.array(region.half) + 0.01).all():
-                    return moved[region.body] @ pose
-        return pose
-
-    def _out_of_sight(self, name: str, before: Pose, scan: Scan) -> Pose | None:
-        """Where the object may be unseen: in a container, or on the desk below the hand that let
-        it go; what is nearest to the hand comes first.
-        """
-        surface, tool = self._known.surfaces[name], self._known.tool()
-        options: list[tuple[float, Pose]] = []
-        leaning: list[tuple[float, Pose]] = []
-        for region in self._known.regions:
-            pose = self._in_region(region, surface, before)
-            if surface.long_axis is not None and region.opening[2] > 0.5:
-                standing = self._standing_in(region, surface, before, scan)
-                if standing is not None:
-                    leaning.append(standing)
-            aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
-            options.append((max(0.0, aside - float(max(region.half[:2]))), pose))
-        if leaning:
-            return max(leaning, key=lambda item: item[0])[1]
-        if name in self._held:
-            let_go = tool @ self._held[name]
-            lowest = float(let_go.place(surface.points)[:, 2].min())
-            drop = np.array([0.0, 0.0, lowest - self._known.scene.desk.top])
-            options.append((BELOW, Pose(let_go.rotation, let_go.position - drop)))
-        for _, pose in sorted(options, key=lambda item: item[0]):
-            if not _contradicted(support(surface, pose, scan.view, scan.depth)):
-                return pose
-        clusters = scan.clusters()
-        if clusters and len(clusters[0]) >= SOMETHING:
-            # Something lies there that nothing else explains, if in no way that was recognized.
-            return start(surface, before.rotation, scan.points[clusters[0]], scan.view)
-        return None
-
-    def _standing_in(
-        self, region: Region, surface: Surface, before: Pose, scan: Scan
-    ) -> tuple[float, Pose] | None:
-        """A rod that leans in an open container, by its outline, and what that is worth; None where
-        there is none.
-        """
-        assert surface.long_axis is not None
-        body = self._known.body(region.body)
-        room = np.array(region.center) - np.array([0.0, 0.0, region.half[2]])
-        floor = body.place(room[None])[0]
-        best: tuple[float, Pose] | None = None
-        few = surface.thinned(400)
-        for up in (1.0, -1.0):
-            for lean, heading in LEANS:
-                flat = np.array([np.cos(heading), np.sin(heading), 0.0])
-                wanted = flat * np.sin(lean) + np.array([0.0, 0.0, np.cos(lean)])
-                turn = _turn_between(before.rotation @ surface.long_axis * up, wanted)
-                rotation = turn @ before.rotation
-                placed = few.points @ rotation.T
-                foot = placed[int(np.argmin(placed @ wanted))]
-                aside = -flat * (np.sin(lean) > 0) * 0.6 * min(region.half[:2])
-                pose = Pose(rotation, floor + aside - foot)
-                worth = support(few, pose, scan.view, scan.depth).worth
-                if best is None or worth > best[0]:
-                    best = (worth, pose)
-        assert best is not None
-        moves = [np.eye(6)[axis] * (0.008 if axis < 3 else TURN) for axis in (0, 1, 2, 3, 4)]
-        pose, borne = outlined(surface, best[1], scan.view, scan.depth, moves)
-        shown = borne.agree + borne.unread
-        if borne.outlined < STILL_THERE or shown < LEAST_AGREE:
-            return None
-        return borne.worth, pose
-
-    def _in_region(self, region: Region, surface: Surface, before: Pose) -> Pose:
-        """The object on the floor of a container, in the middle."""
-        body = self._known.body(region.body)
-        floor = body.place(
-            (np.array(region.center) - np.array(region.opening) * np.array(region.half))[None]
-        )[0]
-        turned = surface.points @ before.rotation.T
-        low, high = turned.min(axis=0), turned.max(axis=0)
-        middle = np.array([*((low + high) / 2)[:2], low[2]])
-        return Pose(before.rotation, floor - middle)
 
     # -- the hand -------------------------------------------------------------------------------
 
@@ -504,40 +378,11 @@ class CameraEyes:
         return bool(apart.max() < AT_PADS)
 
 
-def _contradicted(borne: Support) -> bool:
-    """Whether other things are seen where an object would have to be seen."""
-    return borne.covered < HIDDEN and borne.share < GONE and borne.visible > 0
-
-
 def _explain(scan: Scan, name: str, surface: Surface, pose: Pose) -> None:
     """Takes the readings of a surface."""
     rest = np.flatnonzero(scan.unexplained)
     apart, _ = surface.tree.query(pose.local(scan.points[rest]), distance_upper_bound=OF_FURNITURE)
     scan.owner[rest[np.isfinite(apart)]] = name
-
-
-def _level_moves(surface: Surface, pose: Pose) -> list[Array]:
-    """Ways in which a lying rod may be elsewhere: along and across itself, and turned."""
-    assert surface.long_axis is not None
-    along = pose.rotation @ surface.long_axis
-    along[2] = 0.0
-    along /= max(float(np.linalg.norm(along)), 1e-9)
-    across = np.array([-along[1], along[0], 0.0])
-    return [
-        np.concatenate([along * SLIDE, np.zeros(3)]),
-        np.concatenate([across * SLIDE, np.zeros(3)]),
-        np.array([0.0, 0.0, 0.0, 0.0, 0.0, TURN]),
-    ]
-
-
-def _turn_between(one: Array, other: Array) -> Array:
-    """The shortest rotation (3, 3) that takes one direction (3,) to another."""
-    cross, cosine = np.cross(one, other), float(np.clip(one @ other, -1.0, 1.0))
-    length = float(np.linalg.norm(cross))
-    if length < 1e-9:
-        aside = np.cross(one, np.eye(3)[int(np.abs(one).argmin())])
-        return rotation_by(aside / np.linalg.norm(aside) * (0.0 if cosine > 0 else np.pi))
-    return rotation_by(cross / length * float(np.arccos(cosine)))
 
 
 def _pose(sighting: Sighting) -> Pose:

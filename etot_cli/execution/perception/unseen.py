@@ -1,0 +1,190 @@
+"""Where a thing may be of which nothing is read: in the fingers, below them, or in a container."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from etot_cli.execution.perception.fitting import Pose, Support, outlined, rotation_by, support
+from etot_cli.execution.perception.scan import Scan
+from etot_cli.execution.perception.search import start
+from etot_cli.execution.perception.surfaces import Surface
+from etot_cli.execution.perception.twin import KnownScene
+from etot_cli.reconstruction.capture.view import Array
+from etot_cli.world.index import Region
+
+STILL_THERE = 0.7
+"""An object that agrees with so much of what is visible of its last place is still there."""
+LEAST_AGREE = 20
+"""... in so many points, at least."""
+GONE = 0.5
+"""With less of it, something else is to be seen where it was."""
+HIDDEN = 0.6
+"""Share of an object behind nearer things from which it may be there unseen."""
+BELOW = 0.02
+"""What was let go is in a container rather than on the desk when that is this near to the hand
+[m], seen from above."""
+SOMETHING = 60
+"""Readings that hang together and belong to nothing, from which a missing object may be there."""
+SLIDE, TURN = 0.012, 0.15
+"""First steps in which a rod is moved and turned to fit its outline [m, rad]."""
+LEANS = tuple(
+    (lean, heading)
+    for lean in (0.0, 0.15, 0.35, 0.55)
+    for heading in np.arange(8) * np.pi / 4
+    if lean > 0.0 or heading == 0.0
+)
+"""How a rod may lean in a container: angles from upright and their directions [rad]."""
+
+
+def contradicted(borne: Support) -> bool:
+    """Whether other things are seen where an object would have to be seen."""
+    return borne.covered < HIDDEN and borne.share < GONE and borne.visible > 0
+
+
+def in_the_fingers(known: KnownScene, surface: Surface, before: Pose, scan: Scan) -> Pose:
+    """An object that must be in the hand, though nothing is read of it: its middle between the
+    pads, a rod across them.
+    """
+    tool, axis, turn = known.tool(), surface.long_axis, np.eye(3)
+    if axis is not None:
+        along = before.rotation @ axis
+        across = tool.rotation[:, 1]
+        wanted = along - across * (along @ across)
+        wanted /= max(float(np.linalg.norm(wanted)), 1e-9)
+        turn = _turn_between(along, wanted)
+    rotation = turn @ before.rotation
+    pose = Pose(rotation, tool.position - rotation @ surface.middle)
+    return pose if axis is None else slid(known, surface, pose, scan)
+
+
+def slid(known: KnownScene, surface: Surface, pose: Pose, scan: Scan) -> Pose:
+    """A rod that is held, moved along itself and turned between the pads to fit its outline."""
+    assert surface.long_axis is not None
+    along = np.concatenate([pose.rotation @ surface.long_axis * SLIDE, np.zeros(3)])
+    turn = np.concatenate([np.zeros(3), known.tool().rotation[:, 1] * TURN])
+    return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
+
+
+def carried(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
+    """Where an unseen object is when the drawer that it lay in has moved."""
+    surface = known.surfaces[name]
+    middle = pose.place(surface.middle[None])[0]
+    for region in known.regions:
+        if region.body in moved:
+            now = known.body(region.body)
+            then = moved[region.body].inverse() @ now
+            local = then.local(middle[None])[0] - region.center
+            if (np.abs(local) <= np.array(region.half) + 0.01).all():
+                return moved[region.body] @ pose
+    return pose
+
+
+def out_of_sight(
+    known: KnownScene, name: str, before: Pose, held: Pose | None, scan: Scan
+) -> Pose | None:
+    """Where an object may be that is nowhere seen; None where it is lost.
+
+    Args:
+        known: the scene.
+        name: of the object.
+        before: its pose at the last look.
+        held: how it lay in the hand then, if it did: it was let go in a container, or on the desk
+            below the hand; what is nearest to the hand comes first.
+        scan: what is seen.
+    """
+    surface, tool = known.surfaces[name], known.tool()
+    options: list[tuple[float, Pose]] = []
+    leaning: list[tuple[float, Pose]] = []
+    for region in known.regions if held is not None else ():
+        pose = _in_region(known, region, surface, before)
+        if surface.long_axis is not None and region.opening[2] > 0.5:
+            standing = _standing_in(known, region, surface, before, scan)
+            if standing is not None:
+                leaning.append(standing)
+        aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
+        options.append((max(0.0, aside - float(max(region.half[:2]))), pose))
+    if leaning:
+        return max(leaning, key=lambda item: item[0])[1]
+    if held is not None:
+        let_go = tool @ held
+        lowest = float(let_go.place(surface.points)[:, 2].min())
+        drop = np.array([0.0, 0.0, lowest - known.scene.desk.top])
+        options.append((BELOW, Pose(let_go.rotation, let_go.position - drop)))
+    for _, pose in sorted(options, key=lambda item: item[0]):
+        if not contradicted(support(surface, pose, scan.view, scan.depth)):
+            return pose
+    clusters = scan.clusters()
+    if clusters and len(clusters[0]) >= SOMETHING:
+        # Something lies there that nothing else explains, if in no way that was recognized.
+        return start(surface, before.rotation, scan.points[clusters[0]], scan.view)
+    return None
+
+
+def _standing_in(
+    known: KnownScene, region: Region, surface: Surface, before: Pose, scan: Scan
+) -> tuple[float, Pose] | None:
+    """A rod that leans in an open container, by its outline, and what that is worth; None where
+    there is none.
+    """
+    assert surface.long_axis is not None
+    body = known.body(region.body)
+    room = np.array(region.center) - np.array([0.0, 0.0, region.half[2]])
+    floor = body.place(room[None])[0]
+    best: tuple[float, Pose] | None = None
+    few = surface.thinned(400)
+    for up in (1.0, -1.0):
+        for lean, heading in LEANS:
+            flat = np.array([np.cos(heading), np.sin(heading), 0.0])
+            wanted = flat * np.sin(lean) + np.array([0.0, 0.0, np.cos(lean)])
+            turn = _turn_between(before.rotation @ surface.long_axis * up, wanted)
+            rotation = turn @ before.rotation
+            placed = few.points @ rotation.T
+            foot = placed[int(np.argmin(placed @ wanted))]
+            aside = -flat * (np.sin(lean) > 0) * 0.6 * min(region.half[:2])
+            pose = Pose(rotation, floor + aside - foot)
+            worth = support(few, pose, scan.view, scan.depth).worth
+            if best is None or worth > best[0]:
+                best = (worth, pose)
+    assert best is not None
+    moves = [np.eye(6)[axis] * (0.008 if axis < 3 else TURN) for axis in (0, 1, 2, 3, 4)]
+    pose, borne = outlined(surface, best[1], scan.view, scan.depth, moves)
+    shown = borne.agree + borne.unread
+    if borne.outlined < STILL_THERE or shown < LEAST_AGREE:
+        return None
+    return borne.worth, pose
+
+
+def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose) -> Pose:
+    """The object on the floor of a container, in the middle."""
+    body = known.body(region.body)
+    floor = body.place(
+        (np.array(region.center) - np.array(region.opening) * np.array(region.half))[None]
+    )[0]
+    turned = surface.points @ before.rotation.T
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    middle = np.array([*((low + high) / 2)[:2], low[2]])
+    return Pose(before.rotation, floor - middle)
+
+
+def level_moves(surface: Surface, pose: Pose) -> list[Array]:
+    """Ways in which a lying rod may be elsewhere: along and across itself, and turned."""
+    assert surface.long_axis is not None
+    along = pose.rotation @ surface.long_axis
+    along[2] = 0.0
+    along /= max(float(np.linalg.norm(along)), 1e-9)
+    across = np.array([-along[1], along[0], 0.0])
+    return [
+        np.concatenate([along * SLIDE, np.zeros(3)]),
+        np.concatenate([across * SLIDE, np.zeros(3)]),
+        np.array([0.0, 0.0, 0.0, 0.0, 0.0, TURN]),
+    ]
+
+
+def _turn_between(one: Array, other: Array) -> Array:
+    """The shortest rotation (3, 3) that takes one direction (3,) to another."""
+    cross, cosine = np.cross(one, other), float(np.clip(one @ other, -1.0, 1.0))
+    length = float(np.linalg.norm(cross))
+    if length < 1e-9:
+        aside = np.cross(one, np.eye(3)[int(np.abs(one).argmin())])
+        return rotation_by(aside / np.linalg.norm(aside) * (0.0 if cosine > 0 else np.pi))
+    return rotation_by(cross / length * float(np.arccos(cosine)))
