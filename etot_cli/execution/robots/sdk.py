@@ -35,7 +35,7 @@ REPLY_WITHIN = 0.5
 ERROR, NO_REPLY, STATE_NOT_READY, GRIPPER_FAULT = 1, 3, 9, 102
 NOT_CONNECTED, NOT_READY, OUT_OF_RANGE = -1, -2, -8
 CODES = {
-    NO_REPLY: "the controller did not answer in time",
+    NO_REPLY: "the controller does not answer in time, or the connection is lost",
     STATE_NOT_READY: "the controller is not ready to move (stopped, or its emergency button)",
     GRIPPER_FAULT: "the gripper reports a fault",
     NOT_CONNECTED: "the connection to the controller is lost",
