@@ -56,6 +56,8 @@ AT_PADS = 0.014
 """What is in the hand has surface this near to both pads [m]: perception errs by less."""
 LET_GO = 0.004
 """Fingers that have opened by more since they held something hold it no longer [m]."""
+LEVEL = 0.3
+"""Rise of a rod's axis (sine) from which it stands or leans."""
 PART_STEPS, PART_ROUNDS = 15, 3
 """Values of a part's joint that are compared, and how often between the two best ones."""
 PART_POINTS = 2500
@@ -253,6 +255,14 @@ class CameraEyes:
         what stands goes on standing at its height unless something else is plainly better.
         """
         best, borne = pose, support(surface, pose, scan.view, scan.depth)
+        axis = surface.long_axis
+        if (
+            axis is not None
+            and abs((pose.rotation @ axis)[2]) > LEVEL
+            and borne.unread > borne.agree
+        ):
+            # Outlines tell too little of a leaning rod to move it while it may be where it was.
+            return pose, borne
         share = 0.0
         for freedom in Freedom:
             tried = improved(surface, best, readings, scan.view, freedom=freedom)
