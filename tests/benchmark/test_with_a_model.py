@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,8 +14,11 @@ from etot_cli.cli.app import run
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.player import Player
 from tests.benchmark.test_suite import write
+from tests.benchmark.video_server import Server
+from tests.opengl import missing_opengl
 from tests.vlm.scripts import rule, with_common
 
+ROOT = Path(__file__).parents[2]
 PLAN = "[PICK UP, ball]"
 RULES = with_common(
     [
@@ -58,3 +64,34 @@ def test_what_a_model_costs_is_in_the_table(
         path.read_text(encoding="utf-8") for path in out.rglob("*") if path.is_file()
     )
     assert "sk-secret" not in everything + shown
+
+
+@pytest.mark.slow
+@pytest.mark.render
+def test_videos_as_the_world_model(server: Server, tmp_path: Path) -> None:
+    """Every action considered is a video, and the model that looks at its frames is the judge.
+
+    A process of its own: forked workers must not inherit the graphics context of other tests.
+    """
+    reason = missing_opengl()
+    if reason:
+        pytest.skip(reason)
+    seen = '"before": [], "after": [{"object": "ball", "state": "in the hand"}]'
+    rules = [rule("compare", "{" + seen + ', "outcome": "success"}'), *RULES]
+    out = tmp_path / "out"
+    small = {"ETOT_VLM_IMAGE_WIDTH": "96", "ETOT_VLM_CACHE": "off"}
+    with FakeServer(Player(rules)) as model:
+        done = subprocess.run(
+            [sys.executable, "-m", "etot_cli.cli.app", "bench", str(write(tmp_path, "one")),
+             "--trials", "1", "--methods", "etot_kinematic", "--reasoner", "vlm",
+             "--vlm-url", model.url, "--video-url", server.url, "--out", str(out), "-q"],
+            env={**os.environ, **small, "PYTHONPATH": str(ROOT)}, cwd=ROOT, text=True,
+            capture_output=True, timeout=120, check=False,
+        )  # fmt: skip
+        judged = [request for request in model.requests if request.role == "compare"]
+    assert done.returncode == 0, done.stderr
+    report = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    assert report["rows"][0]["successes"] == 1, report["trials"]
+    prompts = [request["prompt"] for request in server.requests]
+    assert prompts == ["The robot arm picks up the ball."]
+    assert len(judged) == 1 and len(judged[0].images) >= 2
