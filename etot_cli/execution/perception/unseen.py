@@ -23,6 +23,8 @@ HIDDEN = 0.6
 BELOW = 0.02
 """What was let go is in a container rather than on the desk when that is this near to the hand
 [m], seen from above."""
+AT_HAND = 0.15
+"""The hand that let something go into a container is this near to it [m], seen from above."""
 SOMETHING = 60
 """Readings that hang together and belong to nothing, from which a missing object may be there."""
 SLIDE, TURN = 0.012, 0.15
@@ -97,11 +99,11 @@ def out_of_sight(
     leaning: list[tuple[float, Pose]] = []
     for region in known.regions if held is not None else ():
         pose = _in_region(known, region, surface, before)
-        if surface.long_axis is not None and region.opening[2] > 0.5:
+        aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
+        if surface.long_axis is not None and region.opening[2] > 0.5 and aside < AT_HAND:
             standing = _standing_in(known, region, surface, before, scan)
             if standing is not None:
                 leaning.append(standing)
-        aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
         options.append((max(0.0, aside - float(max(region.half[:2]))), pose))
     if leaning:
         return max(leaning, key=lambda item: item[0])[1]
@@ -149,7 +151,7 @@ def _standing_in(
     moves = [np.eye(6)[axis] * (0.008 if axis < 3 else TURN) for axis in (0, 1, 2, 3, 4)]
     pose, borne = outlined(surface, best[1], scan.view, scan.depth, moves)
     shown = borne.agree + borne.unread
-    if borne.outlined < STILL_THERE or shown < LEAST_AGREE:
+    if borne.outlined < GONE or shown < LEAST_AGREE:
         return None
     return borne.worth, pose
 
