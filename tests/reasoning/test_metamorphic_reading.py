@@ -73,6 +73,8 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     if re.match(r"(?i)(i |i'd|could|would|the |don't|never|1\.)", text):
         return  # it has a frame of its own
+    if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
+        return  # it has no verb that could be asked for
     head = text[0].lower() + text[1:]
     assert meaning(f"Please {head}", SCENES[name]) == plain
     assert meaning(f"Could you {head}", SCENES[name]) == plain

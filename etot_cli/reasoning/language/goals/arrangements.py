@@ -82,6 +82,8 @@ def swap(context: Context, clause: SwapClause) -> None:
     text = " and ".join(phrase.text for phrase in clause.things.phrases)
     if len(things) != 2:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
+    if any(index in context.discourse.put for index in themes):
+        raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
     if _carries(context, things[0], things[1]) or _carries(context, things[1], things[0]):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)

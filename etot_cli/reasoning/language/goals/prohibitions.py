@@ -30,19 +30,33 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     if role is Role.ANY and any(phrase.words[-1:] in _ONES for phrase in clause.things.phrases):
         role = Role.THEME  # "leave the red one" speaks of what was moved, not of where to
     before = len(context.discourse.mentions)
+    if clause.avoid is Avoid.PUT:
+        _rule_out_things(context, clause)
+        if before:  # else "do not put the plum there, put it here" speaks of the plum
+            del context.discourse.mentions[before:]
+        return
     indices = context.phrases.things(clause.things, role)
+    for referent in (context.discourse.referents[index] for index in indices):
+        if referent.distinct_from and len(referent.options) > 1:
+            raise ReferenceProblem(referent.text, "say which one", 3)
     # "Without touching a cup" is about all of them.
     things = {thing: None for index in indices for thing in context.discourse.things(index)}
     names = tuple(dict.fromkeys(_address(thing, role) for thing in things))
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-    if clause.avoid is Avoid.PUT:
-        rule_out(context, indices, clause.destinations)
-        del context.discourse.mentions[before:]
-        return
     # What must not be done is not what "it" speaks of afterwards.
     del context.discourse.mentions[before:]
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _rule_out_things(context: Context, clause: AvoidClause) -> None:
+    """Says where things must not be put; "it" is what was put somewhere, not where that is."""
+    assert clause.things is not None
+    put_into = dict(context.discourse.put_into)
+    context.discourse.put_into.clear()
+    indices = context.phrases.things(clause.things, Role.THEME)
+    context.discourse.put_into.update(put_into)
+    rule_out(context, indices, clause.destinations)
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:

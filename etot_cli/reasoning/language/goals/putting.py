@@ -33,7 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
 from etot_cli.reasoning.language.reference.distribution import distributed
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, same_noun, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -129,11 +129,23 @@ def again(context: Context, clause: AgainClause) -> None:
         themes = context.phrases.things(clause.things, Role.THEME)
         if set(themes) & {index for place in step.places for index in place.referents()}:
             raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
+        if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
+            why = "say whether it goes there, too, or is one more place to go to"
+            raise ReferenceProblem(text, why, 4)
         _add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
         return
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):
         context.steps.append(replace(step, what=index))
+
+
+def _like_a_place(context: Context, step: Put, theme: int) -> bool:
+    """Whether "A on B and C, too" may say that A goes on B and C: they share their noun."""
+    discourse = context.discourse
+    places = {index for place in step.places for index in place.referents()}
+    nouns = [mention.noun for mention in discourse.mentions if mention.referent in places]
+    own = [mention.noun for mention in discourse.mentions if mention.referent == theme]
+    return any(same_noun(one, other) for one in nouns for other in own)
 
 
 def remove(context: Context, clause: RemoveClause) -> None:

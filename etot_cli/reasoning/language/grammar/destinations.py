@@ -41,8 +41,13 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
 
 _NEARBY = either(*(phrase(text, relation) for relation, text in places.NEARBY.items()))
 _REGION = either(*(phrase(text, regions) for regions, text in places.REGIONS.items()))
+_ITS_SIDE = either(*(phrase(text, relation) for relation, text in places.ITS_SIDE.items()))
 BESIDE = either(
     sequence(_NEARBY, noun_phrase, build=_beside),
+    sequence(
+        _ITS_SIDE,
+        build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
+    ),
     sequence(
         silent(phrase("[in] between")),
         noun_phrase,
@@ -65,8 +70,8 @@ BESIDES = valued(
     separated(BESIDE, silent(either(COMMA, phrase("and, but"))), most=3),
     lambda found: tuple(item for several in found for item in several),
 )
-_into = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
-_onto = sequence(silent(phrase(places.ONTO)), TARGETS, build=_toward(Toward.ON))
+INTO = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
+ONTO = sequence(silent(phrase(places.ONTO)), TARGETS, build=_toward(Toward.ON))
 _to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
 _top_of = sequence(
     silent(phrase(places.ONTO)),
@@ -77,15 +82,15 @@ _top_of = sequence(
 )
 destination = Rule(
     either(
-        _into,
-        _onto,
+        INTO,
+        ONTO,
         _to,
         _top_of,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
         sequence(
-            either(_onto, _to, _into),
+            either(ONTO, _to, INTO),
             silent(optional(phrase("~comma"), None)),
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),

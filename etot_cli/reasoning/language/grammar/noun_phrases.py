@@ -155,6 +155,13 @@ _modifier = either(
         build=lambda modifier: replace(modifier, denied=True),
     ),
     sequence(
+        DENIED,
+        noun_phrase,
+        build=lambda np: (
+            Modifier(Prep.EXCEPT, (np,)) if np.words and not is_descriptive(np.words[-1]) else None
+        ),
+    ),
+    sequence(
         silent(phrase(nouns.RELATIVE_NEITHER)),
         valued(
             separated(ADJECTIVE, silent(phrase("nor, or")), most=3),

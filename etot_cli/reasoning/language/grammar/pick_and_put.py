@@ -14,7 +14,13 @@ from etot_cli.reasoning.language.grammar.common import (
     WITH,
     alternatives,
 )
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, destination
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+    DIRECTED,
+    INTO,
+    ONTO,
+    destination,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -198,7 +204,14 @@ _SO_THAT_IT_IS = sequence(
     DESTINATIONS,
     build=PutGroup,
 )
+_IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
+    sequence(
+        # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
+        silent(phrase(verbs.PLACE)),
+        either(INTO, ONTO),
+        build=lambda where: PutClause((PutGroup(_IT, (where,)),)),
+    ),
     sequence(
         silent(phrase(verbs.PUT)),
         either(_ONE_BY_ONE, _SO_THAT_IT_IS),
@@ -380,7 +393,11 @@ WANTED = either(
 )
 AGAIN = either(
     sequence(silent(phrase(small_words.SAME_AGAIN)), THINGS, build=AgainClause),
-    sequence(THINGS, silent(phrase(small_words.ALSO)), build=AgainClause),
+    sequence(
+        THINGS,
+        silent(phrase(small_words.ALSO)),
+        build=lambda things: AgainClause(things, trailing=True),
+    ),
 )
 
 

@@ -197,9 +197,12 @@ class CoverClause:
 
 @dataclass(frozen=True, slots=True)
 class AgainClause:
-    """What was asked for last is asked for of other things, too."""
+    """What was asked for last is asked for of other things, too. ``trailing``: "and the cup, too"
+    says so, which may also add to where things go.
+    """
 
     things: Things
+    trailing: bool = False
 
 
 class Avoid(StrEnum):

@@ -122,9 +122,16 @@ class Discourse:
         found: dict[Thing, None] = {}
         for mention in self.mentions:
             options = self.referents[mention.referent].options
-            if mention.noun == noun and len(options) == 1:
+            if noun is not None and same_noun(mention.noun, noun) and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         return tuple(found)
+
+    def is_about_parts(self, noun: str | None) -> bool:
+        """Whether what was spoken of last by a noun is part of something ("one drawer")."""
+        for mention in reversed(self.mentions):
+            if noun is not None and same_noun(mention.noun, noun):
+                return all(thing.part for thing in self.things(mention.referent))
+        return False
 
     def antecedents(
         self, pronoun: str, role: Role, text: str, excluded: Sequence[int] = ()

@@ -18,6 +18,10 @@ RANKED = frozenset(
 """Relations that are true of some things more than of others."""
 
 
+EQUAL = 1e-6
+"""Distances that differ by no more, which is rounding, leave the choice open [m]."""
+
+
 def related(
     modifier: Modifier,
     things: list[Thing],
@@ -52,7 +56,8 @@ def related(
             best[thing] = min(cost, best.get(thing, cost))
     order = sorted(best, key=lambda thing: best[thing])
     if quantity.definite and count is not None and not quantity.every:
-        return order[:count]
+        worst = best[order[count - 1]] if len(order) >= count else 0.0
+        return [t for i, t in enumerate(order) if i < count or best[t] - worst < EQUAL]
     if prep is Prep.NEAR:
         beside = landmarks[0]
         near = [t for t in order if any(space.is_next_to(t, m, scene) for m in beside)]

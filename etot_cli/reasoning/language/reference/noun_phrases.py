@@ -63,11 +63,16 @@ class Resolved:
     notes: tuple[str, ...] = ()
 
 
+_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.UNDER, Prep.ABOVE)
+
+
 def _tells_parts(modifier: Modifier) -> bool:
     """Whether a modifier is about one drawer rather than about the whole chest."""
     state = modifier.prep is Prep.QUALITY and any(word in STATES for word in modifier.words)
     side = modifier.prep is Prep.SIDE and any(word in LEVELS for word in modifier.words)
-    return state or side or modifier.prep in (Prep.CONTAINING, Prep.WITH)
+    named = any(word in LEVELS for item in modifier.phrases for word in item.words)
+    by_part = named and modifier.prep is Prep.EXCEPT
+    return state or side or by_part or modifier.prep in _OF_PARTS
 
 
 class Resolver:
@@ -89,6 +94,7 @@ class Resolver:
         *,
         noun: str | None = None,
         excluded: Sequence[Thing] = (),
+        parts_first: bool = False,
         pronoun: Pronoun = lambda phrase: (),
     ) -> Resolved:
         """What a phrase with a noun means.
@@ -98,6 +104,7 @@ class Resolver:
             role: what it is used for.
             noun: the noun of an earlier phrase, for "one" and "the other".
             excluded: what "the other" is not.
+            parts_first: it is about drawers rather than about whole chests.
             pronoun: what a pronoun in a modifier means.
 
         Raises:
@@ -115,9 +122,12 @@ class Resolver:
                 phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
                 word=quantity.unclear,
             )  # fmt: skip
-        parts = quantity.other and any(thing.part for thing in excluded)
+        parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
         match = self._match(phrase, words, noun, parts_first=parts)
-        if quantity.every and not match.plural:
+        one = phrase.determiner == "one" and any(
+            entry.info is not None and len(entry.info.parts) > 1 for entry in match.entries
+        )
+        if (quantity.every or one) and not match.plural:
             match = self._parts(match, words, phrase)
         things = [entry.thing for entry in match.entries]
         first = phrase.determiner.split()[:1]
@@ -154,7 +164,9 @@ class Resolver:
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
         things = called_exactly(things, match, phrase, words, quantity, count)
         options = options_of(things, count, quantity, phrase)
-        head = noun if matches_any(words[-1], THING_NOUNS) and noun else words[-1]
+        unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
+        named = next((word for word in reversed(unnumbered) if word), words[-1])
+        head = noun if matches_any(named, THING_NOUNS) and noun else named
         every = quantity.every or (count is None and match.plural)
         return Resolved(options, quantity.definite, quantity.other, head, every, match.notes)
 
@@ -304,7 +316,11 @@ class Resolver:
             if len(both) != 2:
                 raise ReferenceProblem(phrase.text, "say between which two things", 2)
             return [[both[0]], [both[1]]]
-        return [self._landmarks(item, pronoun) for item in modifier.phrases]
+        noun = phrase.words[-1] if phrase.words else None
+        return [
+            self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
+            for item in modifier.phrases
+        ]
 
     def _landmarks(
         self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None

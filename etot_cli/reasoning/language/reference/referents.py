@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
@@ -82,6 +83,10 @@ class Phrases:
             for index in found:
                 self.discourse.mention_again(index, role)
             return found
+        if phrase.determiner == "both" and not phrase.words and not phrase.modifiers:
+            found = self._both(role, phrase.text, excluded)
+            if found:
+                return found
         if "same" in phrase.determiner.split():
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
@@ -89,6 +94,18 @@ class Phrases:
         index = self.discourse.add(self._resolved(phrase, role), phrase.text, role)
         self._note_landmarks(phrase)
         return (index,)
+
+    def _both(self, role: Role, text: str, excluded: Sequence[int]) -> tuple[int, ...]:
+        """The two things that were spoken of one by one."""
+        with suppress(ReferenceProblem):
+            found = self.discourse.antecedents("them", role, text, excluded)
+            if len(found) == 2 and all(
+                len(option) == 1 for i in found for option in self.discourse.referents[i].options
+            ):
+                for index in found:
+                    self.discourse.mention_again(index, role)
+                return found
+        return ()
 
     def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
         """The latest referent that "the same …" may mean."""
@@ -117,6 +134,8 @@ class Phrases:
         owner = () if phrase.owner is None else (phrase.owner,)
         named = [item for modifier in phrase.modifiers for item in modifier.phrases]
         for landmark in (*owner, *named):
+            if landmark.determiner == "one":
+                raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
                 resolved = self._resolver.resolve(landmark, Role.ANY, pronoun=self._pronoun_things)
                 self.discourse.add(resolved, landmark.text, Role.ANY)
@@ -142,18 +161,48 @@ class Phrases:
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
-        if noun_before is not None and _leaves_noun_out(phrase):
-            phrase = replace(phrase, words=(*phrase.words, singular(noun_before)))
-        resolved = self._resolver.resolve(
-            phrase,
-            role,
-            noun=noun_before,
-            excluded=discourse.mentioned_like(noun_before),
-            pronoun=self._pronoun_things,
-        )
+        resolved = self._with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
             return self._others(resolved)
         return self._of_spoken_owner(self._spoken_part(resolved))
+
+    def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
+        """A phrase that may leave its noun to an earlier one: to the latest, else to the only
+        other one that makes sense ("both cups on the tray, then the plum in the yellow one").
+        """
+        if phrase.determiner.isdigit() and not phrase.words:
+            why = "a number alone is a count or a name; say which thing"
+            raise ReferenceProblem(phrase.text, why, 3)
+        try:
+            return self._resolved_as(phrase, role, noun)
+        except ReferenceProblem:
+            others = quantity_of(phrase.determiner).other
+            if phrase.words[-1:] not in (("one",), ("ones",)) and (phrase.words or not others):
+                raise
+            found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
+            for other in dict.fromkeys(mention.noun for mention in self.discourse.mentions):
+                if noun is not None and not same_noun(other, noun):
+                    with suppress(ReferenceProblem):
+                        resolved = self._resolved_as(phrase, role, other)
+                        found.setdefault(resolved.options, resolved)
+            if len(found) != 1:
+                raise
+            return next(iter(found.values()))
+
+    def _resolved_as(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
+        if noun is not None and _leaves_noun_out(phrase):
+            phrase = replace(phrase, words=(*phrase.words, singular(noun)))
+        other = quantity_of(phrase.determiner).other
+        named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
+        own = named[0] if named else noun
+        return self._resolver.resolve(
+            phrase,
+            role,
+            noun=noun,
+            excluded=self.discourse.mentioned_like(own),
+            parts_first=other and self.discourse.is_about_parts(own),
+            pronoun=self._pronoun_things,
+        )
 
     def _spoken_part(self, resolved: Resolved) -> Resolved:
         """After "the lower drawer" "the drawer" is that one, not the whole chest."""
@@ -224,7 +273,10 @@ class Phrases:
 
     def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
         role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
-        if toward is Toward.TO and phrase.words and all(word in SIDES for word in phrase.words):
+        bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
+        targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
+        spoken = any(item.role in targets for item in self.discourse.mentions)
+        if bare and (toward is Toward.TO or not spoken):
             raise ReferenceProblem(phrase.text, "say to which side of what", 2)
         found = []
         for index in self.refer(phrase, role, themes):
@@ -233,8 +285,26 @@ class Phrases:
                 raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
+            if phrase.pronoun and toward is Toward.ON:
+                self._check_upon_it(phrase, index, themes)
             found += self.relations_to(toward, index, themes)
         return found
+
+    def _check_upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
+        """What sinks into a vessel and would as well lie on what was put there: "on it" is both."""
+        discourse = self.discourse
+        inner = [i for i, around in discourse.put_into.items() if around == index]
+        laid = [thing for theme in themes for thing in discourse.things(theme)]
+        things = discourse.things(index)
+        sinks = not any(lies_on(laid, thing, self._scene) for thing in things)
+        bears = [
+            i
+            for i in inner
+            if all(can_be(thing, Role.SURFACE, self._scene) for thing in discourse.things(i))
+        ]
+        if sinks and bears:
+            names = " or ".join(discourse.referents[i].text for i in (*bears, index))
+            raise ReferenceProblem(phrase.text, f"say whether on {names}", 4)
 
     def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
         """In or on a referent, whichever fits it and what is asked for."""

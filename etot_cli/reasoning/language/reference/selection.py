@@ -148,7 +148,13 @@ def _at_side(
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
         return [space.in_a_row(things, scene)[len(things) // 2]]
-    return _leading(space.by_side(side, things, scene), count, phrase)
+    ordered = space.by_side(side, things, scene)
+    leading = _leading(ordered, count, phrase)
+    next_one = ordered[len(leading) : len(leading) + 1]
+    if next_one and space.are_level(side, leading[-1], next_one[0], scene):
+        names = f"{leading[-1].name} and {next_one[0].name}"
+        raise ReferenceProblem(phrase, f"{names} are as far to that side", 2, word=side)
+    return leading
 
 
 def _leading(ordered: list[Thing], count: int | None, phrase: str) -> list[Thing]:

@@ -82,6 +82,18 @@ def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     return any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
+def _levels_up(low: Thing, high: Thing, scene: SceneState) -> int:
+    """How many levels of the same piece of furniture one part or board is above another, else 0."""
+    if low.name != high.name or low.name == DESK:
+        return 0
+    info = scene.infos[low.name]
+    # Parts are listed from the top down, boards from the bottom up.
+    upward = (*(part.name for part in reversed(info.parts)), *info.boards)
+    names = [thing.part or thing.board for thing in (low, high)]
+    found = [upward.index(name) for name in names if name in upward]
+    return found[1] - found[0] if len(found) == 2 else 0
+
+
 def holds_at(
     prep: Prep, thing: Thing, landmarks: Sequence[Thing], scene: SceneState
 ) -> bool | None:
@@ -101,8 +113,12 @@ def holds_at(
             lies_in(landmark, thing, scene) or rests_on(landmark, thing, scene)
         ),
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
-        Prep.UNDER: lambda landmark: thing.name in _bearers(landmark, scene),
-        Prep.ABOVE: lambda landmark: landmark.name in _bearers(thing, scene),
+        Prep.UNDER: lambda landmark: (
+            thing.name in _bearers(landmark, scene) or _levels_up(thing, landmark, scene) == 1
+        ),
+        Prep.ABOVE: lambda landmark: (
+            landmark.name in _bearers(thing, scene) or _levels_up(landmark, thing, scene) == 1
+        ),
     }
     if prep in tests:
         return first != ROBOT and tests[prep](first)
@@ -165,6 +181,17 @@ def is_next_to(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
 
 def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     """Things ordered from the most to the least ``left``, ``right``, ``near``, ``far``, …"""
+    key = _along(side, scene)
+    return sorted(things, key=key)
+
+
+def are_level(side: str, first: Thing, second: Thing, scene: SceneState) -> bool:
+    """Whether neither of two things is plainly more to a side than the other one."""
+    key = _along(side, scene)
+    return abs(key(first) - key(second)) < OFFSET
+
+
+def _along(side: str, scene: SceneState) -> Cost:
     keys: dict[str, Cost] = {
         "left": lambda thing: -to_the_left(thing, scene),
         "right": lambda thing: to_the_left(thing, scene),
@@ -173,7 +200,7 @@ def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing
         "front": lambda thing: to_the_back(thing, scene),
         "back": lambda thing: -to_the_back(thing, scene),
     }
-    return sorted(things, key=keys[side])
+    return keys[side]
 
 
 def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:

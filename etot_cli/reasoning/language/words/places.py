@@ -90,6 +90,10 @@ NEARBY: dict[Nearby, str] = {
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: "[far] away from, far from",
 }
+ITS_SIDE: dict[Nearby, str] = {
+    Nearby.LEFT: "(to|on|at) its left [side|hand side]",
+    Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
+}
 REGIONS: dict[tuple[Nearby, ...], str] = {
     (
         Nearby.AT_LEFT,

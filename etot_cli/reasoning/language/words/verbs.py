@@ -17,6 +17,8 @@ PUT = """
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
     add[ing]
 """
+PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
+"""Before a place alone, what was spoken of goes there."""
 DISTRIBUTE = """
     distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
 """
