@@ -135,7 +135,9 @@ def _by_size(
         values = {"volume": x * y * z, "height": z, "width": max(x, y), "mass": info.mass}
         return -sign * values[quantity]
 
-    return _leading(sorted(things, key=measure), count, phrase)
+    ordered = sorted(things, key=measure)
+    last = measure(_leading(ordered, count, phrase)[-1])
+    return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
 
 
 def _at_side(
