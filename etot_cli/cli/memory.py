@@ -11,8 +11,8 @@ import re
 
 from etot_cli.errors import EtotError, ServiceError
 
-NEEDED_MIB = 512
-"""Address space in which a small task can be planned: libraries and models take 480 to 500 MiB."""
+NEEDED_MIB = 640
+"""Address space in which a small task can be planned: libraries and models take 610 to 640 MiB."""
 MIB = 1 << 20
 _LACK = re.compile(
     r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"

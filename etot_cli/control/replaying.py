@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 
+from etot_cli.control.physics_world import PhysicsWorld
 from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.errors import PlanSyntaxError
@@ -15,7 +16,6 @@ from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.motion.motion import Motion, Trace
 from etot_cli.specs.scene import Scene
-from etot_cli.world.model import build_world
 from etot_cli.world.snapshot import Snapshot
 from etot_cli.world.state import SceneState
 
@@ -62,7 +62,8 @@ def open_replay(
         PlanSyntaxError: the recordings belong to another robot or scene.
     """
     world = SimulatedWorld(truth, seed, keep_frames=record)
-    nominal = world.world if truth is scene else build_world(scene)
+    # What a world is stepped with belongs to its model too.
+    nominal = world.world if truth is scene else PhysicsWorld(scene).world
     robot = nominal.robot.spec
     for item in recordings:
         if item.robot != robot.name or item.joints != robot.joints:
