@@ -20,6 +20,8 @@ PIPE_WIDTH = 10_000
 GOOD, POOR = 0.8, 0.4
 """Rates from which a cell is green, and up to which it is red."""
 SIGNIFICANT = 0.05
+LEAST_TOLD = 1e-4
+"""P values below this say nothing more."""
 
 
 class BenchSummary:
@@ -142,8 +144,13 @@ def told(pair: PairedModel) -> str:
         f"(95 % interval {_points(low)} to {_points(high)}), "
         f"{pair.second_only} better, {pair.first_only} worse of "
         f"{pair.both + pair.first_only + pair.second_only + pair.neither}, "
-        f"p = {pair.p_adjusted:.3g}"
+        f"p {chance(pair)}"
     )
+
+
+def chance(pair: PairedModel) -> str:
+    """The p value as it reads after "p"; reports round it to six digits."""
+    return f"= {pair.p_adjusted:.3g}" if pair.p_adjusted >= LEAST_TOLD else f"< {LEAST_TOLD:g}"
 
 
 def significantly_worse(pair: PairedModel) -> bool:

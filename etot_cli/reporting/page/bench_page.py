@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 
 from etot_cli.reporting.bench_report import BenchReport, PairedModel, TrialRowModel
-from etot_cli.reporting.bench_table import significantly_worse
+from etot_cli.reporting.bench_table import chance, significantly_worse
 from etot_cli.reporting.page.assemble import assemble
 
 CLASS_COLOURS = {
@@ -86,7 +86,7 @@ def _pair(pair: PairedModel, titles: dict[str, str]) -> dict[str, object]:
         "interval": f"{100 * low:+.0f} to {100 * high:+.0f}",
         "better": pair.second_only,
         "worse": pair.first_only,
-        "p": f"{pair.p_adjusted:.3g}",
+        "p": chance(pair).removeprefix("= "),
         "significant": significantly_worse(pair),
     }
 
