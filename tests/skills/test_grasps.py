@@ -98,6 +98,21 @@ def test_width_of_a_ball_and_a_box() -> None:
     assert found.grasps[0].width == pytest.approx(0.05, abs=0.004)
 
 
+@pytest.mark.parametrize("diameter", [0.078, 0.083, 0.085, 0.090, 0.095])
+def test_a_ball_is_no_wider_at_the_lower_edge_of_the_pads(diameter: float) -> None:
+    """Wherever the tool point is, the pads reach deeper, and meet the ball where it is wider."""
+    stage, found = sample(BALL, GraspPose.VERTICAL, diameter=diameter)
+    robot, center = stage.world.robot, stage.data.body("thing").xpos
+    assert found.grasps
+    for grasp in found.grasps:
+        shift = grasp.tool.position - center
+        above = max(float(shift[2]) - robot.tip, 0.0)
+        aside = float(shift @ grasp.tool.rotation[:, 0])
+        across = 2 * float(np.sqrt(max((diameter / 2) ** 2 - above**2 - aside**2, 0.0)))
+        # Round things are cut as polygons.
+        assert across + WIDTH_MARGIN <= robot.spec.gripper.opening + 0.01 * diameter
+
+
 def test_wide_cup_is_grasped_at_its_rim() -> None:
     stage, found = sample(CUP, GraspPose.VERTICAL)
     rim = stage.top + CUP["height"]

@@ -49,9 +49,7 @@ def _infeasible(
 
 
 def _too_wide(desk: Desk, seed: int) -> Problem:
-    """A ball or a box, on every side wider than the gripper opens: there is no grasp, or the
-    fingers slip off a ball's upper half.
-    """
+    """A ball or a box, on every side wider than the gripper opens."""
     wide = between(desk.rng, TOO_WIDE + 0.005, 0.13)
     noun, item = ("ball", ball(desk.rng, wide, wide)) if seed % 20 < 10 else (
         "box", solid([wide, wide + 0.01, between(desk.rng, TOO_WIDE, 0.12)])
@@ -60,7 +58,7 @@ def _too_wide(desk: Desk, seed: int) -> Problem:
     target = desk.stand("tray", tray(0.20, 0.18))
     goal = [{"on": [thing, target]}] if noun == "box" else [{"in_hand": thing}]
     text = f"put {the(thing)} on {the(target)}" if noun == "box" else f"pick up {the(thing)}"
-    return _infeasible(desk, seed, text, goal, "no_grasp slip", thing)
+    return _infeasible(desk, seed, text, goal, "no_grasp", thing)
 
 
 def _does_not_fit(desk: Desk, seed: int) -> Problem:

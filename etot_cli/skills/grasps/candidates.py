@@ -35,7 +35,8 @@ Vector = NDArray[np.float64]
 FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""
 WIDTH_MARGIN = 0.004
-"""The gripper must open this much wider than the object [m]."""
+"""The gripper must open this much wider than the object [m]: twice what sizes are off by at the
+widest (2 % of 85 mm). More would be paid for in friction, as balls are then held higher up."""
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
 SQUARE = 0.8
@@ -141,13 +142,17 @@ def _from_above(
     if not levels:
         return
     low, high, center, axis = bounds
-    origins, closings = [line.point for line in levels], [line.closing for line in levels]
-    lines = solids.intervals(data, name, np.array(origins), np.array(closings))
+    origins = np.array([line.point for line in levels])
+    closings = np.array([line.closing for line in levels])
+    deepest = high[2] - low[2] - world.robot.tip - SUPPORT_GAP
+    tips = origins.copy()
+    tips[:, 2] = [high[2] - min(line.depth, deepest) - world.robot.tip for line in levels]
+    lines = solids.intervals(data, name, origins, closings)
+    at_tips = solids.intervals(data, name, tips, closings)
     slanted: list[Slanted] = []
-    for (origin, closing, offset, depth), line in zip(levels, lines, strict=True):
-        deepest = high[2] - low[2] - world.robot.tip - SUPPORT_GAP
+    for (origin, closing, offset, depth), line, below in zip(levels, lines, at_tips, strict=True):
         tool_depth = min(depth, deepest)
-        for interval, rim in _choices(line):
+        for interval, rim in _choices(line, below):
             middle = origin + closing * (interval.start + interval.end) / 2
             middle[2] = high[2] - tool_depth
             score = _score(center, middle, axis, interval, rim=rim, depth=depth, offset=offset)
@@ -164,12 +169,17 @@ def _from_above(
         )  # fmt: skip
 
 
-def _choices(line: list[Interval]) -> list[tuple[Interval, bool]]:
-    """Single walls with room on both sides, and the whole outside; True marks a wall."""
+def _choices(line: list[Interval], below: list[Interval]) -> list[tuple[Interval, bool]]:
+    """Single walls with room on both sides, and the whole outside; True marks a wall.
+
+    Args:
+        line: material at the tool point.
+        below: material at the lower edge of the pads, which meets a ball first where it is wider.
+    """
     if not line:
         return []
-    outer = line[0].to(line[-1])
-    chosen = [(outer, False)]
+    spans = [found[0].to(found[-1]) for found in (line, below) if found]
+    chosen = [(max(spans, key=lambda span: span.width), False)]
     if len(line) > 1:
         for index, interval in enumerate(line):
             before = interval.start - line[index - 1].end if index else np.inf

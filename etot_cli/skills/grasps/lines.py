@@ -17,8 +17,11 @@ Bounds = tuple[Vector, Vector, Vector, Vector | None]
 
 FINGER_DEPTH = 0.05
 """Depth of the space between the fingers, from the tool point backwards [m]."""
-BETWEEN = 3
-"""Depths between the upper one and the middle."""
+SHALLOWEST = 0.012
+"""Least depth of the tool point below the top that is looked at: pads reach 7.5 mm deeper [m]."""
+BETWEEN = 16
+"""Depths between that and the middle: less than 2 mm from one to the next on what is as high as a
+hand is wide. The width of a ball changes by less than a millimetre over that."""
 MAX_PARTS = 32
 """Parts of an object that are looked at one by one where nothing else can be grasped."""
 
@@ -35,17 +38,20 @@ class Line(NamedTuple):
 
 
 def grid(bounds: Bounds, closings: Iterable[Vector], *, between: bool = False) -> list[Line]:
-    """Lines all over the object; ``between``: at the depths between those usually looked at."""
+    """Lines all over the object; ``between``: at many depths instead of one or two, through its
+    centre.
+    """
     low, high, center, axis = bounds
     lines = []
     depths = sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))})
     if between:
         depths = (
-            np.linspace(depths[0], depths[-1], BETWEEN + 2)[1:-1].tolist() if depths[1:] else []
+            np.linspace(SHALLOWEST, depths[-1], BETWEEN + 2)[:-1].tolist() if depths[1:] else []
         )
     for closing in closings:
         across = np.array([-closing[1], closing[0], 0.0])
-        offsets = _offsets(float(np.abs(across) @ (high - low)) / 2, axis, across)
+        half = float(np.abs(across) @ (high - low)) / 2
+        offsets = [0.0] if between else _offsets(half, axis, across)
         for depth in depths:
             for offset in offsets:
                 point = center + across * offset

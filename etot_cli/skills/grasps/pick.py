@@ -143,22 +143,15 @@ def pick_outcome(
         met = trace.against(name if stopped.name == "lift" else None)
         against = sorted(met, key=lambda address: address == name)
         return arm_stopped(where, against, [name], trace.seconds)
+    widths = f"({width * 1000:.0f} mm wide there, gripper opens {opening * 1000:.0f} mm)"
     if stopped is not None and stopped.end is PhaseEnd.MISSED:
-        return failed(
-            CauseKind.SLIP,
-            [name],
-            f"the fingers closed without getting hold of {name}",
-            trace.seconds,
-            another_way=another,
-        )
-    return failed(
-        CauseKind.SLIP,
-        [name],
-        f"{name} slipped out of the fingers ({width * 1000:.0f} mm wide, "
-        f"gripper opens {opening * 1000:.0f} mm)",
-        trace.seconds,
-        another_way=another,
-    )
+        text = f"the fingers closed without getting hold of {name} {widths}"
+    elif width > opening:
+        # The fingers came to rest on it: they were never around it.
+        return _too_wide(name, width, opening, trace.seconds)
+    else:
+        text = f"{name} slipped out of the fingers {widths}"
+    return failed(CauseKind.SLIP, [name], text, trace.seconds, another_way=another)
 
 
 def pick_precondition(belief: Belief, action: Action) -> SkillOutcome | None:
@@ -241,7 +234,8 @@ def _too_wide(name: str, width: float, opening: float, time_s: float | None = No
     return failed(
         CauseKind.NO_GRASP,
         [name],
-        f"{name} is {width * 1000:.0f} mm wide, the gripper opens {opening * 1000:.0f} mm",
+        f"{name} is {width * 1000:.0f} mm wide where the fingers would close, the gripper opens "
+        f"{opening * 1000:.0f} mm",
         time_s,
     )
 
