@@ -36,7 +36,7 @@ class Journal:
         self._handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
         try:
             self._read()
-        except BaseException:
+        except BaseException:  # an interrupt too: nobody else knows of the handle
             os.close(self._handle)
             raise
 

@@ -72,7 +72,7 @@ class AzureKinect:
             raise ServiceError("the Azure Kinect is not open")
         try:
             found = self._device.get_capture(timeout=WITHIN_MS)
-        except Exception as error:
+        except Exception as error:  # as above
             raise ServiceError(
                 f"the Azure Kinect gave no picture within {WITHIN_MS / 1000:g} s: "
                 f"{str(error) or type(error).__name__}"
