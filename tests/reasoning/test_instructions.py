@@ -149,7 +149,9 @@ REWORDED: dict[str, dict[str, list[str]]] = {
             f"{HOLDER_ON} {APPLE_IN}"
         ],
         "Put the holder on the drawer and the apple in the holder.": [f"{HOLDER_ON} {APPLE_IN}"],
-        "Put the apple into the holder, then put it on the drawer": [f"{APPLE_IN} {HOLDER_ON}"],
+        "Put the apple into the holder, then put that holder on the drawer": [
+            f"{APPLE_IN} {HOLDER_ON}"
+        ],
         "Make sure that the apple is in the cup and the cup is on the drawer": [
             f"{APPLE_IN} {HOLDER_ON}"
         ],

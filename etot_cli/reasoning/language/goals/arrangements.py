@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
-from etot_cli.reasoning.language.reference.referents import lies_on
+from etot_cli.reasoning.language.reference.places import lies_on
 
 
 def tower(context: Context, clause: TowerClause) -> None:
@@ -24,7 +24,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     indices = [context.single(thing, thing.name) for thing in things]
     bottom = indices[0]
     if clause.base:
-        places = context.phrases.places(clause.base, indices)
+        places = context.places.of(clause.base, indices)
         context.steps.append(Put((indices[0],), places))
         under = places[0].where
         if len(things) == 1 and len(places) == 1 and under is not None:
@@ -91,7 +91,7 @@ def swap(context: Context, clause: SwapClause) -> None:
         raise ReferenceProblem(text, "they are in the same place", 2)
     first, second = (context.single(thing, thing.name) for thing in things)
     context.steps += [
-        Put((first,), (context.phrases.on_the_desk(),), aside=True),
+        Put((first,), (context.places.on_the_desk(),), aside=True),
         Put((second,), (homes[0],)),
         Put((first,), (homes[1],)),
     ]

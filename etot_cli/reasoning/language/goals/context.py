@@ -6,6 +6,7 @@ from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, R
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
+from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -24,6 +25,7 @@ class Context:
         self.scene = scene
         self.discourse = discourse
         self.phrases = Phrases(scene, resolver, discourse)
+        self.places = Places(scene, self.phrases, discourse)
         self.turned: list[int] = []
         """Referents that were to be reoriented."""
         self.constraints: list[Constraint] = []

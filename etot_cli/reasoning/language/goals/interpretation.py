@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ordering import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
@@ -102,6 +103,7 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
     blame = 0
     found: dict[Goal, _State] = {}
     cost = -1
+    unclear: AmbiguousReference | None = None
     for reading in sentence.readings:
         simplicity = reading_cost(reading)
         if found and simplicity > cost:
@@ -111,10 +113,15 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
             attempt.read(reading)
             goal = attempt.goal()
         except ReferenceProblem as error:
+            if unclear is None and isinstance(error, AmbiguousReference):
+                unclear = error
             # Of a far-fetched reading it says little that some of its phrases are understood.
             if problem is None or error.weight - simplicity > blame:
                 problem, blame = error, error.weight - simplicity
             continue
+        if unclear is not None:
+            # What is no simpler than a reading that leaves the choice open settles nothing.
+            raise unclear
         cost = simplicity
         found.setdefault(_meaning(goal), attempt)
         if len(found) > MAX_COMPARED:

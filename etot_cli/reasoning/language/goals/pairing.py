@@ -52,7 +52,7 @@ def by_color(context: Context, group: PutGroup) -> None:
             tuple((target,) for target in found), definite=False, other=False, noun=found[0].name
         )
         where = context.discourse.add(referent, text, _ROLES[toward])
-        places = tuple(context.phrases.relations_to(toward, where, [theme]))
+        places = tuple(context.places.relations_to(toward, where, [theme]))
         context.discourse.put |= {theme}
         context.steps.append(Put((theme,), places))
         context.discourse.last_places = places
@@ -121,7 +121,7 @@ def one_each(context: Context, group: PutGroup) -> None:
             raise ReferenceProblem(text, f"there are {number} things for {count} places", 2)
     every = Resolved((tuple(targets),), definite=True, other=False, noun=text.split()[-1])
     where = context.discourse.add(every, text, _ROLES[toward])
-    places = tuple(context.phrases.relations_to(toward, where, themes))
+    places = tuple(context.places.relations_to(toward, where, themes))
     context.discourse.put |= {*themes}
     context.steps.append(Put(tuple(themes), places, Grouping.SEPARATELY))
     context.discourse.last_places = places

@@ -32,8 +32,10 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
         _rule_out_things(context, clause)
-        if before:  # else "do not put the plum there, put it here" speaks of the plum
-            del context.discourse.mentions[before:]
+        # "Do not put the plum there, put it here" speaks of the plum.
+        said = context.discourse.mentions[before:]
+        kept = [mention for mention in said if mention.role is Role.THEME]
+        context.discourse.mentions[before:] = [] if before else kept
         return
     indices = context.phrases.things(clause.things, role)
     for referent in (context.discourse.referents[index] for index in indices):
@@ -52,10 +54,8 @@ def avoid(context: Context, clause: AvoidClause) -> None:
 def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     """Says where things must not be put; "it" is what was put somewhere, not where that is."""
     assert clause.things is not None
-    put_into = dict(context.discourse.put_into)
-    context.discourse.put_into.clear()
-    indices = context.phrases.things(clause.things, Role.THEME)
-    context.discourse.put_into.update(put_into)
+    places = [place.where for place in context.discourse.last_places if place.where is not None]
+    indices = context.phrases.things(clause.things, Role.THEME, places)
     rule_out(context, indices, clause.destinations)
 
 
@@ -79,7 +79,7 @@ def rule_out(context: Context, themes: Sequence[int], destinations: Sequence[Des
     names = {thing.name: None for index in themes for thing in context.discourse.things(index)}
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
-    for place in context.phrases.places(destinations, themes):
+    for place in context.places.of(destinations, themes):
         if place.beside or place.where is None:
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
         for thing in context.discourse.things(place.where):

@@ -56,7 +56,7 @@ def put(context: Context, clause: PutClause) -> None:
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         destinations, grouping = distributed(group, grouping)
-        places = context.phrases.places(destinations, themes)
+        places = context.places.of(destinations, themes)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(_spread(context, place) for place in places)
         places_of = dict.fromkeys(themes, places)
@@ -90,7 +90,7 @@ def ensure(context: Context, state: State) -> None:
         _put_back(context, themes, group)
         return
     shared, grouping = _shared(context, group, themes, Grouping.ANY)
-    places = context.phrases.places(shared.destinations, themes)
+    places = context.places.of(shared.destinations, themes)
     again = [index for index in themes if index in context.discourse.put]
     if again and any(place.beside for place in places):
         text = context.discourse.referents[again[0]].text
@@ -111,7 +111,7 @@ def cover(context: Context, clause: CoverClause) -> None:
         place
         for phrase in clause.things.phrases
         for index in context.phrases.refer(phrase, Role.PLACE, themes)
-        for place in context.phrases.relations_to(Toward.ON, index, themes)
+        for place in context.places.relations_to(Toward.ON, index, themes)
     )
     _add_put(context, themes, places, Grouping.ANY)
 
@@ -161,12 +161,13 @@ def remove(context: Context, clause: RemoveClause) -> None:
             ),
         )
     themes = context.phrases.things(things, Role.THEME)
-    _add_put(context, themes, (context.phrases.on_the_desk(),), Grouping.ANY, removal=True)
+    _add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 
 def _in_said_order(context: Context, group: PutGroup, clause: PutClause) -> list[int]:
     """The things of a group, those that are to go first before the others."""
-    themes = context.phrases.things(group.things, Role.THEME)
+    away = context.places.no_themes(group.destinations)
+    themes = context.phrases.things(group.things, Role.THEME, away)
     if not clause.first and not clause.last:
         return themes
     things = [thing for index in themes for thing in context.only(index, "say which ones")]
@@ -206,7 +207,7 @@ def _shared(
             same = "same" in target.determiner.split()
             role = Role.CONTAINER if item.toward is Toward.INSIDE else Role.PLACE
             if same and several > 1 and context.phrases.spoken_of(target, role, themes) is None:
-                target = replace(target, determiner="any")
+                target = replace(target, determiner="one")
                 grouping = Grouping.TOGETHER
             targets.append(target)
         destinations.append(replace(item, targets=tuple(targets)))
@@ -260,11 +261,11 @@ def _condition(
     vessels = [theme for theme in themes if theme not in subjects]
     if not set(subjects) & set(themes):
         # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
-        along = [p.where for p in context.phrases.places(condition.destinations, subjects, vessels)]
+        along = [p.where for p in context.places.of(condition.destinations, subjects, vessels)]
         if not set(along) & set(themes):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
-    places = context.phrases.places(condition.destinations, subjects, prefer=vessels)
+    places = context.places.of(condition.destinations, subjects, prefer=vessels)
     for subject in subjects:
         places_of[subject] = places
 

@@ -20,18 +20,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.pick_and_put import (
-    AGAIN,
-    COVER,
-    EMPTY,
-    PICK,
-    PUT,
-    REMOVE,
-    VERBLESS,
-    WANTED,
-    excluding,
-)
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -40,7 +30,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     Spoken,
 )
+from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.text import QUESTION
+from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import nouns, small_words
 
 Reading = tuple[Spoken, ...]

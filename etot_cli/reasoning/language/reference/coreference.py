@@ -7,11 +7,16 @@ from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.words.lexicon import same_noun
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import DESK, SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
+FLAT = 0.5
+"""What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
+ROOMY = 2.0
+"""What is so many times wider than a thing on it has room for another one beside that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,13 +135,14 @@ class Discourse:
         """Whether what was spoken of last by a noun is part of something ("one drawer")."""
         for mention in reversed(self.mentions):
             if noun is not None and same_noun(mention.noun, noun):
-                return all(thing.part for thing in self.things(mention.referent))
+                things = self.things(mention.referent)
+                return all(thing.part or thing.board for thing in things)
         return False
 
     def antecedents(
         self, pronoun: str, role: Role, text: str, excluded: Sequence[int] = ()
     ) -> tuple[int, ...]:
-        """The referents that a pronoun means: the latest that can play its role.
+        """The referents that a pronoun means.
 
         Args:
             pronoun: as written.
@@ -145,52 +151,94 @@ class Discourse:
             excluded: referents that it cannot mean.
 
         Raises:
+            AmbiguousReference: several things are as likely to be meant.
             ReferenceProblem: nothing before it fits.
         """
         if pronoun in PLURAL_PRONOUNS:
             found = self._plural(role)
-        else:
-            single = self._singular(role, excluded)
-            found = () if single is None else (single,)
-        if not found:
-            raise ReferenceProblem(text, "it is not clear what this refers to", 2)
-        return found
+            if not found:
+                raise ReferenceProblem(text, UNCLEAR, 2)
+            return found
+        return (self.singular(role, text, excluded),)
 
-    def _by_recency(self) -> list[Mention]:
-        """Mentions from the latest clause back; in each what was acted on comes first."""
-        acted_on = (Role.THEME, Role.PART)
-        return sorted(
-            self.mentions,
-            key=lambda m: (
-                -m.clause,
-                m.role not in acted_on,
-                m.role is Role.ANY,
-                -self.mentions.index(m),
-            ),
+    def singular(self, role: Role, text: str, excluded: Sequence[int] = ()) -> int:
+        """What "it" means in a role, of the latest clause that has anything to play it: the one
+        thing that was acted on there, else the one place that something went to, else the one
+        landmark. Where that thing went to a place that could be meant as well ("put the plum into
+        the mug and move it to the tray"), either may be meant.
+
+        Raises:
+            AmbiguousReference: several things are as likely to be meant.
+            ReferenceProblem: nothing before it fits.
+        """
+        for clause in self._clauses():
+            acted_on, places, landmarks = self._mentioned_in(clause, role, excluded)
+            around = self.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
+            if around is not None and role is Role.SURFACE and around not in excluded:
+                return around  # what is put on what lies in a vessel, goes on or into that
+            if len(acted_on) == 1:
+                rivals = [place for place in places if self._rivals(place, acted_on[0], role)]
+                found = (*acted_on, *rivals)
+            else:
+                # One of several things that were acted on together is not "it".
+                found = places or acted_on or landmarks
+            if len(found) > 1:
+                raise AmbiguousReference(text, [self.referents[index].text for index in found])
+            if found:
+                return found[0]
+        raise ReferenceProblem(text, UNCLEAR, 2)
+
+    def candidates(self) -> tuple[int, ...]:
+        """All that "it" may mean where only what is said about it tells which."""
+        for clause in self._clauses():
+            acted_on, places, landmarks = self._mentioned_in(clause, Role.ANY, ())
+            if found := (*acted_on, *places) or landmarks:
+                return found
+        return ()
+
+    def _clauses(self) -> list[int]:
+        return sorted({mention.clause for mention in self.mentions}, reverse=True)
+
+    def _mentioned_in(
+        self, clause: int, role: Role, excluded: Sequence[int]
+    ) -> tuple[tuple[int, ...], tuple[int, ...], tuple[int, ...]]:
+        """What a clause acted on, its places and its landmarks, so far as they fit a role."""
+        acted_on: dict[int, None] = {}
+        places: dict[int, None] = {}
+        landmarks: dict[int, None] = {}
+        for mention in self.mentions:
+            referent = mention.referent
+            single = any(len(option) == 1 for option in self.referents[referent].options)
+            fits = single and referent not in excluded and self._fits(referent, role)
+            if mention.clause != clause or not fits:
+                continue
+            if mention.role in (Role.THEME, Role.PART):
+                acted_on[referent] = None
+            else:
+                (landmarks if mention.role is Role.ANY else places)[referent] = None
+        return (
+            tuple(acted_on),
+            tuple(index for index in places if index not in acted_on),
+            tuple(index for index in landmarks if index not in {**acted_on, **places}),
         )
 
     def _fits(self, referent: int, role: Role) -> bool:
         return any(can_be(thing, role, self.scene) for thing in self.things(referent))
 
-    def _fits_or_holds(self, referent: int, role: Role) -> bool:
-        """Whether a vessel can play a role; things are put "on" one, too."""
-        return self._fits(referent, role) or (
-            role is Role.SURFACE and self._fits(referent, Role.CONTAINER)
-        )
-
-    def _singular(self, role: Role, excluded: Sequence[int]) -> int | None:
-        for mention in self._by_recency():
-            referent = mention.referent
-            single = any(len(option) == 1 for option in self.referents[referent].options)
-            if not single or referent in excluded or not self._fits(referent, role):
-                continue
-            around = self.put_into.get(referent)
-            if around is not None and self._fits_or_holds(around, role):
-                # "Put the plum into the mug and it onto the tray" is about the mug: nobody asks
-                # for something and for its undoing in one breath.
-                return around
-            return referent
-        return None
+    def _rivals(self, place: int, theme: int, role: Role) -> bool:
+        """Whether "it" may as well mean the place that a thing was put at."""
+        things = self.things(place)
+        if any(thing.name == DESK for thing in things):
+            return False
+        if role is Role.SURFACE:
+            above = [self.scene.infos[thing.name].size for thing in self.things(theme)]
+            below = [self.scene.infos[thing.name].size for thing in things]
+            support = all(size[2] <= FLAT * min(size[:2]) for size in above)
+            side = max(min(size[:2]) for size in above)
+            return not support and any(min(size[:2]) >= ROOMY * side for size in below)
+        if role is Role.CONTAINER:
+            return self.put_into.get(theme) == place
+        return all(self.scene.infos[thing.name].movable for thing in things)
 
     def _plural(self, role: Role) -> tuple[int, ...]:
         for clause in sorted({mention.clause for mention in self.mentions}, reverse=True):
@@ -218,13 +266,10 @@ class Discourse:
         """What "inside" or "on top" without an object means.
 
         Raises:
-            ReferenceProblem: nothing before it fits.
+            ReferenceProblem: nothing before it fits, or several things do.
         """
         role = Role.CONTAINER if relation is Relation.INSIDE else Role.SURFACE
-        for mention in self._by_recency():
-            if mention.referent not in excluded and self._fits(mention.referent, role):
-                return Place(relation, mention.referent)
-        raise ReferenceProblem(text, "it is not clear what this refers to", 2)
+        return Place(relation, self.singular(role, text, excluded))
 
 
 def _alike(first: Role, second: Role) -> bool:

@@ -26,6 +26,10 @@ class Quantity:
     other: bool = False
     unclear: str = ""
     """A word for a number that could be any ("several")."""
+    same: bool = False
+    """The one that was spoken of before, which only the discourse can tell."""
+    sole: bool = False
+    """There is no other one ("the only cup")."""
 
 
 _UNCLEAR = ("several", "few", "many", "couple", "pair", "half", "most", "none", "no")
@@ -45,6 +49,10 @@ def quantity_of(determiner: str) -> Quantity:
     if first in ("exactly", "just", "single", "only"):
         return quantity_of(" ".join(words[1:]))
     other = first == "another" or any(word in words for word in ("other", "remaining", "different"))
+    if "same" in words:
+        return Quantity(definite=True, same=True)
+    if words[1:] in (["only"], ["single"]) and first in _DEFINITE:
+        return Quantity(count=1, definite=True, sole=True)
     numbers = [NUMBERS.get(word) or (int(word) if word.isdigit() else None) for word in words]
     count = next((number for number in reversed(numbers) if number is not None), None)
     if "single" in words and count is None:

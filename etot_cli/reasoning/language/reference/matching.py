@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.vocabulary import (
     Entry,
     Vocabulary,
     is_general_noun,
+    is_of_parts,
 )
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -93,9 +94,10 @@ def match_words(
     for pool in _pools(vocabulary, head, adjectives, parts_first):
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
-            # "The drawers" of the only chest.
-            parts = vocabulary.parts
-            found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
+            # "The drawers" of the only chest, "the shelves" of the only shelf.
+            parts = [*vocabulary.parts, *vocabulary.boards]
+            if is_of_parts(found.entries[0], head, vocabulary):
+                found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
         if found is not None:
             return found
     raise _nothing(head, adjectives, number, vocabulary, phrase)

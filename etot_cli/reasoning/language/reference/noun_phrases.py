@@ -14,13 +14,14 @@ from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import RANKED, related
 from etot_cli.reasoning.language.reference.matching import Match, match_words
 from etot_cli.reasoning.language.reference.selection import select, state_holds
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary
+from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     SIDES,
@@ -39,7 +40,8 @@ _INCOMPLETE = frozenset({"", "the", "a", "an", "my", "your", "its", "their", "ou
 """Determiners that do not stand without a noun."""
 
 
-Pronoun = Callable[[NounPhrase], Sequence[Thing]]
+Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
+"""All that a pronoun may mean, each the things of one referent."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,12 +124,12 @@ class Resolver:
                 phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
                 word=quantity.unclear,
             )  # fmt: skip
+        if quantity.same:
+            why = "'same': nothing was spoken of before that it could be"
+            raise ReferenceProblem(phrase.text, why, 1, word="same")
         parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
         match = self._match(phrase, words, noun, parts_first=parts)
-        one = phrase.determiner == "one" and any(
-            entry.info is not None and len(entry.info.parts) > 1 for entry in match.entries
-        )
-        if (quantity.every or one) and not match.plural:
+        if (quantity.every or phrase.determiner == "one") and not match.plural:
             match = self._parts(match, words, phrase)
         things = [entry.thing for entry in match.entries]
         first = phrase.determiner.split()[:1]
@@ -158,6 +160,9 @@ class Resolver:
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"say which of {names}", 2)
+        if quantity.sole and len(things) > 1:
+            names = ", ".join(thing.name for thing in things)
+            raise ReferenceProblem(phrase.text, f"it is not the only one: {names}", 2, word="only")
         if match.dropped and quantity.definite and count == 1 and len(things) > 1:
             names = ", ".join(thing.name for thing in things)
             why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
@@ -220,11 +225,9 @@ class Resolver:
 
     def _parts(self, match: Match, words: tuple[str, ...], phrase: NounPhrase) -> Match:
         """Of "every drawer" of the only chest the drawers, not the chest."""
-        only = match.entries[0]
-        several = only.info is not None and len(only.info.parts) > 1 and only.thing.part is None
-        if len(match.entries) > 1 or not several or matches_any(words[-1], only.heads):
+        if len(match.entries) > 1 or not is_of_parts(match.entries[0], words[-1], self._vocabulary):
             return match
-        return match_words((*words[:-1], f"{words[-1]}s"), self._vocabulary, phrase.text)
+        return match_words(words, self._vocabulary, phrase.text, by_name=False, parts_first=True)
 
     def _without(
         self,
@@ -297,8 +300,14 @@ class Resolver:
                 raise ReferenceProblem(phrase.text, why, 2)
             if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT):
                 continue
-            landmarks = self._landmark_sets(modifier, phrase, pronoun)
-            found = related(modifier, things, landmarks, quantity, count, self._scene)
+            ways = {
+                tuple(related(modifier, things, landmarks, quantity, count, self._scene))
+                for landmarks in self._landmark_sets(modifier, phrase, pronoun)
+            } - {()}
+            if len(ways) > 1:
+                named = [thing.name for way in ways for thing in way]
+                raise AmbiguousReference(phrase.text, sorted(named))
+            found = [thing for way in ways for thing in way]
             if not found:
                 names = ", ".join(dict.fromkeys(thing.name for thing in things))
                 raise ReferenceProblem(
@@ -309,25 +318,34 @@ class Resolver:
 
     def _landmark_sets(
         self, modifier: Modifier, phrase: NounPhrase, pronoun: Pronoun
-    ) -> list[list[Thing]]:
-        """What each landmark of a modifier may be; "between the bowls" names two at once."""
-        if modifier.prep is Prep.BETWEEN and len(modifier.phrases) == 1:
-            both = self._landmarks(modifier.phrases[0], pronoun)
+    ) -> list[list[list[Thing]]]:
+        """What each landmark of a modifier may be; "between the bowls" names two at once. All ways
+        to understand a pronoun among them.
+        """
+        (only, *more) = modifier.phrases
+        if only.pronoun and not more and modifier.prep is not Prep.BETWEEN:
+            return [[list(things)] for things in pronoun(only)]
+        if modifier.prep is Prep.BETWEEN and not more:
+            both = self._landmarks(only, pronoun)
             if len(both) != 2:
                 raise ReferenceProblem(phrase.text, "say between which two things", 2)
-            return [[both[0]], [both[1]]]
+            return [[[both[0]], [both[1]]]]
         noun = phrase.words[-1] if phrase.words else None
-        return [
+        each = [
             self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
             for item in modifier.phrases
         ]
+        return [each]
 
     def _landmarks(
         self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None
     ) -> list[Thing]:
         """What a phrase inside a modifier may mean."""
         if phrase.pronoun:
-            return list(pronoun(phrase))
+            ways = pronoun(phrase)
+            if len(ways) != 1:
+                raise ReferenceProblem(phrase.text, UNCLEAR, 2)
+            return list(ways[0])
         if is_robot(phrase):
             return [space.ROBOT]
         if phrase.words and matches_any(phrase.words[-1], BODY_NOUNS):

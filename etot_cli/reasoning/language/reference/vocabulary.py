@@ -179,6 +179,18 @@ def is_general_noun(word: str) -> bool:
     return any(matches_any(word, group) for group in groups)
 
 
+def is_of_parts(entry: Entry, noun: str, vocabulary: Vocabulary) -> bool:
+    """Whether an entry is a piece of furniture of which several parts or boards are called so."""
+    if entry.thing.part is not None or entry.thing.board is not None:
+        return False
+    own = [
+        item
+        for item in (*vocabulary.parts, *vocabulary.boards)
+        if item.thing.name == entry.thing.name and item.grade(noun) is not None
+    ]
+    return len(own) > 1
+
+
 def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
     """Nouns for a kind that fit something called by these nouns: a can is no bottle."""
     groups = KIND_GROUPS.get(kind, ())

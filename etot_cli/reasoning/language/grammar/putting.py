@@ -1,8 +1,7 @@
-"""Rules for clauses that pick things, put them, bring them and take them away."""
+"""Rules for clauses that put things somewhere, with what is said about how and in which order."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
@@ -12,7 +11,6 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     OR,
     WITH,
-    alternatives,
 )
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
@@ -35,61 +33,17 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
-    AgainClause,
-    Clause,
-    CoverClause,
     Destination,
-    EnsureClause,
-    Modifier,
-    MoveClause,
     NounPhrase,
-    PickClause,
     PutClause,
     PutGroup,
-    RemoveClause,
     State,
     Things,
     Toward,
-    TowerClause,
 )
+from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.skills.action import GraspPose
 
-POSE = either(
-    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
-)
-POSES = alternatives(POSE, 1)
-SOURCE = sequence(silent(phrase(places.SOURCE)), noun_phrase, build=lambda np: np)
-OPTIONAL_SOURCE = optional(SOURCE, None)
-OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES, build=lambda found: found), None)
-
-
-def _from(things: Things, source: NounPhrase | None) -> Things:
-    """Things that are to be taken from somewhere."""
-    if source is None:
-        return things
-    modifier = Modifier(Prep.FROM, (source,))
-    moved = tuple(replace(np, modifiers=(*np.modifiers, modifier)) for np in things.phrases)
-    return replace(things, phrases=moved)
-
-
-def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
-    if before and after:
-        return None
-    poses = dict.fromkeys(before or after or ())
-    return PickClause(_from(things, source), tuple(poses))
-
-
-PICK = sequence(
-    optional(sequence(POSES, OPTIONAL_COMMA, build=lambda found: found), None),
-    silent(phrase(verbs.PICK)),
-    THINGS,
-    silent(optional(phrase("up"), None)),
-    OPTIONAL_SOURCE,
-    OPTIONAL_POSES,
-    build=_pick,
-)
 GROUPING = either(
     phrase(manner.ANYHOW, Grouping.ANY),
     phrase(manner.TOGETHER, Grouping.TOGETHER),
@@ -243,7 +197,7 @@ PUT = either(
         silent(phrase(verbs.BRING)),
         separated(
             sequence(
-                valued(sequence(THINGS, OPTIONAL_SOURCE, build=_from), lambda things: things),
+                valued(sequence(THINGS, OPTIONAL_SOURCE, build=from_source), lambda things: things),
                 DIRECTED,
                 build=PutGroup,
             ),
@@ -277,143 +231,5 @@ PUT = either(
         build=lambda things: PutClause((PutGroup(things, BACK),)),
     ),
 )
-REMOVE = either(
-    sequence(
-        silent(phrase(verbs.REMOVE)),
-        THINGS,
-        OPTIONAL_SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
-    sequence(
-        silent(phrase(verbs.BRING)),
-        THINGS,
-        silent(phrase("out, off, away")),
-        OPTIONAL_SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
-    sequence(
-        silent(phrase(verbs.BRING)),
-        THINGS,
-        SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
-)
-
-
-def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
-    return NounPhrase(
-        "all", ("objects",), (Modifier(where, (np,)),), text=f"everything in {np.text}"
-    )
-
-
-def _emptied(things: Things, where: Any) -> Clause:
-    contents = Things(tuple(_contents_of(np, Prep.FROM) for np in things.phrases))
-    if where is None:
-        return RemoveClause(contents)
-    return PutClause((PutGroup(contents, where),))
-
-
-EMPTY = either(
-    sequence(
-        silent(phrase("empty[ing] [out]")), THINGS, optional(DESTINATIONS, None), build=_emptied
-    ),
-    sequence(
-        silent(phrase(verbs.TIDY)),
-        THINGS,
-        DESTINATIONS,
-        build=lambda things, where: PutClause((PutGroup(things, where),)),
-    ),
-    sequence(
-        silent(phrase(verbs.CLEAR)),
-        NP_LIST,
-        DESTINATIONS,
-        build=lambda nps, where: _emptied(Things(nps), where),
-    ),
-    sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
-    sequence(
-        silent(phrase("clear[ing]")),
-        THINGS,
-        SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
-)
-COVER = either(
-    sequence(
-        silent(phrase(verbs.COVER)),
-        THINGS,
-        WITH,
-        THINGS,
-        build=lambda things, cover: CoverClause(things, cover),
-    ),
-    sequence(
-        silent(phrase(verbs.COVER)),
-        THINGS,
-        silent(optional(phrase("with (its|their|a) lid"), None)),
-        build=CoverClause,
-    ),
-    sequence(
-        silent(phrase(verbs.UNCOVER)),
-        NP_LIST,
-        build=lambda nps: RemoveClause(Things(tuple(_contents_of(np, Prep.ON) for np in nps))),
-    ),
-)
 VERBLESS = sequence(separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put)
 """Places for things without a word for doing; only whole sentences are so."""
-WANTED = either(
-    sequence(
-        silent(phrase(verbs.WANT)),
-        NP_LIST,
-        silent(phrase(verbs.DONE)),
-        DESTINATIONS,
-        build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-    ),
-    sequence(
-        silent(phrase(verbs.WANT)),
-        NP_LIST,
-        silent(phrase(verbs.TAKEN)),
-        SOURCE,
-        build=lambda nps, source: RemoveClause(Things(nps), source),
-    ),
-    sequence(
-        silent(phrase(verbs.WANT)),
-        NP_LIST,
-        silent(phrase(verbs.TAKEN)),
-        SOURCE,
-        silent(phrase("and")),
-        silent(phrase(verbs.DONE)),
-        DESTINATIONS,
-        build=lambda nps, source, where: PutClause((PutGroup(_from(Things(nps), source), where),)),
-    ),
-    sequence(
-        silent(phrase(verbs.WANT)),
-        NP_LIST,
-        silent(phrase("[to be] (picked up|lifted [up])")),
-        build=lambda nps: PickClause(Things(nps)),
-    ),
-)
-AGAIN = either(
-    sequence(silent(phrase(small_words.SAME_AGAIN)), THINGS, build=AgainClause),
-    sequence(
-        THINGS,
-        silent(phrase(small_words.ALSO)),
-        build=lambda things: AgainClause(things, trailing=True),
-    ),
-)
-
-
-def excluding(clause: Clause, out: tuple[NounPhrase, ...]) -> Clause | None:
-    """A clause without some of the things that it is about ("…, except the blue one")."""
-    left_out = Modifier(Prep.EXCEPT, out)
-
-    def without(things: Things) -> Things:
-        last = replace(things.phrases[-1], modifiers=(*things.phrases[-1].modifiers, left_out))
-        return replace(things, phrases=(*things.phrases[:-1], last))
-
-    match clause:
-        case PutClause(groups=(group,)):
-            return replace(clause, groups=(replace(group, things=without(group.things)),))
-        case EnsureClause(states=(state,)):
-            return EnsureClause((replace(state, subjects=without(Things(state.subjects)).phrases),))
-        case PickClause() | RemoveClause() | MoveClause() | TowerClause():
-            return replace(clause, things=without(clause.things))
-    return None

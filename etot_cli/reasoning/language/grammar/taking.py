@@ -1,0 +1,152 @@
+"""Rules for clauses that pick things up, take them away, empty and uncover what holds them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import (
+    OPTIONAL_COMMA,
+    WITH,
+    alternatives,
+)
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+)
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
+    CoverClause,
+    Modifier,
+    NounPhrase,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    Things,
+)
+from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.skills.action import GraspPose
+
+POSE = either(
+    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
+)
+POSES = alternatives(POSE, 1)
+SOURCE = sequence(silent(phrase(places.SOURCE)), noun_phrase, build=lambda np: np)
+OPTIONAL_SOURCE = optional(SOURCE, None)
+OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES, build=lambda found: found), None)
+
+
+def from_source(things: Things, source: NounPhrase | None) -> Things:
+    """Things that are to be taken from somewhere."""
+    if source is None:
+        return things
+    modifier = Modifier(Prep.FROM, (source,))
+    moved = tuple(replace(np, modifiers=(*np.modifiers, modifier)) for np in things.phrases)
+    return replace(things, phrases=moved)
+
+
+def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
+    if before and after:
+        return None
+    poses = dict.fromkeys(before or after or ())
+    return PickClause(from_source(things, source), tuple(poses))
+
+
+PICK = sequence(
+    optional(sequence(POSES, OPTIONAL_COMMA, build=lambda found: found), None),
+    silent(phrase(verbs.PICK)),
+    THINGS,
+    silent(optional(phrase("up"), None)),
+    OPTIONAL_SOURCE,
+    OPTIONAL_POSES,
+    build=_pick,
+)
+REMOVE = either(
+    sequence(
+        silent(phrase(verbs.REMOVE)),
+        THINGS,
+        OPTIONAL_SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+    sequence(
+        silent(phrase(verbs.BRING)),
+        THINGS,
+        silent(phrase("out, off, away")),
+        OPTIONAL_SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+    sequence(
+        silent(phrase(verbs.BRING)),
+        THINGS,
+        SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+)
+
+
+def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
+    return NounPhrase(
+        "all", ("objects",), (Modifier(where, (np,)),), text=f"everything in {np.text}"
+    )
+
+
+def _emptied(things: Things, where: Any) -> Clause:
+    contents = Things(tuple(_contents_of(np, Prep.FROM) for np in things.phrases))
+    if where is None:
+        return RemoveClause(contents)
+    return PutClause((PutGroup(contents, where),))
+
+
+EMPTY = either(
+    sequence(
+        silent(phrase("empty[ing] [out]")), THINGS, optional(DESTINATIONS, None), build=_emptied
+    ),
+    sequence(
+        silent(phrase(verbs.TIDY)),
+        THINGS,
+        DESTINATIONS,
+        build=lambda things, where: PutClause((PutGroup(things, where),)),
+    ),
+    sequence(
+        silent(phrase(verbs.CLEAR)),
+        NP_LIST,
+        DESTINATIONS,
+        build=lambda nps, where: _emptied(Things(nps), where),
+    ),
+    sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+    sequence(
+        silent(phrase("clear[ing]")),
+        THINGS,
+        SOURCE,
+        build=lambda things, source: RemoveClause(things, source),
+    ),
+)
+COVER = either(
+    sequence(
+        silent(phrase(verbs.COVER)),
+        THINGS,
+        WITH,
+        THINGS,
+        build=lambda things, cover: CoverClause(things, cover),
+    ),
+    sequence(
+        silent(phrase(verbs.COVER)),
+        THINGS,
+        silent(optional(phrase("with (its|their|a) lid"), None)),
+        build=CoverClause,
+    ),
+    sequence(
+        silent(phrase(verbs.UNCOVER)),
+        NP_LIST,
+        build=lambda nps: RemoveClause(Things(tuple(_contents_of(np, Prep.ON) for np in nps))),
+    ),
+)

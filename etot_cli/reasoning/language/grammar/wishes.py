@@ -1,0 +1,94 @@
+"""Rules for what is wanted of things, asked for again, and left out of what was asked for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+)
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    phrase,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    Clause,
+    EnsureClause,
+    Modifier,
+    MoveClause,
+    NounPhrase,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    Things,
+    TowerClause,
+)
+from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
+from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
+
+WANTED = either(
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.DONE)),
+        DESTINATIONS,
+        build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.TAKEN)),
+        SOURCE,
+        build=lambda nps, source: RemoveClause(Things(nps), source),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase(verbs.TAKEN)),
+        SOURCE,
+        silent(phrase("and")),
+        silent(phrase(verbs.DONE)),
+        DESTINATIONS,
+        build=lambda nps, source, where: PutClause(
+            (PutGroup(from_source(Things(nps), source), where),)
+        ),
+    ),
+    sequence(
+        silent(phrase(verbs.WANT)),
+        NP_LIST,
+        silent(phrase("[to be] (picked up|lifted [up])")),
+        build=lambda nps: PickClause(Things(nps)),
+    ),
+)
+AGAIN = either(
+    sequence(silent(phrase(small_words.SAME_AGAIN)), THINGS, build=AgainClause),
+    sequence(
+        THINGS,
+        silent(phrase(small_words.ALSO)),
+        build=lambda things: AgainClause(things, trailing=True),
+    ),
+)
+
+
+def excluding(clause: Clause, out: tuple[NounPhrase, ...]) -> Clause | None:
+    """A clause without some of the things that it is about ("…, except the blue one")."""
+    left_out = Modifier(Prep.EXCEPT, out)
+
+    def without(things: Things) -> Things:
+        last = replace(things.phrases[-1], modifiers=(*things.phrases[-1].modifiers, left_out))
+        return replace(things, phrases=(*things.phrases[:-1], last))
+
+    match clause:
+        case PutClause(groups=(group,)):
+            return replace(clause, groups=(replace(group, things=without(group.things)),))
+        case EnsureClause(states=(state,)):
+            return EnsureClause((replace(state, subjects=without(Things(state.subjects)).phrases),))
+        case PickClause() | RemoveClause() | MoveClause() | TowerClause():
+            return replace(clause, things=without(clause.things))
+    return None

@@ -1,0 +1,281 @@
+"""Which places a clause's destinations are: in, on and beside things, at parts of surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.referents import Phrases
+from etot_cli.reasoning.language.reference.usual_form import is_robot
+from etot_cli.reasoning.language.words.lexicon import SIDES
+from etot_cli.world.spatial import Nearby
+from etot_cli.world.state import DESK, SceneState
+
+_DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
+"""Anywhere on the desk, nobody having said so."""
+
+
+LID = 0.95
+"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
+
+
+class Places:
+    """Turns destinations into places of a discourse.
+
+    Args:
+        scene: what is spoken about.
+        phrases: resolves the noun phrases in them.
+        discourse: what was spoken of before; it grows.
+    """
+
+    def __init__(self, scene: SceneState, phrases: Phrases, discourse: Discourse) -> None:
+        self._scene = scene
+        self._phrases = phrases
+        self.discourse = discourse
+
+    def on_the_desk(self) -> Place:
+        """Somewhere on the desk."""
+        return Place(Relation.ON, self.discourse.add(_DESK, DESK, Role.SURFACE))
+
+    def no_themes(self, destinations: Sequence[Destination]) -> list[int]:
+        """Referents that "it" cannot mean as what goes there: the places themselves, and what has
+        not been put anywhere before it is put back.
+        """
+        referents = self.discourse.referents
+        if any(item.toward is Toward.HOME for item in destinations):
+            return [index for index in range(len(referents)) if index not in self.discourse.put]
+        named = [phrase for item in destinations for phrase in item.targets if phrase.words]
+        named += [p for item in destinations for b in item.beside for p in b.phrases if p.words]
+        meant = []
+        for phrase in named:
+            with suppress(ReferenceProblem):
+                meant.append(self._phrases.meaning(phrase, Role.ANY).options)
+        return [index for index, referent in enumerate(referents) if referent.options in meant]
+
+    def of(
+        self,
+        destinations: Sequence[Destination],
+        themes: Sequence[int],
+        prefer: Sequence[int] = (),
+    ) -> tuple[Place, ...]:
+        """Alternative places. ``prefer``: referents that "inside" means before any other."""
+        places: dict[Place, None] = {}
+        for destination in destinations:
+            if destination.toward is Toward.HERE:
+                found = list(self._here(destination.word, themes, prefer))
+            elif destination.toward is Toward.BESIDE:
+                found = [self._beside_only(destination.beside, themes)]
+            else:
+                found = [
+                    place
+                    for phrase in destination.targets
+                    for place in self._targets(destination.toward, phrase, themes)
+                ]
+                if destination.beside:
+                    found = self._narrowed(found, destination, themes)
+            places.update(dict.fromkeys(found))
+        return tuple(places)
+
+    def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
+        role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
+        bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
+        targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
+        spoken = any(item.role in targets for item in self.discourse.mentions)
+        if bare and (toward is Toward.TO or not spoken):
+            raise ReferenceProblem(phrase.text, "say to which side of what", 2)
+        found = []
+        for index in self._phrases.refer(phrase, role, themes):
+            options = self.discourse.referents[index].options
+            if quantity_of(phrase.determiner).every and any(len(option) > 1 for option in options):
+                raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
+            if index in themes:
+                raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
+            if phrase.pronoun and toward is Toward.ON:
+                self._check_upon_it(phrase, index, themes)
+            found += self.relations_to(toward, index, themes)
+        return found
+
+    def _check_upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
+        """What sinks into a vessel and would as well lie on what was put there: "on it" is both."""
+        discourse = self.discourse
+        inner = [i for i, around in discourse.put_into.items() if around == index]
+        laid = [thing for theme in themes for thing in discourse.things(theme)]
+        things = discourse.things(index)
+        sinks = not any(lies_on(laid, thing, self._scene) for thing in things)
+        bears = [
+            i
+            for i in inner
+            if all(can_be(thing, Role.SURFACE, self._scene) for thing in discourse.things(i))
+        ]
+        if sinks and bears:
+            names = " or ".join(discourse.referents[i].text for i in (*bears, index))
+            raise ReferenceProblem(phrase.text, f"say whether on {names}", 4)
+
+    def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
+        """In or on a referent, whichever fits it and what is asked for."""
+        found = []
+        things = self.discourse.things(index)
+        fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
+        laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        fits_on = any(
+            can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
+            for thing in things
+        )
+        if fits_in and (toward is not Toward.ON or not fits_on):
+            found.append(Place(Relation.INSIDE, index))
+        if fits_on and toward is not Toward.INSIDE:
+            found.append(Place(Relation.ON, index))
+        if toward is Toward.ON and fits_in and not fits_on:
+            names = " or ".join(dict.fromkeys(thing.name for thing in things))
+            self.discourse.notes.append(f"read 'on' as into {names}")
+        return found
+
+    def _narrowed(
+        self, places: list[Place], destination: Destination, themes: Sequence[int]
+    ) -> list[Place]:
+        """Places on a surface, at some part of it only."""
+        text = " or ".join(phrase.text for phrase in destination.targets)
+        surfaces = [place for place in places if place.relation is Relation.ON]
+        if not surfaces:
+            raise ReferenceProblem(text, "there is no left or right inside a container", 2)
+        if all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside):
+            # "On the plate on the left" is the left one of several, not the left part of any.
+            targets = [item for item in destination.targets if not item.pronoun]
+            meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
+            things = [thing for options in meant for option in options for thing in option]
+            stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
+            if len(things) > 1 or (stacked and things[0].board is None):
+                raise ReferenceProblem(text, "say which one of them", 2)
+        near = tuple(self._near(item, themes) for item in destination.beside)
+        return [replace(place, beside=near) for place in surfaces]
+
+    def _beside_only(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place:
+        """A place beside something, on whatever that stands on, or a region of a surface."""
+        surface: int | None = None
+        regions = [item for item in beside if item.relation.landmarks == 0]
+        for item in regions:
+            for phrase in item.phrases:
+                self._check_region(phrase, item.relation)
+                (surface,) = self._phrases.refer(phrase, Role.SURFACE, themes)
+        if surface is None and (len(regions) == len(beside)):
+            surface = self.on_the_desk().where
+        near = tuple(self._near(item, themes) for item in beside)
+        return Place(Relation.ON, surface, near)
+
+    def _check_region(self, phrase: NounPhrase, relation: Nearby) -> None:
+        """Whether a thing has such a region. The left side of what can be moved is beside it."""
+        resolved = self._phrases.meaning(phrase, Role.ANY)
+        things = {thing for option in resolved.options for thing in option}
+        if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
+            raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
+        anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
+        if relation in anywhere or all(thing.name == DESK for thing in things):
+            return
+        if any(thing.name == DESK or self._scene.infos[thing.name].movable for thing in things):
+            raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
+
+    def _near(self, beside: Beside, themes: Sequence[int]) -> Near:
+        """A relation to the things that its phrases mean."""
+        if beside.relation.landmarks == 0:
+            return Near(beside.relation)
+        landmarks: list[int] = []
+        for phrase in beside.phrases:
+            if is_robot(phrase):
+                raise ReferenceProblem(phrase.text, "say beside which object", 2)
+            landmarks += self._landmark(phrase, themes)
+        if len(landmarks) != beside.relation.landmarks:
+            text = " and ".join(phrase.text for phrase in beside.phrases)
+            why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
+            raise ReferenceProblem(text, why, 2)
+        return Near(beside.relation, tuple(landmarks))
+
+    def _landmark(self, phrase: NounPhrase, themes: Sequence[int]) -> list[int]:
+        """Referents of a landmark, each a single thing; "the two bowls" gives two."""
+        found = []
+        discourse = self.discourse
+        single = phrase.pronoun and phrase.pronoun not in PLURAL_PRONOUNS and not phrase.modifiers
+        indices = (
+            (self._beside_it(phrase, themes),)
+            if single and not phrase.determiner
+            else self._phrases.refer(phrase, Role.ANY, themes)
+        )
+        for index in indices:
+            discourse.last_landmark = (discourse.clause, index)
+            referent = self.discourse.referents[index]
+            if index in themes:
+                raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
+            things = self.discourse.things(index)
+            if any(thing.name == DESK for thing in things):
+                raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
+            if any(self._scene.states[thing.name].inside is not None for thing in things):
+                raise ReferenceProblem(phrase.text, "it lies in a container", 2)
+            if all(len(option) == 1 for option in referent.options):
+                found.append(index)
+            else:
+                for thing in things:
+                    alone = Resolved(((thing,),), definite=False, other=False, noun=thing.name)
+                    found.append(self.discourse.add(alone, phrase.text, Role.ANY))
+        return found
+
+    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int]) -> int:
+        """What "next to it" is beside.
+
+        In "the can left of the jar and the tin right of it" that is the jar. What was put into
+        something that can be moved is not "it" but that is: nothing is beside what is inside.
+
+        Raises:
+            AmbiguousReference: it may as well be beside the place that something was put at.
+        """
+        discourse = self.discourse
+        clause, mark = discourse.last_landmark
+        if clause == discourse.clause:
+            discourse.mention_again(mark, Role.ANY)
+            return mark
+        inside = discourse.put_into
+        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside])
+        said = [item.clause for item in discourse.mentions if item.referent == index]
+        rivals = [mark] if mark != index and clause in said else []
+        infos = self._scene.infos
+        if any(not infos[t.name].movable for t in discourse.things(index) if t.name in infos):
+            rivals += [theme for theme, around in inside.items() if around == index]
+        if rivals:
+            named = [discourse.referents[item].text for item in (*rivals, index)]
+            raise AmbiguousReference(phrase.text, named)
+        return index
+
+    def _here(self, word: str, themes: Sequence[int], prefer: Sequence[int]) -> tuple[Place, ...]:
+        discourse = self.discourse
+        if word == "down":
+            return (self.on_the_desk(),)
+        if word == "there" and discourse.last_places:
+            return discourse.last_places
+        if word == "on top" and discourse.put_into:
+            # On what the last thing was put into, not on the thing in it.
+            index = next(reversed(discourse.put_into.values()))
+            return tuple(self.relations_to(Toward.ON, index, themes))
+        relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
+        for index in prefer:
+            if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
+                return (Place(relation, index),)
+        return (discourse.latest_place(relation, themes, word),)
+
+
+def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
+    """Whether things stay on top of another one and do not sink into its mouth."""
+    if below.name == DESK or below.board is not None:
+        return True
+    info = scene.infos[below.name]
+    if info.surface or not info.container:
+        return True
+    mouth = LID * min(info.size[:2])
+    return all(
+        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
+    )
