@@ -1,7 +1,8 @@
 """Plans the shipped tasks in many varied worlds and writes what came out into docs/results.md.
 
-Run with ``make check-tasks`` (about ten minutes on two cores) or, for less,
-``python -m tests.measure.check_tasks --seeds 5 --tasks task2 --no-write``.
+Run with ``make check-tasks`` (about half an hour of processor time) or, for less,
+``python -m tests.measure.check_tasks --seeds 5 --tasks task2 --no-write``. Trials that the same
+code has made are kept in ``results/check/trials.jsonl``: the command may be stopped and run again.
 """
 
 from __future__ import annotations
@@ -11,9 +12,11 @@ import os
 import sys
 import time
 from collections import Counter
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.rooms import default_rooms
@@ -24,23 +27,27 @@ from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary_truth
 from tests.measure.expectations import NAIVE_PLANS, TASKS, Naive, is_right_plan
+from tests.measure.journal import ROOT, Job, Journal, code_digest
 from tests.measure.markdown import replace_section, table
 
-ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "docs" / "results.md"
+KEPT = ROOT / "results" / "check"
 SOLVED_WITHOUT_REFLECTIVE = ("task2", "task3", "disturbance")
 
 
 @dataclass(frozen=True)
-class Trial:
-    """One planning run: its plan, and whether it is the right one."""
+class Measuring:
+    """What is measured, by how many processes, and where it is kept."""
 
-    task: str
-    seed: int
-    status: str
-    plan: tuple[str, ...]
-    right: bool
-    wall_s: float
+    pool: ProcessPoolExecutor
+    journal: Journal
+    tasks: tuple[str, ...]
+    seeds: int
+    code: str
+
+    def trials(self, function: Callable[[Job], Any], jobs: Sequence[Job]) -> list[Any]:
+        """The answers to all jobs, as JSON has them."""
+        return self.journal.measure(self.pool, function, jobs)
 
 
 @dataclass(frozen=True)
@@ -67,30 +74,34 @@ def task_file(name: str) -> Path:
     return ROOT / "tasks" / f"{name}.yaml"
 
 
-def plan_trial(arguments: tuple[str, int | None]) -> Trial:
-    """Plans one task, unvaried where the seed is None."""
-    name, seed = arguments
-    begun = time.perf_counter()
+def plan_trial(
+    arguments: tuple[str, str, int | None],
+) -> tuple[str, int | None, str, list[str], float]:
+    """Plans one task, unvaried where the seed is None: task, seed, status, plan, time [s].
+
+    Processor time, of this process alone: others may be at work beside it.
+    """
+    code, name, seed = arguments
+    begun = time.process_time()
     report = run_plan(
         PlanOptions(task=task_file(name), seed=seed or 0, vary=seed is not None, jobs=1)
     )
-    wall = time.perf_counter() - begun
+    spent_s = time.process_time() - begun
     if seed is None and report.plan:
-        folder = report_folder(name)
+        folder = report_folder(code, name)
         folder.mkdir(parents=True, exist_ok=True)
         write_report(report, folder)
-    right = report.status == "feasible" and is_right_plan(name, list(report.plan))
-    return Trial(name, seed or 0, report.status, tuple(report.plan), right, wall)
+    return name, seed, report.status, list(report.plan), spent_s
 
 
-def report_folder(name: str) -> Path:
+def report_folder(code: str, name: str) -> Path:
     """Where the report of a task's nominal plan is kept."""
-    return ROOT / "results" / "check" / name
+    return KEPT / code[:12] / name
 
 
-def truth_trial(arguments: tuple[str, int, int]) -> tuple[str, int, str, str]:
+def truth_trial(arguments: tuple[str, str, int, int]) -> tuple[str, int, str, str]:
     """Carries a nominal plan out in a true world: task, setting, status and cause."""
-    name, index, seed = arguments
+    code, name, index, seed = arguments
     setting = SETTINGS[index]
 
     def drawn(scene: Scene, seed: int) -> Scene:
@@ -100,7 +111,11 @@ def truth_trial(arguments: tuple[str, int, int]) -> tuple[str, int, str, str]:
         return vary_truth(scene.model_copy(update={"variation": variation}), seed)
 
     options = SimulateOptions(
-        task=task_file(name), plan=str(report_folder(name)), seed=seed, vary=True, look=setting.look
+        task=task_file(name),
+        plan=str(report_folder(code, name)),
+        seed=seed,
+        vary=True,
+        look=setting.look,
     )
     report = run_simulate(options, rooms=replace(default_rooms(), vary_truth=drawn)).report
     return name, index, report.status, report.cause or ""
@@ -135,45 +150,52 @@ def ablation_trial(arguments: tuple[str, str]) -> tuple[str, str, str, int]:
     return name, component, report.status, branches
 
 
-def check_plans(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
+def check_plans(measuring: Measuring) -> tuple[str, bool]:
     """Planning itself, in the scene as shipped and in varied ones."""
-    jobs: list[tuple[str, int | None]] = [
-        (task, seed) for task in tasks for seed in (None, *range(seeds))
+    seeds = measuring.seeds
+    jobs: list[tuple[str, str, int | None]] = [
+        (measuring.code, task, seed) for task in measuring.tasks for seed in (None, *range(seeds))
     ]
-    trials = list(pool.map(plan_trial, jobs))
+    trials = measuring.trials(plan_trial, jobs)
     rows, good = [], True
-    for task in tasks:
-        nominal, *varied = [trial for trial in trials if trial.task == task]
-        feasible = sum(trial.status == "feasible" for trial in varied)
-        right = sum(trial.right for trial in varied)
-        passed = nominal.right and feasible >= round(0.95 * seeds)
+    for task in measuring.tasks:
+        mine = [trial for trial in trials if trial[0] == task]
+        right = [
+            status == "feasible" and is_right_plan(task, plan) for _, _, status, plan, _ in mine
+        ]
+        feasible = sum(status == "feasible" for _, _, status, *_ in mine[1:])
+        passed = right[0] and feasible >= round(0.95 * seeds)
         good &= passed
         rows.append(
-            [task, "right" if nominal.right else nominal.status, f"{feasible}/{seeds}",
-             f"{right}/{seeds}", f"{max(t.wall_s for t in varied or [nominal]):.1f} s",
+            [task, "right" if right[0] else mine[0][2], f"{feasible}/{seeds}",
+             f"{sum(right[1:])}/{seeds}", f"{max(spent_s for *_, spent_s in mine):.1f} s",
              "yes" if passed else "NO"]
         )  # fmt: skip
-        for trial in (nominal, *varied):
-            if not trial.right:
-                print(f"  {task} seed {trial.seed}: {trial.status}: {' '.join(trial.plan)}")
+        for (_, seed, status, plan, _), so in zip(mine, right, strict=True):
+            if not so:
+                print(f"  {task} seed {seed}: {status}: {' '.join(plan)}")
     heads = ["task", "unvaried", "feasible", "right plan", "slowest plan", "demand met"]
     return table(heads, rows), good
 
 
-def check_truth(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
+def check_truth(measuring: Measuring) -> tuple[str, bool]:
     """The nominal plans under belief and truth."""
-    for task in tasks:
-        if not (report_folder(task) / "report.json").exists():
-            plan_trial((task, None))
+    seeds = measuring.seeds
+    for task in measuring.tasks:
+        if not (report_folder(measuring.code, task) / "report.json").exists():
+            plan_trial((measuring.code, task, None))
     jobs = [
-        (task, i, seed) for task in tasks for i in range(len(SETTINGS)) for seed in range(seeds)
+        (measuring.code, task, i, seed)
+        for task in measuring.tasks
+        for i in range(len(SETTINGS))
+        for seed in range(seeds)
     ]
-    results = list(pool.map(truth_trial, jobs))
+    results = measuring.trials(truth_trial, jobs)
     rows, good = [], True
-    for task in tasks:
+    for task in measuring.tasks:
         cells, passed = [], True
         for index, setting in enumerate(SETTINGS):
-            mine = [result for result in results if result[:2] == (task, index)]
+            mine = [result for result in results if result[:2] == [task, index]]
             alive = sum(status == "success" for *_, status, _ in mine)
             passed &= alive >= setting.least * seeds / 20
             cells.append(f"{alive}/{seeds}")
@@ -185,11 +207,12 @@ def check_truth(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tupl
     return table(["task", *(setting.title for setting in SETTINGS), "demand met"], rows), good
 
 
-def check_naive(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tuple[str, bool]:
-    """The table of demand 4."""
-    wanted = [i for i, naive in enumerate(NAIVE_PLANS) if naive.task in tasks]
+def check_naive(measuring: Measuring) -> tuple[str, bool]:
+    """The plans that anybody would try first."""
+    seeds = measuring.seeds
+    wanted = [i for i, naive in enumerate(NAIVE_PLANS) if naive.task in measuring.tasks]
     jobs: list[tuple[int, int | None]] = [(i, seed) for i in wanted for seed in range(seeds)]
-    results = list(pool.map(naive_trial, jobs))
+    results = measuring.trials(naive_trial, jobs)
     rows, good = [], True
     for index in wanted:
         naive: Naive = NAIVE_PLANS[index]
@@ -213,12 +236,13 @@ def check_naive(pool: ProcessPoolExecutor, tasks: list[str], seeds: int) -> tupl
     return table(heads, rows), good
 
 
-def check_ablations(pool: ProcessPoolExecutor, tasks: list[str]) -> tuple[str, bool]:
-    """The table of demand 5."""
-    jobs = [(task, part) for task in tasks for part in ("reflective", "priori")]
-    results = {(name, part): rest for name, part, *rest in pool.map(ablation_trial, jobs)}
+def check_ablations(measuring: Measuring) -> tuple[str, bool]:
+    """Planning without one of the two kinds of branching."""
+    jobs = [(task, part) for task in measuring.tasks for part in ("reflective", "priori")]
+    found = measuring.trials(ablation_trial, jobs)
+    results = {(name, part): rest for name, part, *rest in found}
     rows, good = [], True
-    for task in tasks:
+    for task in measuring.tasks:
         status, _ = results[task, "reflective"]
         other, branches = results[task, "priori"]
         solved = status == "feasible"
@@ -235,23 +259,26 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--tasks", default=",".join(TASKS))
     parser.add_argument("--only", choices=["plans", "truth", "naive", "ablations"])
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N")
     parser.add_argument("--no-write", action="store_true")
     options = parser.parse_args()
-    tasks = options.tasks.split(",")
     os.environ.setdefault("OMP_NUM_THREADS", "1")
+    code = code_digest()
     good = True
-    with ProcessPoolExecutor(os.cpu_count() or 1) as pool:
+    with ProcessPoolExecutor(options.jobs) as pool:
+        journal = Journal(KEPT / "trials.jsonl", code)
+        measuring = Measuring(pool, journal, tuple(options.tasks.split(",")), options.seeds, code)
         for key, title, check in (
-            ("plans", "Planned in varied worlds", lambda: check_plans(pool, tasks, options.seeds)),
-            ("truth", "Belief and truth", lambda: check_truth(pool, tasks, options.seeds)),
-            ("naive", "Naive plans", lambda: check_naive(pool, tasks, options.seeds)),
-            ("ablations", "Ablations", lambda: check_ablations(pool, tasks)),
+            ("plans", "Planned in varied worlds", check_plans),
+            ("truth", "Belief and truth", check_truth),
+            ("naive", "Naive plans", check_naive),
+            ("ablations", "Ablations", check_ablations),
         ):
             if options.only not in (None, key):
                 continue
-            text, passed = check()
+            text, passed = check(measuring)
             good &= passed
-            print(f"\n{title}\n\n{text}\n")
+            print(f"\n{title}\n\n{text}\n", flush=True)
             if not options.no_write:
                 replace_section(RESULTS, title, text)
     return 0 if good else 1
