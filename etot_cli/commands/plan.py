@@ -254,4 +254,9 @@ def task_model(file: Path, task: Task | None) -> TaskModel:
     """The task as it stands in reports; None when the command was stopped before it was read."""
     if task is None:
         return TaskModel(name=file.stem, file=printable(file), instruction="")
-    return TaskModel(name=task.name, file=printable(file), instruction=task.instruction)
+    return TaskModel(
+        name=task.name,
+        file=printable(file),
+        instruction=task.instruction,
+        inputs=task.inputs,
+    )

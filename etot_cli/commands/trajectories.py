@@ -46,5 +46,6 @@ def write_trajectories(planning: Planning, folder: Path, *, keep_all: bool = Fal
         motion = motion_model(actions[number], number, file, digest, outcome)
         if motion is not None and number in report.plan_nodes:
             report.motions.append(motion)
+            report.robot, report.model = robot.name, outcome.model_digest
     order = {number: place for place, number in enumerate(report.plan_nodes)}
     report.motions.sort(key=lambda motion: order[motion.node])

@@ -17,6 +17,12 @@ Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Metres = Annotated[float, Field(allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Count = Annotated[int, Field(ge=0)]
+HEX_DIGEST = "^[0-9a-f]{64}$"
+Digest = Annotated[str, Field(pattern=HEX_DIGEST)]
+"""SHA-256, hexadecimal."""
+
+UNKNOWN = "unknown"
+"""The version of a package that is not installed, or that an older report does not tell."""
 
 DECIMALS = 6
 """Microseconds are the finest a clock reading means."""
@@ -42,6 +48,17 @@ class VersionsModel(Model):
     python: str
     mujoco: str
     numpy: str
+    scipy: str = UNKNOWN
+    mink: str = UNKNOWN
+    """Inverse kinematics."""
+    trimesh: str = UNKNOWN
+    coacd: str = UNKNOWN
+    """Convex pieces of meshes."""
+    small_gicp: str = UNKNOWN
+    """Where known meshes are in a picture."""
+    opencv: str = UNKNOWN
+    machine: str = UNKNOWN
+    """System and processor: the last bits of a result are the processor's."""
 
 
 class TimingModel(Model):
@@ -94,6 +111,9 @@ class TaskModel(Model):
     file: str
     """The task file as named on the command line."""
     instruction: str
+    inputs: dict[str, Digest] = Field(default_factory=dict)
+    """SHA-256 of every file that the task was read from (documents, meshes, models, a robot's
+    YAML), by path from the task file's folder."""
 
 
 class Report(Model):

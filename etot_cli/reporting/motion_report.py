@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
 from etot_cli.control.simulated import WorldOutcome
-from etot_cli.reporting.models import Count, Model, Seconds
+from etot_cli.reporting.models import Count, Digest, Model, Seconds
 from etot_cli.skills.motion.motion import FramedPose, Motion, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, peaks
 from etot_cli.world.state import SceneState
-
-HEX_DIGEST = "^[0-9a-f]{64}$"
-Digest = Annotated[str, Field(pattern=HEX_DIGEST)]
-"""SHA-256, hexadecimal."""
 
 
 class PoseModel(Model):

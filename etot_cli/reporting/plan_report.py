@@ -26,6 +26,7 @@ from etot_cli.reporting.models import (
     ActionModel,
     CauseModel,
     Count,
+    Digest,
     Model,
     Report,
     Seconds,
@@ -256,6 +257,10 @@ class PlanReport(Report):
     """Null without a plan."""
     success: SuccessModel | None
     """In the nominal world after the plan; null without a plan."""
+    robot: str | None = None
+    """Whom the motions are for; null without a motion."""
+    model: Digest | None = None
+    """SHA-256 of the twin's compiled physics model, robot and meshes included."""
     motions: list[MotionModel] = Field(default_factory=list)
     """What the robot is told for each action of the plan, in order."""
     prefix: PrefixModel | None

@@ -9,10 +9,7 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 
-from etot_cli.reporting.models import TimingModel, VersionsModel, seconds
-
-UNKNOWN = "unknown"
-"""Stands for the version of a package that is not installed."""
+from etot_cli.reporting.models import UNKNOWN, TimingModel, VersionsModel, seconds
 
 
 def package_version(name: str) -> str:
@@ -30,6 +27,13 @@ def versions() -> VersionsModel:
         python=platform.python_version(),
         mujoco=package_version("mujoco"),
         numpy=package_version("numpy"),
+        scipy=package_version("scipy"),
+        mink=package_version("mink"),
+        trimesh=package_version("trimesh"),
+        coacd=package_version("coacd"),
+        small_gicp=package_version("small_gicp"),
+        opencv=package_version("opencv-python-headless"),
+        machine=f"{platform.system()} {platform.machine()}",
     )
 
 

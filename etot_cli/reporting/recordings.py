@@ -12,7 +12,8 @@ from pydantic import Field, ValidationError
 
 from etot_cli.control.replaying import Recording
 from etot_cli.errors import PlanSyntaxError, SpecError
-from etot_cli.reporting.motion_report import HEX_DIGEST, TrajectoryModel, TrajectoryPhaseModel
+from etot_cli.reporting.models import HEX_DIGEST
+from etot_cli.reporting.motion_report import TrajectoryModel, TrajectoryPhaseModel
 from etot_cli.reporting.replay import Lenient, plan_from_report, read_report
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.motion.motion import Motion, PhaseEnd, PhaseTrace, Trace

@@ -48,7 +48,9 @@ def trial_text(task: Task, method: Method, trial: Trial, result: TrialResult) ->
     report = TrialReport(
         status=result.status.value,
         method=method.name,
-        task=TaskModel(name=task.name, file=task.file, instruction=task.instruction),
+        task=TaskModel(
+            name=task.name, file=task.file, instruction=task.instruction, inputs=task.inputs
+        ),
         number=result.key.number,
         seed=result.seed,
         versions=versions(),

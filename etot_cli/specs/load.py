@@ -9,6 +9,7 @@ from etot_cli.specs.checks import check_scene
 from etot_cli.specs.document import Node, Place, read_document
 from etot_cli.specs.files import resolve_files
 from etot_cli.specs.include import as_include, expand, merge, project_root
+from etot_cli.specs.inputs import input_digests
 from etot_cli.specs.problems import first_error, validate
 from etot_cli.specs.references import task_problems
 from etot_cli.specs.scene import Scene
@@ -59,7 +60,8 @@ def load_task(path: str | Path, *, reach: float | None = None) -> Task:
     task = validate(Task, node)
     scene_node = keys["scene"]
     scene = resolve_files(task.scene, scene_node, scene_file.parent)
-    task = task.model_copy(update={"scene": scene, "file": str(path)})
+    inputs = input_digests(node, scene, file)
+    task = task.model_copy(update={"scene": scene, "file": str(path), "inputs": inputs})
     check_scene(scene, scene_node, reach)
     problems = task_problems(task)
     if problems:

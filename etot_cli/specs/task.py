@@ -97,6 +97,8 @@ class Task(Spec):
     """In how many varied worlds ``plan`` tries every action, unless told otherwise."""
     file: str = ""
     """The task file as the user named it; set by the loader, refused in YAML."""
+    inputs: dict[str, str] = Field(default_factory=dict, exclude=True)
+    """SHA-256 of the files that the task was read from, by path from its own; set by the loader."""
 
     @property
     def disturbances(self) -> tuple[Disturbance, ...]:

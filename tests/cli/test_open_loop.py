@@ -36,7 +36,11 @@ def replayed(report: Path, *words: str, task: str = TASK) -> tuple[int, dict[str
 
 @pytest.mark.slow
 def test_the_end_is_the_planned_one_to_the_byte(saved: Path) -> None:
-    planned_end = json.loads(saved.read_text())["motions"][-1]["end_state"]
+    made = json.loads(saved.read_text())
+    planned_end = made["motions"][-1]["end_state"]
+    sent = json.loads((saved.parent / made["motions"][-1]["file"]).read_text())
+    assert (made["robot"], made["model"]) == (sent["robot"], sent["model"])
+    assert {"task5.yaml", "../scenes/pen_and_holders.yaml"} <= made["task"]["inputs"].keys()
     code, report = replayed(saved)
     assert code == 0 and report["status"] == "success"
     assert report["open_loop"] == {

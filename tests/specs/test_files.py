@@ -97,3 +97,17 @@ def test_mjcf_and_robot_files(folder: Path) -> None:
     assert "robot: there is no file 'leg.yaml'" in scene_error(folder, "robot: leg.yaml")
     assert "leaves the folder" in scene_error(folder, "robot: ../arm.yaml")
     assert load_scene(write(folder, "scene.yaml", "name: x")).robot == "xarm6"
+
+
+def test_a_task_knows_its_files_by_their_content(folder: Path) -> None:
+    write(folder, "arm.yaml", "x: 1")
+    write(folder, "base.yaml", "robot: arm.yaml\n" + objects(duck=MESH.format("duck.obj")))
+    write(folder, "scene.yaml", "include: base.yaml\nname: desk")
+    text = "instruction: x\nscene: ../scenes/scene.yaml\nsuccess: [{present: duck}]"
+    task = write(folder.parent / "mine", "t.yaml", text)
+    before = load_task(task).inputs
+    scenes = [f"../scenes/{name}" for name in ("arm.yaml", "base.yaml", "duck.obj", "scene.yaml")]
+    assert list(before) == [*scenes, "t.yaml"]
+    write(folder, "duck.obj", "v 0 0 1")
+    after = load_task(task).inputs
+    assert {name for name in before if before[name] != after[name]} == {"../scenes/duck.obj"}
