@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +16,7 @@ from pydantic import Field, model_validator
 from etot_cli.benchmark.problems import FAMILIES, problem
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.specs.base import Spec, Title
+from etot_cli.specs.bounds import MAX_TRIALS
 from etot_cli.specs.document import Node, read_document
 from etot_cli.specs.load import load_task
 from etot_cli.specs.problems import validate
@@ -22,7 +25,6 @@ from etot_cli.specs.task import Task
 
 SUFFIXES = (".yaml", ".yml")
 MAX_TASKS = 1000
-MAX_TRIALS = 10_000
 RANDOM = re.compile(r"random:([0-9]{1,4})")
 """So many random problems."""
 MAX_SUITES = 8
@@ -57,6 +59,9 @@ class Suite(Spec):
     def _seeds_or_trials(self) -> Suite:
         if self.seeds is not None and (self.trials is not None or self.seed is not None):
             raise ValueError("give either 'seeds', one per trial, or 'trials' and 'seed'")
+        twice = [seed for seed, count in Counter(self.seeds or ()).items() if count > 1]
+        if twice:
+            raise ValueError(f"'seeds' has {twice[0]} twice, which is one world counted as two")
         return self
 
 
@@ -112,20 +117,30 @@ class _Reader:
         self._folder = folder
         self._tasks: dict[str, Task] = {}
         self._suites: list[tuple[str, Suite]] = []
+        self._taken: set[str] = set()
 
     def take(self, text: str, beside: Path, depth: int, asked: Node | None = None) -> None:
-        """One input; ``beside``: what it is relative to; ``asked``: where a suite names it."""
+        """One input; ``beside``: what it is relative to; ``asked``: where a suite names it.
+
+        What has been taken is not read again, so that suites that name each other, or one folder
+        in many ways, come to an end.
+        """
+        if not text:
+            raise _error(asked, "found '', expected a file, a folder or random:N")
+        path = beside / text
+        name = text if text.startswith("random:") else os.path.realpath(path)
+        if name in self._taken:
+            return
+        self._taken.add(name)
         if text.startswith("random:"):
             self._random(text, asked)
-            return
-        path = beside / text
-        if path.is_dir():
+        elif os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
             files = sorted(item for item in path.iterdir() if item.suffix in SUFFIXES)
             if not files:
                 raise _error(asked, f"no task files (*.yaml) in the folder {printable(path)}")
             for file in files:
-                self._file(file, depth)
-        elif asked is not None and not path.is_file():
+                self.take(str(file), Path(), depth)
+        elif asked is not None and not os.path.isfile(path):  # noqa: PTH113 - as above
             raise _error(asked, f"there is no file or folder {text!r} beside this file")
         else:
             self._file(path, depth)
@@ -168,6 +183,11 @@ class _Reader:
 
     def selection(self) -> Selection:
         """All that was taken."""
+        if not self._tasks and self._suites:
+            raise SpecError(
+                "names suites alone that name each other; expected task files, folders or random:N",
+                file=self._suites[0][0],
+            )
         if not self._tasks:
             raise EtotError("nothing to run; name task files, folders, suite files or random:N")
         found: dict[str, tuple[str, object]] = {}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
 COSTS = (
     "planning_s", "nodes", "simulated_s", "model_calls", "input_tokens", "output_tokens", "cost",
@@ -13,6 +15,9 @@ COSTS = (
 """What planning cost in a trial: wall time [s], nodes, physics time [s], tokens, US dollars."""
 TIMES = ("physics", "inverse_kinematics", "rendering", "reasoning", "other")
 """What the wall time of a trial is split into."""
+
+Amount = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Count = Annotated[int, Field(ge=0)]
 
 
 class TrialStatus(StrEnum):
@@ -29,7 +34,7 @@ class TrialKey:
     """Which trial: the method, the task by name, and the trial's number from 0."""
 
     task: str
-    number: int
+    number: Count
     method: str
 
     @property
@@ -56,18 +61,20 @@ class TrialResult:
     :data:`TIMES` [s]; ``report``: the trial's own report, relative to the run's folder.
     """
 
+    __pydantic_config__ = ConfigDict(extra="forbid")
+
     key: TrialKey
-    seed: int
+    seed: Count
     status: TrialStatus
     actions: tuple[ActionTaken, ...] = ()
-    replans: int = 0
+    replans: Count = 0
     harm: tuple[str, ...] = ()
     failure_class: str | None = None
     reason: str = ""
-    costs: Mapping[str, float] = field(default_factory=dict)
-    times: Mapping[str, float] = field(default_factory=dict)
-    wall_s: float = 0.0
-    peak_mib: float = 0.0
+    costs: Mapping[str, Amount] = field(default_factory=dict)
+    times: Mapping[str, Amount] = field(default_factory=dict)
+    wall_s: Amount = 0.0
+    peak_mib: Amount = 0.0
     """Largest resident memory of the worker so far [MiB]."""
     report: str = ""
 
@@ -84,6 +91,9 @@ class TrialResult:
         )  # fmt: skip
 
 
+_RESULT = TypeAdapter(TrialResult)
+
+
 def to_document(result: TrialResult) -> dict[str, Any]:
     """A result as JSON has it: flat, the key's fields first."""
     document = asdict(result)
@@ -97,15 +107,11 @@ def from_document(document: Mapping[str, Any]) -> TrialResult:
     Raises:
         ValueError: something is missing, unknown or of another kind.
     """
+    left = dict(document)
+    key = {name: left.pop(name) for name in ("method", "task", "number") if name in left}
     try:
-        left = dict(document)
-        key = TrialKey(str(left.pop("task")), int(left.pop("number")), str(left.pop("method")))
-        unknown = sorted(left.keys() - {item.name for item in fields(TrialResult)})
-        if unknown:
-            raise ValueError(f"unknown key {unknown[0]!r}")
-        actions = tuple(ActionTaken(**item) for item in left.pop("actions"))
-        status = TrialStatus(left.pop("status"))
-        harm = tuple(left.pop("harm"))
-        return TrialResult(key=key, status=status, actions=actions, harm=harm, **left)
-    except (KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"is no trial's result: {error}") from None
+        return _RESULT.validate_python({"key": key, **left})
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = ".".join(str(step) for step in first["loc"] if step != "key")
+        raise ValueError(f"is no trial's result: {where}: {first['msg']}") from None

@@ -10,12 +10,16 @@ import typer
 
 from etot_cli.cli.exits import NO, OK
 from etot_cli.cli.options import (
+    MAX_JOBS,
     Force,
     Html,
     Json,
     Out,
     Quiet,
+    Reasoner,
+    ReasonerName,
     Verbose,
+    VlmJudge,
     VlmMaxCalls,
     VlmMaxCost,
     VlmModelName,
@@ -23,10 +27,10 @@ from etot_cli.cli.options import (
     VlmReplay,
     VlmUrl,
 )
-from etot_cli.cli.plan import MAX_JOBS, JudgeName, ReasonerName
 from etot_cli.cli.session import Session
+from etot_cli.errors import ServiceError
+from etot_cli.specs.bounds import MAX_TRIALS
 
-MAX_TRIALS = 10_000
 ENGINES = ("local", "ray")
 
 
@@ -98,18 +102,10 @@ def bench(
             "significantly worse.",
         ),
     ] = None,
-    reasoner: Annotated[
-        ReasonerName, typer.Option("--reasoner", help="Who proposes, judges and reflects.")
-    ] = ReasonerName.BUILTIN,
+    reasoner: Reasoner = ReasonerName.BUILTIN,
     vlm_url: VlmUrl = None,
     model: VlmModelName = None,
-    judge: Annotated[
-        JudgeName | None,
-        typer.Option(
-            "--judge",
-            help="With --reasoner vlm: who decides whether an action succeeded. [default: both]",
-        ),
-    ] = None,
+    judge: VlmJudge = None,
     record: VlmRecord = None,
     replay: VlmReplay = None,
     max_calls: VlmMaxCalls = None,
@@ -142,7 +138,8 @@ def bench(
     """Measure how often methods succeed on tasks, in varied worlds, and at what cost.
 
     Exit code 0: all trials were run; 1: with --compare, a method got significantly worse;
-    2: unusable input; 3: a service is not there; 130: interrupted.
+    2: unusable input; 3: a service is not there, or no trial could be carried out;
+    130: interrupted.
     """
     if compare is not None:
         if tasks or resume:
@@ -172,7 +169,7 @@ def bench(
         engine=engine,
         reasoner=reasoner.value,
         vlm={
-            "url": vlm_url, "model": model, "judge": None if judge is None else judge.value,
+            "url": vlm_url, "model": model, "judge": judge.value if judge else None,
             "record": record, "replay": replay, "max_calls": max_calls, "max_cost": max_cost,
         },
         video_url=video_url,
@@ -188,10 +185,13 @@ def bench(
         session.add_page(report, lambda told: write_bench_page(report, session.folder))
     from etot_cli.reporting.bench_table import BenchSummary
 
-    return session.conclude(
+    code = session.conclude(
         report, path,
         lambda summary: BenchSummary(summary.console, summary.verbosity).show(report, path),
     )  # fmt: skip
+    if code == OK and all(trial.status == "error" for trial in report.trials):
+        raise ServiceError(f"no trial could be carried out: {report.trials[0].reason}")
+    return code
 
 
 def _compare(first: Path, second: Path, *, json: bool, quiet: bool) -> int:

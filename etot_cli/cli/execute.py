@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-import sys
 from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from etot_cli.cli.exits import MISSING
-from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, TaskFile, Verbose
+from etot_cli.cli.options import (
+    MAX_JOBS,
+    Force,
+    Html,
+    Json,
+    Out,
+    Quiet,
+    Seed,
+    TaskFile,
+    Verbose,
+)
 from etot_cli.cli.session import Session
+from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Limits
-
-MAX_JOBS = 256
-MAX_TRIALS = 10_000
+from etot_cli.specs.bounds import MAX_TRIALS
 
 
 class Without(StrEnum):
@@ -134,6 +141,5 @@ def execute(
             session.add_page(report, lambda told: write_execute_page(execution, session.folder))
     code = session.conclude(report, path, lambda summary: summary.execute(report, path))
     if execution.lost and not report.interrupted:
-        print(f"error: {report.reason}", file=sys.stderr)
-        return MISSING
+        raise ServiceError(report.reason)
     return code

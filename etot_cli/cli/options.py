@@ -2,12 +2,32 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from etot_cli.specs.look import Look
+
+MAX_JOBS = 256
+"""Processes at most; more of them than any machine has cores for only use its memory up."""
+
+
+class ReasonerName(StrEnum):
+    """Who proposes, judges and reflects."""
+
+    BUILTIN = "builtin"
+    VLM = "vlm"
+
+
+class JudgeName(StrEnum):
+    """Who decides whether an action succeeded."""
+
+    STATE = "state"
+    VLM = "vlm"
+    BOTH = "both"
+
 
 TaskFile = Annotated[Path, typer.Argument(metavar="TASK.yaml", help="The task file.")]
 Out = Annotated[
@@ -52,6 +72,16 @@ WhenToLook = Annotated[
         "--look",
         help="When the robot looks at a varied world: before each action, or once at the start, "
         "running the twin's motions as they are.",
+    ),
+]
+Reasoner = Annotated[
+    ReasonerName, typer.Option("--reasoner", help="Who proposes, judges and reflects.")
+]
+VlmJudge = Annotated[
+    JudgeName | None,
+    typer.Option(
+        "--judge",
+        help="With --reasoner vlm: who decides whether an action succeeded. [default: both]",
     ),
 ]
 VlmUrl = Annotated[

@@ -11,18 +11,22 @@ from typing import Annotated
 
 import typer
 
-from etot_cli.cli.exits import MISSING, NO, OK
+from etot_cli.cli.exits import NO, OK
 from etot_cli.cli.options import (
+    MAX_JOBS,
     Force,
     Html,
     Json,
     Out,
     Quiet,
+    Reasoner,
+    ReasonerName,
     Seed,
     TaskFile,
     Vary,
     Verbose,
     VlmHints,
+    VlmJudge,
     VlmMaxCalls,
     VlmMaxCost,
     VlmModelName,
@@ -32,13 +36,13 @@ from etot_cli.cli.options import (
     WhenToLook,
 )
 from etot_cli.cli.session import Session
+from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 from etot_cli.specs.bounds import MAX_WORLDS
 from etot_cli.specs.look import Look
 
 EXPORTS = (".xml", ".pddl.txt", ".pddl", ".zip")
 """Endings of files that --export writes."""
-MAX_JOBS = 256
 MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
 
 
@@ -47,21 +51,6 @@ class Keep(StrEnum):
 
     PLAN = "plan"
     ALL = "all"
-
-
-class ReasonerName(StrEnum):
-    """Who proposes, judges and reflects."""
-
-    BUILTIN = "builtin"
-    VLM = "vlm"
-
-
-class JudgeName(StrEnum):
-    """Who decides whether an action succeeded."""
-
-    STATE = "state"
-    VLM = "vlm"
-    BOTH = "both"
 
 
 def _a_number(value: float | None) -> float | None:
@@ -73,9 +62,7 @@ def _a_number(value: float | None) -> float | None:
 
 def plan(
     task: TaskFile,
-    reasoner: Annotated[
-        ReasonerName, typer.Option("--reasoner", help="Who proposes, judges and reflects.")
-    ] = ReasonerName.BUILTIN,
+    reasoner: Reasoner = ReasonerName.BUILTIN,
     vary: Vary = False,
     jobs: Annotated[
         int | None,
@@ -120,13 +107,7 @@ def plan(
     look: WhenToLook = Look.EACH,
     vlm_url: VlmUrl = None,
     model: VlmModelName = None,
-    judge: Annotated[
-        JudgeName | None,
-        typer.Option(
-            "--judge",
-            help="With --reasoner vlm: who decides whether an action succeeded. [default: both]",
-        ),
-    ] = None,
+    judge: VlmJudge = None,
     hints: VlmHints = None,
     record: VlmRecord = None,
     replay: VlmReplay = None,
@@ -183,7 +164,7 @@ def plan(
         vlm={
             "url": vlm_url,
             "model": model,
-            "judge": None if judge is None else judge.value,
+            "judge": judge.value if judge else None,
             "hints": hints,
             "record": record,
             "replay": replay,
@@ -211,8 +192,7 @@ def plan(
     if code == OK and report.success is not None and not report.success.holds:
         return NO
     if code == NO and report.statistics.limit == "service":
-        print(f"error: {report.stopped}", file=sys.stderr)
-        return MISSING
+        raise ServiceError(report.stopped)
     return code
 
 

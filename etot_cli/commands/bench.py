@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,7 +13,14 @@ from etot_cli.benchmark.methods.catalogue import Method, methods_of
 from etot_cli.benchmark.running.engine import EngineName, open_engine
 from etot_cli.benchmark.running.journal import NAME as JOURNAL
 from etot_cli.benchmark.running.journal import Journal
-from etot_cli.benchmark.running.runner import Perform, RunObserver, TrialWork, run_trials
+from etot_cli.benchmark.running.manifest import Manifest, agree, read_manifest, throw_away
+from etot_cli.benchmark.running.runner import (
+    Perform,
+    RunObserver,
+    TrialWork,
+    left_to_do,
+    run_trials,
+)
 from etot_cli.benchmark.statistics.paired import paired
 from etot_cli.benchmark.suite import Selection, digest, seeds_of, select
 from etot_cli.benchmark.trial import TrialKey, TrialResult
@@ -29,15 +35,13 @@ from etot_cli.reporting.bench_report import (
     task_models,
     trial_rows,
 )
-from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.specs.reading import read_utf8
 
-MANIFEST = "bench.json"
-"""What a run was asked for, beside its trials, so that it can be gone on with."""
-MAX_MANIFEST_BYTES = 8 * 1024 * 1024
 MAX_REPORT_BYTES = 256 * 1024 * 1024
 """A report of ten thousand trials is a tenth of it."""
+MAX_RUN = 100_000
+"""Trials of a run, tasks and methods together; their report can still be read."""
 DEFAULT_TRIALS = 10
 
 
@@ -104,17 +108,16 @@ def run_bench(
     """
     watch = Stopwatch()
     with watch.phase("load"):
-        if options.force and not options.resume:
-            for name in (MANIFEST, JOURNAL):
-                (folder / name).unlink(missing_ok=True)
-        known = _manifest(folder, resume=options.resume)
+        known = None
+        if options.resume or not options.force:
+            known = read_manifest(folder, resume=options.resume)
         run = _resolved(options, folder, known)
-        _agree(_described(options, run), known, folder)
     work = run.work()
     carry_out: Perform
     if perform is None:
         from etot_cli.commands import bench_trial
 
+        bench_trial.check_services(options.reasoner, options.vlm, options.video_url)
         tasks = {task.name: task for task in run.selection.tasks}
         setup: Any = bench_trial.Setup(
             str(folder.resolve()), tasks, run.seed, options.reasoner, options.vlm,
@@ -124,8 +127,12 @@ def run_bench(
     else:
         setup = str(folder.resolve())
         carry_out, begin = perform
+    if options.force and not options.resume:
+        throw_away(folder)
+    agree(_described(options, run), known, folder)
     with Journal(folder) as journal, watch.phase("trials"):
-        complete = all(item.key in journal.results for item in work)
+        _check_seeds(work, journal)
+        complete = not left_to_do(work, journal)
         if not complete:
             engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
             try:
@@ -196,94 +203,62 @@ def load_report(path: Path) -> BenchReport:
         ) from None
 
 
-def _resolved(options: BenchOptions, folder: Path, known: Mapping[str, Any] | None) -> _Run:
+def _check_seeds(work: Sequence[TrialWork], journal: Journal) -> None:
+    """Makes sure that trials that are kept had the worlds of this run.
+
+    Raises:
+        SpecError: one had another.
+    """
+    results = journal.results
+    for item in work:
+        found = results.get(item.key)
+        if found is not None and found.seed != item.seed:
+            raise SpecError(
+                f"trial {item.key.name} has seed {found.seed}; expected {item.seed}",
+                file=str(journal.path),
+            )
+
+
+def _resolved(options: BenchOptions, folder: Path, known: Manifest | None) -> _Run:
     """The options with the suite's wishes and defaults; those of the run that is gone on with."""
     inputs = options.inputs
     if not inputs and known is not None:
-        inputs = tuple(known["inputs"])
+        inputs = tuple(known.inputs)
     selection = select(inputs, folder / "tasks")
-    given = known or {}
 
     def chosen(name: str, default: Any) -> Any:
         own = getattr(options, name)
         if own is not None:
             return own
         wished = getattr(selection, name)
-        return given.get(name, default) if wished is None else wished
+        return getattr(known, name, default) if wished is None else wished
 
     seed = int(chosen("seed", 0))
     seeds = selection.seeds if options.trials is None and options.seed is None else None
     draws = seeds_of(int(chosen("trials", DEFAULT_TRIALS)), seed, seeds)
     methods = methods_of(chosen("methods", None))
+    total = len(selection.tasks) * len(draws) * len(methods)
+    if total > MAX_RUN:
+        raise EtotError(f"{total} trials; expected at most {MAX_RUN} in one run, do it in parts")
     digests = {task.name: digest(task) for task in selection.tasks}
     return _Run(selection, inputs, methods, seed, draws, digests)
 
 
-def _described(options: BenchOptions, run: _Run) -> dict[str, Any]:
-    """What fixes the results of a run: two runs that agree in it may share a folder."""
+def _described(options: BenchOptions, run: _Run) -> Manifest:
     found = versions()
-    return {
-        "inputs": [*run.inputs],
-        "tasks": run.digests,
-        "methods": [method.name for method in run.methods],
-        "trials": len(run.draws),
-        "seed": run.seed,
-        "draws": [list(draw) for draw in run.draws],
-        "reasoner": options.reasoner,
-        "model": str(options.vlm.get("model") or ""),
-        "video": options.video_url is not None,
-        "etot": found.etot,
-        "mujoco": found.mujoco,
-    }
-
-
-def _manifest(folder: Path, *, resume: bool) -> dict[str, Any] | None:
-    """What the folder's run was asked for; None where there is none yet.
-
-    Raises:
-        EtotError: there is one and it is not to be gone on with, or the other way round.
-    """
-    path = folder / MANIFEST
-    if not path.exists():
-        if resume and (folder / JOURNAL).exists():
-            raise EtotError(f"{folder} has trials, but no {MANIFEST} that says of what run")
-        if resume:
-            raise EtotError(f"there is no run in {folder} to go on with")
-        return None
-    if not resume:
-        raise EtotError(
-            f"there is a run in {folder} already; go on with it by --resume {folder}, or give "
-            "another --out"
-        )
-    try:
-        found = json.loads(read_utf8(path, MAX_MANIFEST_BYTES, "a benchmark's description"))
-    except ValueError as error:
-        raise SpecError(f"is not JSON: {error}", file=str(path)) from None
-    if not isinstance(found, dict) or not isinstance(found.get("inputs"), list):
-        raise SpecError("is no benchmark's description; expected the key 'inputs'", file=str(path))
-    return found
-
-
-def _agree(wanted: dict[str, Any], known: Mapping[str, Any] | None, folder: Path) -> None:
-    """Writes down what the run is, or makes sure that it is still the same.
-
-    Raises:
-        EtotError: it is another one; the message says in what.
-    """
-    if known is None:
-        write_atomically(folder / MANIFEST, json.dumps(wanted, indent=2) + "\n")
-        return
-    # How the inputs are named may differ; what is in them may not.
-    for key in [key for key in wanted if key != "inputs" and known.get(key) != wanted[key]]:
-        raise EtotError(
-            f"the run in {folder} has {key} {_short(known.get(key))}, this one has "
-            f"{_short(wanted[key])}; give another --out"
-        )
-
-
-def _short(value: object) -> str:
-    text = json.dumps(value)
-    return text if len(text) <= 120 else text[:117] + "..."
+    return Manifest(
+        inputs=[*run.inputs],
+        tasks=run.digests,
+        methods=[method.name for method in run.methods],
+        trials=len(run.draws),
+        seed=run.seed,
+        draws=run.draws,
+        reasoner=options.reasoner,
+        model=str(options.vlm.get("model") or ""),
+        video=options.video_url is not None,
+        etot=found.etot,
+        mujoco=found.mujoco,
+    )
 
 
 def _report(

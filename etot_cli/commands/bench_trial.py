@@ -16,9 +16,11 @@ from etot_cli.benchmark.methods.catalogue import METHODS, Means, Method
 from etot_cli.benchmark.methods.kinematic import KinematicSimulator
 from etot_cli.benchmark.methods.planners import WorldModel
 from etot_cli.benchmark.methods.thinking import BuiltinThinking, Thinking
+from etot_cli.benchmark.running.manifest import TRIALS
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import COSTS, ActionTaken, TrialResult, TrialStatus
 from etot_cli.control.simulator import ActionSimulator, open_simulator
+from etot_cli.errors import ServiceError
 from etot_cli.execution.protocols import Planner
 from etot_cli.execution.trial import Trial, TrialOptions, run_trial
 from etot_cli.planning.options import Limits
@@ -33,7 +35,6 @@ TWINS_KEPT = 2
 MIB = 1024.0**2
 MAXRSS_BYTES = 1 if sys.platform == "darwin" else 1024
 """The unit in which the system tells the largest resident memory."""
-FOLDER = "trials"
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,24 @@ def begin(setup: Setup) -> None:
         _shared.twins.clear()
 
 
+def check_services(reasoner: str, vlm: Mapping[str, Any], video_url: str | None) -> None:
+    """Notices before the first trial what would make an error of every one.
+
+    Raises:
+        EtotError: a setting or an address cannot be used.
+        ServiceError: there is no key.
+    """
+    if reasoner != "builtin":
+        from etot_cli.reasoning.vlm.client import ChatClient
+        from etot_cli.reasoning.vlm.settings import VlmSettings
+
+        ChatClient(VlmSettings.load(**vlm)).close()
+    if video_url is not None:
+        from etot_cli.benchmark.methods.video_endpoint import VideoEndpoint
+
+        VideoEndpoint(video_url)
+
+
 def perform(work: TrialWork) -> TrialResult:
     """Carries a trial out and writes its report.
 
@@ -92,8 +111,11 @@ def perform(work: TrialWork) -> TrialResult:
         bench.close()
     if trial.status == "interrupted":
         raise KeyboardInterrupt
+    if trial.status == "lost":
+        # Not the method's failure: what it asked was not there.
+        raise ServiceError(trial.reason)
     wall_s = time.monotonic() - begun
-    report = f"{FOLDER}/{work.key.name}.json"
+    report = f"{TRIALS}/{work.key.name}.json"
     result = bench.result(work, trial, wall_s, report)
     path = Path(setup.folder) / report
     path.parent.mkdir(parents=True, exist_ok=True)

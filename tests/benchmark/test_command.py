@@ -44,6 +44,78 @@ def task(tmp_path: Path) -> Path:
     return write(tmp_path / "given", "one")
 
 
+@pytest.mark.parametrize(
+    "damage",
+    ["", "{", "[]", "[" * 100_000, {"inputs": [1]}, {"trials": 10**30}, {"trials": "x"},
+     {"seed": None}, {"methods": [["x"]]}, {"more": 1}],
+)  # fmt: skip
+def test_a_damaged_description_is_refused(tmp_path: Path, task: Path, damage: object) -> None:
+    folder = made(tmp_path / "out")
+    run_bench(options(task, trials=1), folder, perform=TOYS)
+    path = folder / "bench.json"
+    good = json.loads(path.read_text("utf-8"))
+    text = damage if isinstance(damage, str) else json.dumps({**good, **dict(damage)})  # type: ignore[call-overload]
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SpecError, match=r"bench\.json: .*no benchmark's description"):
+        run_bench(BenchOptions(inputs=(), resume=True), folder, perform=TOYS)
+
+
+def test_trials_of_other_worlds_are_refused(tmp_path: Path, task: Path) -> None:
+    folder = made(tmp_path / "out")
+    run_bench(options(task, trials=1), folder, perform=TOYS)
+    lines = folder / "trials.jsonl"
+    lines.write_text(lines.read_text("utf-8").replace('"seed": 0', '"seed": 8'), encoding="utf-8")
+    with pytest.raises(SpecError, match=r"seed 8; expected 0"):
+        run_bench(options(task, trials=1, resume=True), folder, perform=TOYS)
+
+
+def test_a_new_run_leaves_nothing_of_the_old_one(tmp_path: Path, task: Path) -> None:
+    folder = made(tmp_path / "out")
+    run_bench(options(task, trials=1), folder, perform=TOYS)
+    old = folder / "trials" / "rekep" / "other-0.json"
+    own = folder / "tasks" / "mine.yaml"
+    for file in (old, own, folder / "report.html"):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    elsewhere = made(tmp_path / "elsewhere") / "kept.json"
+    elsewhere.touch()
+    (folder / "trials" / "etot").symlink_to(elsewhere.parent)
+    with pytest.raises(SpecError):
+        run_bench(options(tmp_path / "no.yaml", force=True), folder, perform=TOYS)
+    assert old.exists(), "what cannot be begun throws nothing away"
+    report = run_bench(options(task, trials=2, force=True), folder, perform=TOYS)
+    assert len(report.trials) == 4 and not old.exists()
+    assert not (folder / "report.html").exists()
+    assert own.exists() and elsewhere.exists(), "what no run wrote stays"
+
+
+def test_more_trials_than_a_report_can_hold(tmp_path: Path, task: Path) -> None:
+    second = write(tmp_path / "given", "two")
+    with pytest.raises(EtotError, match="160000 trials; expected at most 100000"):
+        run_bench(options(task, second, methods=None, trials=10_000), made(tmp_path / "out"))
+
+
+@pytest.mark.parametrize(
+    ("flags", "code", "told"),
+    [
+        (["--reasoner", "vlm"], 3, "there is no key"),
+        (["--reasoner", "vlm", "--vlm-url", "ftp://u:hidden@h"], 2, "no http(s) URL"),
+        (["--video-url", "ftp://u:hidden@h/?key=hidden", "--reasoner", "vlm", "--vlm-url",
+          "http://127.0.0.1:9"], 2, "--video-url"),
+    ],
+)  # fmt: skip
+def test_what_no_trial_could_do_without_is_missed_before_the_first(
+    tmp_path: Path, task: Path, flags: list[str], code: int, told: str,
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    for name in ("OPENAI_API_KEY", "ETOT_VLM_KEY", "OPENAI_BASE_URL", "ETOT_VLM_URL"):
+        monkeypatch.delenv(name, raising=False)
+    assert run(["bench", str(task), *flags, "--out", str(tmp_path / "out")]) == code
+    said = capsys.readouterr().err
+    assert told in said and "hidden" not in said
+    assert not (tmp_path / "out" / "bench.json").exists()
+
+
 def made(folder: Path) -> Path:
     folder.mkdir(exist_ok=True)
     return folder

@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from etot_cli.benchmark.running.engine import EngineName, open_engine
-from etot_cli.benchmark.running.journal import NAME, Journal
+from etot_cli.benchmark.running.journal import MAX_LINE_BYTES, NAME, Journal
 from etot_cli.benchmark.running.runner import Perform, RunObserver, run_trials
 from etot_cli.benchmark.trial import (
     ActionTaken,
@@ -109,6 +109,8 @@ def test_what_cannot_be_done_is_an_error_on_record(
     errors = [item for item in found if item.status is TrialStatus.ERROR]
     assert {item.key.number for item in errors} == {1} and len(errors) == 4
     assert all(reason in item.reason for item in errors)
+    again = run(tmp_path, toys.perform)
+    assert again == [toys.result(item) for item in toys.work()], "an error is tried anew"
 
 
 def test_a_torn_line_is_cut_off(tmp_path: Path) -> None:
@@ -126,9 +128,29 @@ def test_a_torn_line_is_cut_off(tmp_path: Path) -> None:
             assert len(journal.results) == 3
 
 
-def test_a_line_that_is_no_result_is_named(tmp_path: Path) -> None:
-    (tmp_path / NAME).write_text('{"method": "a"}\n', encoding="utf-8")
-    with pytest.raises(SpecError, match=r"trials\.jsonl:1: .*expected one finished trial"):
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"number": 1e400}, {"seed": "x"}, {"costs": "abc"}, {"costs": {"nodes": float("nan")}},
+        {"costs": {"nodes": 10**400}}, {"wall_s": "x"}, {"peak_mib": None}, {"times": [1]},
+        {"harm": [1]}, {"reason": 5}, {"replans": -3}, {"actions": [{"action": 1}]}, {"more": 1},
+        "[]", "null", "", "[" * 100_000, "\xff", "x" * (MAX_LINE_BYTES + 1),
+    ],
+)  # fmt: skip
+def test_a_line_that_is_no_result_is_named_and_kept(tmp_path: Path, damage: object) -> None:
+    good = to_document(toys.result(toys.work()[0]))
+    bad = damage if isinstance(damage, str) else json.dumps({**good, **dict(damage)})  # type: ignore[call-overload]
+    path = tmp_path / NAME
+    path.write_text(f"{json.dumps(good)}\n{bad}\n{json.dumps(good)}\n", encoding="latin-1")
+    before = path.read_bytes()
+    with pytest.raises(SpecError, match=r"trials\.jsonl:2: .*expected one finished trial"):
+        Journal(tmp_path)
+    assert path.read_bytes() == before
+
+
+def test_a_journal_is_a_file(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / NAME)
+    with pytest.raises(SpecError, match="no regular file"):
         Journal(tmp_path)
 
 

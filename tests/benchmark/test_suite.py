@@ -56,9 +56,24 @@ def test_a_suite_within_a_suite(tmp_path: Path) -> None:
     suite(tmp_path / "inner", "tasks: [one.yaml]\n")
     outer = suite(tmp_path, "tasks: [inner/suite.yaml]\ntrials: 2\n")
     assert names(outer, folder=tmp_path) == ["one"]
-    loop = suite(tmp_path, "tasks: [loop.yaml]\n", "loop.yaml")
+    for depth in range(10):
+        suite(tmp_path / "inner", f"tasks: [s{depth + 1}.yaml]\n", f"s{depth}.yaml")
     with pytest.raises(SpecError, match="deeper than"):
+        names(tmp_path / "inner" / "s0.yaml", folder=tmp_path)
+
+
+def test_suites_that_name_each_other_come_to_an_end(tmp_path: Path) -> None:
+    write(tmp_path, "one")
+    assert names(suite(tmp_path, "tasks: ['.', suite.yaml]\n"), folder=tmp_path) == ["one"]
+    loop = suite(tmp_path, "tasks: [loop.yaml]\n", "loop.yaml")
+    with pytest.raises(SpecError, match=r"loop\.yaml: names suites alone"):
         names(loop, folder=tmp_path)
+    # Read as often as they are named, these would be 200 to the power of 6.
+    for depth in range(6):
+        entries = f"s{depth + 1}.yaml, " * 200
+        suite(tmp_path, f"tasks: [{entries}]\n", f"s{depth}.yaml")
+    suite(tmp_path, "tasks: [one.yaml]\n", "s6.yaml")
+    assert names(tmp_path / "s0.yaml", folder=tmp_path) == ["one"]
 
 
 @pytest.mark.parametrize(
@@ -73,6 +88,8 @@ def test_a_suite_within_a_suite(tmp_path: Path) -> None:
         ("tasks:\n  - /etc/passwd\n", ":2", "relative"),
         ("tasks:\n  - random:0\n", ":2", "random:N"),
         ("tasks:\n  - random:many\n", ":2", "random:N"),
+        ("tasks: [one.yaml]\nseeds: [3, 4, 3]\n", ":1", "has 3 twice"),
+        ("tasks:\n  - " + "a" * 300 + "\n", ":2", "no file or folder"),
     ],
 )
 def test_a_bad_suite_is_told_file_line_and_what_is_expected(

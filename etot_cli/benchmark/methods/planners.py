@@ -13,12 +13,12 @@ from typing import Protocol
 from etot_cli.benchmark.methods.attention import StaticScene
 from etot_cli.benchmark.methods.thinking import Thinking
 from etot_cli.control.simulated import Simulator
-from etot_cli.errors import InstructionError
+from etot_cli.errors import InstructionError, ServiceError
 from etot_cli.execution.protocols import Planned, Planner
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.planning.result import SearchResult, SearchStatus
+from etot_cli.planning.result import LimitKind, SearchResult, SearchStatus
 from etot_cli.planning.search import search
-from etot_cli.reasoning.protocol import Assignment, Branch, ReasonerStopped
+from etot_cli.reasoning.protocol import Assignment, Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.world.model import World
@@ -65,6 +65,8 @@ class SearchPlanner:
         )
         if result.status is SearchStatus.INTERRUPTED:
             raise KeyboardInterrupt
+        if result.limit is LimitKind.SERVICE:
+            raise ServiceError(result.stopped)
         return _planned(result)
 
 
@@ -86,6 +88,8 @@ class OneShotPlanner:
         try:
             branch = self.choose(start, scene)
         except (InstructionError, ReasonerStopped) as error:
+            if isinstance(error, ReasonerStopped) and error.reason is StopReason.SERVICE:
+                raise ServiceError(str(error)) from None
             reason = str(error)
         account = {"wall_s": time.monotonic() - begun}
         if branch is None:

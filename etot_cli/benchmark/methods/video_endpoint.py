@@ -60,10 +60,10 @@ class VideoEndpoint:
     def __post_init__(self) -> None:
         try:
             url = httpx.URL(self.url)
-        except httpx.InvalidURL as error:
-            raise EtotError(f"--video-url {self.url!r} is no URL: {error}") from None
+        except httpx.InvalidURL:
+            url = httpx.URL()
         if url.scheme not in ("http", "https") or not url.host:
-            raise EtotError(f"--video-url: found {self.url!r}, expected http(s)://…")
+            raise EtotError(f"--video-url: found {public_url(self.url)!r}, expected http(s)://…")
 
     def generate(self, image: Frame, prompt: str, seed: int) -> bytes:
         """A video that begins with a picture.

@@ -50,6 +50,8 @@ def run_trials(
 ) -> bool:
     """Runs what the journal does not have yet, and writes every result to it at once.
 
+    A trial that stands there as an error is tried anew: what it lacked may be there by now.
+
     Ctrl-C (KeyboardInterrupt) does not escape: finished trials are kept, running ones are dropped.
 
     Args:
@@ -63,8 +65,8 @@ def run_trials(
     Returns:
         Whether all trials are done; False when interrupted.
     """
-    done = journal.results
-    waiting = deque(item for item in work if item.key not in done)
+    waiting = deque(left_to_do(work, journal))
+    done = len(work) - len(waiting)
     clock = _Clock(len(waiting))
     running: dict[Future[TrialResult], TrialWork] = {}
     try:
@@ -78,10 +80,20 @@ def run_trials(
                 journal.add(result)
                 clock.count += 1
                 if observer is not None:
-                    observer.trial_finished(result, len(journal.results), len(work), clock.left_s())
+                    observer.trial_finished(result, done + clock.count, len(work), clock.left_s())
     except KeyboardInterrupt:
         return False
     return True
+
+
+def left_to_do(work: Sequence[TrialWork], journal: Journal) -> list[TrialWork]:
+    """Trials that the journal does not have, or has as an error only."""
+    results = journal.results
+    return [
+        item
+        for item in work
+        if item.key not in results or results[item.key].status is TrialStatus.ERROR
+    ]
 
 
 def _result(future: Future[TrialResult], item: TrialWork) -> TrialResult:
