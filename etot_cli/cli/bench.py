@@ -173,6 +173,7 @@ def bench(
             "record": record, "replay": replay, "max_calls": max_calls, "max_cost": max_cost,
         },
         video_url=video_url,
+        pages=html,
         resume=resume is not None,
         force=force,
     )  # fmt: skip

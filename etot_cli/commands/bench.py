@@ -58,6 +58,8 @@ class BenchOptions:
     reasoner: str = "builtin"
     vlm: Mapping[str, Any] = field(default_factory=dict)
     video_url: str | None = None
+    pages: bool = True
+    """A page beside each trial's report."""
     resume: bool = False
     force: bool = False
     """A run that is in the folder already is thrown away."""
@@ -121,7 +123,7 @@ def run_bench(
         tasks = {task.name: task for task in run.selection.tasks}
         setup: Any = bench_trial.Setup(
             str(folder.resolve()), tasks, run.seed, options.reasoner, options.vlm,
-            video_url=options.video_url,
+            video_url=options.video_url, pages=options.pages,
         )  # fmt: skip
         carry_out, begin = bench_trial.perform, bench_trial.begin
     else:

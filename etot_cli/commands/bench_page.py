@@ -7,16 +7,22 @@ from pathlib import Path
 from etot_cli.reporting.bench_report import BenchReport
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.bench_page import bench_page
+from etot_cli.reporting.page.trial_page import SUFFIX
 
 PAGE_NAME = "report.html"
 
 
 def write_bench_page(report: BenchReport, folder: Path) -> Path:
-    """Writes the page into the report's folder.
+    """Writes the page into the report's folder, with links to the trials' own pages there.
 
     Raises:
         EtotError: the file system refuses.
     """
     path = folder / PAGE_NAME
-    write_atomically(path, bench_page(report))
+    pages = {
+        trial.report: page.as_posix()
+        for trial in report.trials
+        if trial.report and (folder / (page := Path(trial.report).with_suffix(SUFFIX))).is_file()
+    }
+    write_atomically(path, bench_page(report, pages))
     return path

@@ -25,8 +25,9 @@ from etot_cli.execution.protocols import Planner
 from etot_cli.execution.trial import Trial, TrialOptions, run_trial
 from etot_cli.planning.options import Limits
 from etot_cli.reasoning.protocol import Assignment
-from etot_cli.reporting.files import write_atomically
-from etot_cli.reporting.trial_report import trial_text
+from etot_cli.reporting.files import report_text, write_atomically
+from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
+from etot_cli.reporting.trial_report import trial_report
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 
@@ -52,6 +53,8 @@ class Setup:
     vlm: Mapping[str, Any] = field(default_factory=dict)
     limits: Limits = field(default_factory=Limits)
     video_url: str | None = None
+    pages: bool = True
+    """A page beside each trial's report."""
 
 
 @dataclass
@@ -119,7 +122,12 @@ def perform(work: TrialWork) -> TrialResult:
     result = bench.result(work, trial, wall_s, report)
     path = Path(setup.folder) / report
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_atomically(path, trial_text(task, method, trial, result))
+    told = trial_report(task, method, trial, result)
+    write_atomically(path, report_text(told))
+    if setup.pages:
+        repeatable = setup.reasoner == "builtin" and setup.seed == work.seed
+        page = trial_page(told, trial, method.title, repeatable=repeatable)
+        write_atomically(path.with_suffix(SUFFIX), page)
     return result
 
 

@@ -68,6 +68,13 @@ def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedMod
     return sorted(found, key=lambda item: -item.largest_m)
 
 
+def moved_text(item: MovedModel) -> str:
+    """In words: from where to where, or how far where that stayed the same."""
+    if item.before == item.after:
+        return f"{item.object} moved {100 * item.moved_m:.1f} cm"
+    return f"{item.object}: {item.before} → {item.after}"
+
+
 def contact_models(record: RolloutRecord, blamed: Iterable[str]) -> list[ContactModel]:
     """The contacts that mattered, in order of time.
 

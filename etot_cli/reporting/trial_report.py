@@ -10,7 +10,6 @@ from etot_cli.benchmark.methods.catalogue import Method
 from etot_cli.benchmark.trial import TrialResult
 from etot_cli.execution.trial import Trial
 from etot_cli.reporting.execute_report import TrialModel, trial_model
-from etot_cli.reporting.files import report_text
 from etot_cli.reporting.models import Count, Model, Seconds, TaskModel, VersionsModel, seconds
 from etot_cli.reporting.provenance import versions
 from etot_cli.specs.task import Task
@@ -36,8 +35,8 @@ class TrialReport(Model):
     wall_s: Seconds
 
 
-def trial_text(task: Task, method: Method, trial: Trial, result: TrialResult) -> str:
-    """A trial's report as JSON.
+def trial_report(task: Task, method: Method, trial: Trial, result: TrialResult) -> TrialReport:
+    """A trial's report.
 
     Args:
         task: the task.
@@ -45,7 +44,7 @@ def trial_text(task: Task, method: Method, trial: Trial, result: TrialResult) ->
         trial: what happened.
         result: the same as a line of the journal.
     """
-    report = TrialReport(
+    return TrialReport(
         status=result.status.value,
         method=method.name,
         task=TaskModel(
@@ -60,4 +59,3 @@ def trial_text(task: Task, method: Method, trial: Trial, result: TrialResult) ->
         times={name: seconds(value) for name, value in result.times.items()},
         wall_s=seconds(result.wall_s),
     )
-    return report_text(report)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Any, Literal
 
@@ -134,23 +134,36 @@ def _tag(image: Image, text: str, x: int, y: int, scale: float) -> Image:
 
 
 def write_caption(image: Image, caption: str, tone: Tone) -> Image:
-    """A picture with a line of text over its lower edge; text that is too long is cut."""
+    """A picture with at most two lines of text over its lower edge; what is longer is cut."""
     drawn = np.ascontiguousarray(image)
     rows, columns = drawn.shape[:2]
     scale = max(1.0, columns / 640)
     face, size = cv2.FontFace(FACE), round(13 * scale)
-    bar, edge = round(28 * scale), round(6 * scale)
+    step, edge = round(19 * scale), round(6 * scale)
     room = columns - edge - round(20 * scale)
-    text = caption
-    while len(text) > 4 and _text_size(drawn, text, face, size)[0] > room:
-        text = text.rstrip("…")[:-1].rstrip() + "…"
-    strip = drawn[rows - bar :]
+
+    def fits(text: str) -> bool:
+        return bool(_text_size(drawn, text, face, size)[0] <= room)
+
+    lines = _lines(caption, fits)
+    strip = drawn[rows - round(9 * scale) - step * len(lines) :]
     strip[:] = (0.12 * strip + 0.88 * np.array(PAPER)).astype(np.uint8)
     strip[:, :edge] = TONES[tone]
-    cv2.putText(
-        drawn, text, (edge + round(10 * scale), rows - round(9 * scale)), INK, face, size, 500
-    )  # fmt: skip
+    for number, line in enumerate(reversed(lines)):
+        place = edge + round(10 * scale), rows - round(9 * scale) - step * number
+        cv2.putText(drawn, line, place, INK, face, size, 500)
     return drawn
+
+
+def _lines(text: str, fits: Callable[[str], bool]) -> list[str]:
+    """A text on one line, or broken at a space into two; what is left over is cut off."""
+    if fits(text):
+        return [text]
+    breaks = [place for place, sign in enumerate(text) if sign == " " and fits(text[:place])]
+    first, rest = (text[: breaks[-1]], text[breaks[-1] :].strip()) if breaks else ("", text)
+    while len(rest) > 4 and not fits(rest):
+        rest = rest.rstrip("…")[:-1].rstrip() + "…"
+    return [first.rstrip(), rest] if first else [rest]
 
 
 def _text_size(image: Image, text: str, face: Any, size: int) -> tuple[int, int]:

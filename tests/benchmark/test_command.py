@@ -241,7 +241,9 @@ def test_the_real_program_on_a_small_scene(tmp_path: Path, task: Path) -> None:
     assert own["schema"] == "etot.trial/1" and own["trial"]["conditions"][0]["held"]
     assert set(own["times"]) >= {"physics", "inverse_kinematics", "rendering", "reasoning"}
     assert sum(own["times"].values()) == pytest.approx(own["wall_s"], rel=0.05)
-    assert (out / "report.html").exists()
+    links = (out / "report.html").read_text(encoding="utf-8")
+    pages = [path.relative_to(out).as_posix() for path in out.glob("trials/*/*.html")]
+    assert len(pages) == 2 and all(page in links for page in pages)
     lines = (out / "trials.jsonl").read_bytes()
     assert run(["bench", "--resume", str(out), "-q"]) == 0
     assert (out / "trials.jsonl").read_bytes() == lines

@@ -26,6 +26,10 @@ PANEL = (720, 450)
 SMALL = (480, 300)
 SAMPLES = 10
 QUALITY = 80
+PICTURES = 4
+"""In a strip."""
+APART_S = 0.15
+"""Moments closer than this look the same [s]."""
 GAP_PX = 6
 HERO_TASK = "task5"
 HERO = (
@@ -75,25 +79,30 @@ def hero() -> list[np.ndarray]:
 
 
 def strip(task: str, plan: str) -> list[np.ndarray]:
-    """The last action of a plan that fails: start, key moments, end; four pictures."""
+    """The last action of a plan that fails, or what led to its being refused; four pictures."""
     simulation = _simulate(task, plan)
     film = takes(simulation)
     assert simulation.scene is not None
-    rows = _four_rows(film[-1])
-    shots = [film[-1].shot(row) for row in rows]
+    shots = [film[-1].shot(row) for row in _four_rows(film[-1])]
+    # An action that is refused has no moments of its own: then how it came to that is shown.
+    earlier = [(part, row) for part in film[:-1] for row in (0, len(part.trajectory.times) - 1)]
+    wanted = earlier[max(0, len(earlier) - (PICTURES - len(shots))) :]
+    shots = [part.shot(row) for part, row in wanted[: PICTURES - len(shots)]] + shots
     return _take(simulation.scene, film[0].trajectory.qpos[0], shots, SMALL)
 
 
 def _four_rows(part: Take) -> list[int]:
     times = part.trajectory.times - part.trajectory.times[0]
-    wanted = {row for _, _, row in key_moments(part.trajectory)}
+    candidates = [row for _, _, row in key_moments(part.trajectory)]
     if 0 < part.since_s < float(times[-1]):
-        wanted.add(int(np.argmin(np.abs(times - part.since_s))))
-    for share in (0.33, 0.67, 0.5, 0.85):
-        if len(wanted) < 4:
-            wanted.add(int(share * (len(times) - 1)))
-    ordered = sorted(wanted)
-    return [*ordered[:1], *ordered[-3:]] if len(ordered) > 4 else ordered
+        candidates.append(int(np.argmin(np.abs(times - part.since_s))))
+    ordered: list[int] = []
+    for row in (*sorted(candidates), *(int(s * (len(times) - 1)) for s in (0.33, 0.67, 0.5, 0.85))):
+        enough = row not in candidates and len(ordered) >= PICTURES
+        if not enough and all(abs(times[row] - times[other]) >= APART_S for other in ordered):
+            ordered.append(row)
+    ordered.sort()
+    return [*ordered[:1], *ordered[1 - PICTURES :]] if len(ordered) > PICTURES else ordered
 
 
 def _simulate(task: str, plan: str) -> Simulation:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Mapping
 
 from etot_cli.reporting.bench_report import BenchReport, PairedModel, TrialRowModel
 from etot_cli.reporting.bench_table import chance, significantly_worse
 from etot_cli.reporting.page.assemble import assemble
+from etot_cli.reporting.style import counted
 
 CLASS_COLOURS = {
     "execution": "p1", "perception": "p2", "world_model": "p4", "planning": "p6", "error": "p5",
@@ -15,11 +17,12 @@ CLASS_COLOURS = {
 OTHER = "p5"
 
 
-def bench_page(report: BenchReport) -> str:
+def bench_page(report: BenchReport, pages: Mapping[str, str]) -> str:
     """The page as text.
 
     Args:
-        report: what was measured; links lead to the trials' reports beside it.
+        report: what was measured.
+        pages: of trials, by their reports; links lead there, and to the report where there is none.
     """
     cells = {(row.method, row.task): row for row in report.rows}
     means = {item.method: item for item in report.averages}
@@ -43,17 +46,19 @@ def bench_page(report: BenchReport) -> str:
         if item.failures
     ]
     classes = sorted({name for item in report.averages for name in item.failures})
+    methods, tasks = counted(len(report.methods), "method"), counted(len(report.tasks), "task")
     return assemble(
         "bench.html.j2",
         scripts=("bench.js",),
-        data={"trials": [_row(trial) for trial in report.trials], "titles": titles},
+        data={"trials": [_row(trial, pages) for trial in report.trials], "titles": titles},
         pictures={},
         command="bench",
-        title=f"benchmark: {len(report.tasks)} tasks, {len(report.methods)} methods",
+        title=f"benchmark: {tasks}, {methods}",
         subject=" ".join(report.inputs),
-        heading=f"{len(report.methods)} methods on {len(report.tasks)} tasks",
+        heading=f"{methods} on {tasks}",
         head=report,
-        lead=f"{len(report.trials)} trials, {report.trials_per_cell} per method and task",
+        lead=f"{counted(len(report.trials), 'trial')}, "
+        f"{report.trials_per_cell} per method and task",
         notice="" if report.status == "success" else "Not all trials were run.",
         lines=lines,
         tasks=report.tasks,
@@ -67,12 +72,13 @@ def bench_page(report: BenchReport) -> str:
     )
 
 
-def _row(trial: TrialRowModel) -> list[object]:
+def _row(trial: TrialRowModel, pages: Mapping[str, str]) -> list[object]:
     """A trial as a short list: hundreds of them are in the page."""
     found = trial.model_dump()
+    found["link"] = pages.get(trial.report, trial.report)
     keys = (
         "method", "task", "number", "status", "failure_class", "reason", "replans", "actions",
-        "harm", "wall_s", "report", "seed",
+        "harm", "wall_s", "link", "seed",
     )  # fmt: skip
     return [found[key] for key in keys]
 

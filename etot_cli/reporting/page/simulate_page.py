@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from etot_cli.reporting.evidence import moved_text
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Store
 from etot_cli.reporting.page.timeline import time_parts
@@ -47,7 +48,7 @@ def simulate_page(
                 "safe": step.safe,
                 "status": step.status,
                 "cause": cause.text if cause else "",
-                "moved": step.moved,
+                "moved": [moved_text(item) for item in step.moved],
                 "simulated_s": step.simulated_s,
                 "start": start,
                 "end": start + duration,

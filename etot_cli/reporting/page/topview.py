@@ -17,6 +17,8 @@ MARGIN_M = 0.06
 ARROW_FROM_M = 0.03
 """Shorter moves get no arrow; it would be longer than the way."""
 ROUND = frozenset({"sphere", "cylinder", "cup", "bowl"})
+NAME_PX, NAME_WIDTH_PX = 19, 120
+"""Height of names, to be read in a picture of half the size, and the width of most."""
 BASE_RADIUS_M = 0.063
 """Half the width of a table-top arm's base, drawn at the frame's origin."""
 Project = Callable[[float, float], tuple[float, float]]
@@ -173,14 +175,17 @@ def _labels(places: Sequence[tuple[str, tuple[float, float]]], blamed: set[str])
     parts = []
     for name, (x, y) in places:
         line = y + 4
-        while any(abs(x - other) < 90 and abs(line - row) < 15 for other, row in taken):
-            line += 15
+        while any(
+            abs(x - other) < NAME_WIDTH_PX and abs(line - row) < NAME_PX for other, row in taken
+        ):
+            line += NAME_PX
         taken.append((x, line))
         fill, weight = ("#c3160c", "bold") if name in blamed else ("#22242a", "normal")
         mark = " ⚠" if name in blamed else ""
         parts.append(
-            f'<text x="{x:.1f}" y="{line:.1f}" font-size="14" text-anchor="middle" fill="{fill}" '
-            f'font-weight="{weight}" stroke="#fff" stroke-width="3" paint-order="stroke">'
+            f'<text x="{x:.1f}" y="{line:.1f}" font-size="{NAME_PX}" text-anchor="middle" '
+            f'fill="{fill}" font-weight="{weight}" stroke="#fff" stroke-width="3" '
+            f'paint-order="stroke">'
             f"{escape(name)}{mark}</text>"
         )
     return parts

@@ -1,4 +1,4 @@
-const KEYS = ["method", "task", "number", "status", "cls", "reason", "replans", "actions", "harm", "wall", "report", "seed"];
+const KEYS = ["method", "task", "number", "status", "cls", "reason", "replans", "actions", "harm", "wall", "link", "seed"];
 const trials = data.trials.map(row => Object.fromEntries(KEYS.map((key, index) => [key, row[index]])));
 function show(method, task) {
   const table = document.getElementById("trials"), body = table.tBodies[0];
@@ -6,16 +6,16 @@ function show(method, task) {
   body.replaceChildren(...own.map(trial => {
     const status = trial.status === "error" ? "unsafe" : trial.status;
     const chip = make("span", {class: "chip " + status}, data.symbols[status] + " " + trial.status);
-    const words = make("td", {}, trial.actions.join(" "));
+    const words = make("td", {class: "long"}, trial.actions.join(" "));
     const why = [trial.reason, ...trial.harm].filter(Boolean).join("; ");
     if (why) words.append(make("br"), make("small", {}, (trial.cls ? trial.cls.replace("_", " ") + ": " : "") + why));
-    const link = trial.report ? make("a", {href: trial.report}, "open") : "–";
+    const link = trial.link ? make("a", {href: trial.link, "aria-label": `trial ${trial.number + 1} of ${trial.task}`}, "open") : "–";
     return make("tr", {}, make("td", {}, trial.task), make("td", {class: "num"}, String(trial.number + 1)),
-      make("td", {}, chip), words, make("td", {class: "num"}, String(trial.replans)),
-      make("td", {class: "num"}, trial.wall.toFixed(1)), make("td", {}, link));
+      make("td", {}, chip), words, make("td", {class: "num", "data-unit": "replans"}, String(trial.replans)),
+      make("td", {class: "num", "data-unit": "s"}, trial.wall.toFixed(1)), make("td", {}, link));
   }));
   table.hidden = own.length === 0;
-  document.getElementById("chosen").textContent = `${data.titles[method]}${task ? " on " + task : ""}: ${own.length} trials`;
+  document.getElementById("chosen").textContent = `${data.titles[method]}${task ? " on " + task : ""}: ${own.length} trial${own.length === 1 ? "" : "s"}`;
 }
 for (const cell of document.querySelectorAll("button.cell"))
   cell.addEventListener("click", () => {

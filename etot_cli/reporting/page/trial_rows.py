@@ -1,0 +1,82 @@
+"""One trial as pages show it: a row per plan, look, action and disturbance; views from above."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.execution.trial import Trial
+from etot_cli.reporting.evidence import moved_text
+from etot_cli.reporting.execute_report import LookModel, TrialModel
+from etot_cli.reporting.page.pictures import Picture
+from etot_cli.reporting.page.topview import top_view
+
+MAX_PICTURES = 200
+"""Views from above on one page; of later trials the rows say it in words."""
+CHIPS = {"planned": "success", "lost": "failure"}
+"""Statuses of trials that look like another one."""
+
+
+def shown_trial(model: TrialModel, trial: Trial, pictures: dict[str, Picture]) -> dict[str, Any]:
+    """What the template's ``account`` takes.
+
+    Args:
+        model: the trial as it stands in reports.
+        trial: the same with the states that were believed, for the views from above.
+        pictures: of the page; views are added to it.
+    """
+    keys = _draw(trial, pictures)
+    chip = CHIPS.get(model.status, model.status)
+    return {"model": model, "chip": chip, "rows": _rows(model, keys)}
+
+
+def _draw(trial: Trial, pictures: dict[str, Picture]) -> dict[int, str]:
+    """Views of what is believed after a look that changed it; their keys by the look's index."""
+    keys: dict[int, str] = {}
+    before = None
+    for index, look in enumerate(trial.looks):
+        if look.scene is None:
+            continue
+        if len(pictures) < MAX_PICTURES and (before is None or look.differs):
+            key = f"t{trial.number}l{index}"
+            culprits = [item.name for item in look.differs]
+            pictures[key] = Picture("svg", top_view(look.scene, before=before, culprits=culprits))
+            keys[index] = key
+        before = look.scene
+    return keys
+
+
+def _rows(trial: TrialModel, keys: dict[int, str]) -> list[dict[str, Any]]:
+    """Plans, looks, disturbances and actions in the order in which they came."""
+    # Four places for every look: what somebody did before it, itself, its plan, its action.
+    rows = [(look.index * 4, _look_row(look, keys.get(look.index))) for look in trial.looks]
+    for plan in trial.plans:
+        text = " ".join(plan.actions) or plan.stopped or "nothing is to be done"
+        row = _row("plan", plan.reason, text, plan.wall_s, "")
+        if plan.status != "feasible":
+            row["status"] = "failure"
+        rows.append((plan.look * 4 + 1, row))
+    for action in trial.actions:
+        last = action.looks[-1] if action.looks else 0
+        moved = "; ".join(map(moved_text, action.moved))
+        text = moved if action.cause is None else action.cause.text
+        row = _row("action", action.action, text, action.end_s - action.begin_s, action.status)
+        rows.append((last * 4 + 2, row))
+    for item in trial.disturbances:
+        after = max((look.index for look in trial.looks if look.time_s <= item.time_s), default=0)
+        rows.append((after * 4 + 3, _row("somebody", item.text, "", 0.0, "")))
+    return [row for _, row in sorted(rows, key=lambda entry: entry[0])]
+
+
+def _row(kind: str, what: str, text: str, spent_s: float, status: str) -> dict[str, Any]:
+    return {
+        "kind": kind, "what": what, "text": text, "seconds": spent_s, "status": status,
+        "picture": None,
+    }  # fmt: skip
+
+
+def _look_row(look: LookModel, key: str | None) -> dict[str, Any]:
+    text = "; ".join(f"{item.object} {item.text}" for item in look.differs) or "as believed"
+    unseen = [f"{item.object} {item.mark}" for item in look.objects if item.mark != "seen"]
+    row = _row("look", look.why, "; ".join([text, *unseen]), look.wall_s, "")
+    row["picture"] = key
+    return row
