@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import fcntl
 import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
-TIME_LIMIT_S = 300
-"""For one command; generous, since the test machine may be busy."""
+from tests.program import ROOT, etot
 
 
 def once(temporary: pytest.TempPathFactory, name: str, make: Callable[[Path], None]) -> Path:
@@ -44,15 +40,7 @@ def planned(temporary: pytest.TempPathFactory, task: Path) -> Path:
     name = str(task.relative_to(ROOT))
 
     def make(folder: Path) -> None:
-        words = ["plan", name, "--json", "--force", "--out", str(folder)]
-        done = subprocess.run(
-            [sys.executable, "-m", "etot_cli.cli.app", *words],
-            cwd=ROOT,
-            capture_output=True,
-            text=True,
-            timeout=TIME_LIMIT_S,
-            check=False,
-        )
+        done = etot("plan", name, "--json", "--force", "--out", folder)
         assert (folder / "report.json").exists(), done.stderr
         (folder / "stdout").write_text(done.stdout, encoding="utf-8")
         (folder / "code").write_text(str(done.returncode))

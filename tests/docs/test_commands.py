@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shlex
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +15,7 @@ import pytest
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.player import Player
 from tests.opengl import missing_opengl
+from tests.program import etot
 from tests.shared import once, planned
 from tests.vlm.scripts import TASKS, with_common
 
@@ -79,18 +78,6 @@ SERVED = {"--masks-url", "--mesh-url", "--pose-url", "--articulation-url"}
 """Options that hand a stage to a server, which is not there in this test: exit code 3."""
 
 
-def etot(arguments: list[str]) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "etot_cli.cli.app", *arguments],
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        text=True,
-        capture_output=True,
-        timeout=300,
-        check=False,
-    )
-
-
 @pytest.fixture(scope="session")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of the plan that the README makes first."""
@@ -102,7 +89,7 @@ def captured(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A rendered capture; an empty folder where there is no OpenGL."""
 
     def make(folder: Path) -> None:
-        done = etot(["simulate", "tasks/task2.yaml", "--capture", str(folder)])
+        done = etot("simulate", "tasks/task2.yaml", "--capture", folder)
         assert done.returncode == (3 if missing_opengl() else 0), done.stderr
 
     return once(tmp_path_factory, "capture", make)
@@ -115,7 +102,7 @@ def tape(tmp_path_factory: pytest.TempPathFactory) -> Path:
     def make(folder: Path) -> None:
         words = ["plan", "tasks/task5.yaml", "--reasoner", "vlm", "--record", str(folder / "tape")]
         with pytest.MonkeyPatch.context() as patch, scripted_model(patch, folder):
-            done = etot([*words, "--out", str(folder / "out"), "--force", "-q"])
+            done = etot(*words, "--out", str(folder / "out"), "--force", "-q")
         assert done.returncode == 0, done.stderr
 
     return once(tmp_path_factory, "tape", make) / "tape"
@@ -144,7 +131,7 @@ def test_documentation_shows_commands() -> None:
 def test_synopsis_names_a_command(page: str, command: str) -> None:
     """And every option in the page's tables is one of the command's."""
     name = command.split()[1]
-    helped = etot([name, "--help"])
+    helped = etot(name, "--help")
     assert helped.returncode == 0, helped.stderr
     for cell in re.findall(r"^\| `(-[^|]*)` \|", (ROOT / page).read_text("utf-8"), re.MULTILINE):
         for option in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", cell):
@@ -165,7 +152,7 @@ def test_example_works(
     words = shlex.split(command, comments=True)[1:]
     if words[0] in ("new", "tasks"):
         words = [str(tmp_path / word) if word == "my.yaml" else word for word in words]
-        done = etot(words)
+        done = etot(*words)
         assert done.returncode == 0, f"{page}: {done.stdout}{done.stderr}"
         return
     if "vlm" in words:
@@ -174,12 +161,12 @@ def test_example_works(
         words = [str(tape) if word == "tape" and "--replay" in words else word for word in words]
         words = [str(tmp_path / "tape") if word == "tape" else word for word in words]
         with scripted_model(monkeypatch, tmp_path):
-            done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
+            done = etot(*words, "--out", str(tmp_path / "out"), "--force", "-q")
         assert done.returncode == 0, f"{page}: {done.stdout}{done.stderr}"
         return
     words = [str(captured) if word in ("CAPTURE", "CAPTURE_DIR") else word for word in words]
     if SERVED & set(words):
-        done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
+        done = etot(*words, "--out", str(tmp_path / "out"), "--force", "-q")
         assert done.returncode == 3, f"{page}: {done.stdout}{done.stderr}"
         assert "Traceback" not in done.stderr
         return
@@ -194,7 +181,7 @@ def test_example_works(
         words += [f"--export={tmp_path / name}"]
     if "--out" in words:
         del words[words.index("--out") : words.index("--out") + 2]
-    done = etot([*words, "--out", str(tmp_path / "out"), "--force", "-q"])
+    done = etot(*words, "--out", str(tmp_path / "out"), "--force", "-q")
     expected = next((code for plan, code in ANSWERS.items() if plan in words), 0)
     assert done.returncode == expected, f"{page}: {done.stdout}{done.stderr}"
     found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))

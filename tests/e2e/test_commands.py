@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -14,6 +13,7 @@ import jsonschema
 import pytest
 
 from tests.measure.expectations import NAIVE_PLANS, TASKS, is_right_plan
+from tests.program import etot
 from tests.shared import planned
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,18 +25,6 @@ TIME_LIMIT_S = 180
 def slow(*case: object) -> object:
     """A case that is left out when there is little time."""
     return pytest.param(*case, marks=pytest.mark.slow)
-
-
-def etot(*arguments: str | Path, env: dict[str, str] | None = None) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [sys.executable, "-m", "etot_cli.cli.app", *map(str, arguments)],
-        cwd=ROOT,
-        env={**os.environ, **(env or {})},
-        capture_output=True,
-        text=True,
-        timeout=TIME_LIMIT_S,
-        check=False,
-    )
 
 
 def plan(task: str, out: Path, *extra: str) -> tuple[int, dict]:
@@ -87,7 +75,6 @@ def test_naive_plan_fails_and_names_the_culprit(naive, tmp_path: Path) -> None:
     assert naive.blame in report["steps"][-1]["cause"]["objects"]
 
 
-@pytest.mark.slow
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("task", "solved"), [("task1", False), ("task2", True), ("task3", True), ("task6", False)]
@@ -153,11 +140,13 @@ def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(
     choice: str, tmp_path: Path
 ) -> None:
     broken = {"MUJOCO_GL": choice}
-    done = etot("plan", "tasks/task3.yaml", "-q", "--out", tmp_path / "plan", env=broken)
+    done = etot(
+        "plan", "tasks/task3.yaml", "-q", "--out", tmp_path / "plan", env=broken, fresh=True
+    )
     assert done.returncode == 0, done.stderr
     done = etot(
         "simulate", "tasks/task3.yaml", "--plan", "[PICK UP, holder] (vertical)", "--video",
-        "--out", tmp_path / "simulate", env=broken,
+        "--out", tmp_path / "simulate", env=broken, fresh=True,
     )  # fmt: skip
     assert done.returncode == 3
     assert f"MUJOCO_GL={choice}" in done.stderr.replace("'", "")
@@ -172,7 +161,7 @@ def test_planning_needs_no_opengl_and_rendering_says_what_is_missing(
 def test_an_unknown_opengl_library_is_no_defect(
     arguments: list[str], code: int, tmp_path: Path
 ) -> None:
-    done = etot(*arguments, tmp_path, env={"MUJOCO_GL": "nonsense"})
+    done = etot(*arguments, tmp_path, env={"MUJOCO_GL": "nonsense"}, fresh=True)
     assert done.returncode == code
     assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
 
