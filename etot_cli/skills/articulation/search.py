@@ -42,6 +42,8 @@ MAX_BETTER = 8
 """Holds that are looked at for a better one once one gets the part far enough, or ajar."""
 MAX_HINDERED = 24
 """... and of those that something is in the way of, once nothing else is left."""
+MAX_FRUITLESS = 8
+"""... when these have shown nobody to blame: looking again without what was met tells more then."""
 MAX_SINGLE = 3
 """Things that the search is repeated without, one at a time."""
 ALIKE, ALIKE_COSINE = 0.02, 0.9
@@ -130,7 +132,9 @@ class PartSearch:
                 yield move
         if not found and explain:
             self._belief.checker.freeze(self._belief.data)
-            for hold in hindered[:MAX_HINDERED]:
+            for number, hold in enumerate(hindered[:MAX_HINDERED]):
+                if number == MAX_FRUITLESS and not self.hindrances.blamed():
+                    break
                 for _ in self._followed(hold):
                     pass
             if not self.hindrances.blamed():

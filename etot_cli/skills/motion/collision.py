@@ -73,6 +73,7 @@ class CollisionChecker:
         self._finger = fingers & (self._owner == -2)
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
+        self._postures: dict[float, Vector] = {}
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
 
@@ -133,7 +134,11 @@ class CollisionChecker:
 
     def set_fingers(self, opening: float) -> None:
         """Sets the distance between the pads [m] of the frozen scene's hand."""
-        self.world.robot.set_opening(self._data, opening)
+        if opening not in self._postures:
+            if len(self._postures) >= MAX_KNOWN:
+                self._postures.clear()
+            self._postures[opening] = self.world.robot.fingers.posture(opening)
+        self._data.qpos[self.world.robot.finger_qpos] = self._postures[opening]
 
     def hits(
         self,
