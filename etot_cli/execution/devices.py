@@ -21,6 +21,7 @@ from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Camera, Eyes, RobotDevice
 from etot_cli.execution.robots.confirmation import ask, assumed, require_terminal
 from etot_cli.execution.robots.worker import Episode, WorkerCamera, WorkerEyes, WorkerRobot
+from etot_cli.execution.robots.worker_process import words_of
 from etot_cli.execution.robots.xarm6 import XArm6
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
@@ -100,6 +101,7 @@ def _xarm6(request: DeviceRequest) -> OpenedRobot:
 
 
 def _worker(request: DeviceRequest) -> OpenedRobot:
+    words_of(request.robot_argument)
     options, file = request.options, request.task.file
     episode = Episode(
         str(Path(file).resolve()) if file else None, options.seed, options.number, options.disturb
@@ -160,7 +162,9 @@ def check_names(robot: str, perception: str) -> None:
         ("--perception", perception, EYES),
     ):
         if given not in known:
-            raise EtotError(f"{what} {given}: expected {' or '.join(known)}")
+            raise EtotError(f"{what} {given!r}: expected {' or '.join(known)}")
+    if robot.startswith(f"{SIMULATED}:"):
+        raise EtotError(f"--robot {robot!r}: expected nothing behind {SIMULATED!r}")
 
 
 def open_cell(request: DeviceRequest) -> Cell:

@@ -9,7 +9,7 @@ from enum import StrEnum
 from typing import Protocol, runtime_checkable
 
 from etot_cli.control.simulator import world_seed
-from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
+from etot_cli.errors import EtotError, RobotStoppedError, ServiceError, WorldError
 from etot_cli.execution.evaluation import Evaluation
 from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.observation import Observation
@@ -345,6 +345,8 @@ def run_trial(
         ended = Ended.FAILED, str(error)
     except ServiceError as error:
         ended = Ended.LOST, str(error)
+    except WorldError as error:  # what was seen cannot be
+        ended = Ended.FAILED, str(error)
     finally:
         with suppress(EtotError):
             cell.robot.stop()

@@ -333,11 +333,26 @@ def _work(
         os._exit(0)  # the parent has closed the pipe
 
 
-def _die_with(parent: int) -> None:
-    """Sees to it that this process ends when its parent does, however that ends."""
+def parent_death(number: signal.Signals) -> Callable[[], None]:
+    """What a new process calls to be sent a signal when the thread that started it ends.
+
+    Only Linux can do that; elsewhere the call does nothing.
+    """
+    prctl: Any = None
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError, AttributeError):
-            ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            prctl = ctypes.CDLL(None, use_errno=True).prctl
+
+    def ask_for_it() -> None:
+        if prctl is not None:
+            prctl(_PR_SET_PDEATHSIG, number)
+
+    return ask_for_it
+
+
+def _die_with(parent: int) -> None:
+    """Sees to it that this process ends when its parent does, however that ends."""
+    parent_death(signal.SIGKILL)()
     with contextlib.suppress(RuntimeError):  # no room for a thread: the kernel has to do
         threading.Thread(target=_watch, args=(parent,), daemon=True).start()
 

@@ -51,6 +51,12 @@ def main():
                 continue
         elif method == "look":
             result = {"objects": {"ball": {"position": [1, 2, 3], "quaternion": [1, 0, 0, 0]}}}
+            if HOW == "blind":
+                result["objects"] = {}
+            if HOW == "far":
+                result["objects"]["ball"]["position"][0] = 1e300
+            if HOW == "flat":
+                result["objects"]["ball"]["quaternion"] = [0, 0, 0, 0]
         print(json.dumps({"id": request["id"], "result": result}), flush=True)
         if method == "close":
             break

@@ -27,6 +27,8 @@ PICK = TASK.replace("Put the ball into the cup.", "Pick up the ball.").replace(
 )
 REMOVED = "disturbance: {when: committed, remove: chosen}\n"
 
+ROGUE = Path(__file__).with_name("rogue_worker.py")
+
 
 def write(folder: Path, extra: str = "") -> str:
     file = folder / "small.yaml"
@@ -81,10 +83,14 @@ def test_nothing_can_be_done(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 @pytest.mark.parametrize(
     ("words", "message", "code"),
     [
-        (["--robot", "teapot"], "--robot teapot: expected sim", 2),
-        (["--perception", "rumour"], "--perception rumour: expected state", 2),
+        (["--robot", "teapot"], "--robot 'teapot': expected sim", 2),
+        (["--robot", "sim:other"], "'sim:other': expected nothing behind 'sim'", 2),
+        (["--perception", "rumour"], "--perception 'rumour': expected state", 2),
+        (["--robot", "worker:"], "no command after 'worker:'", 2),
+        (["--robot", "worker:'open"], "is no command: No closing quotation", 2),
         (["--robot", "worker:true", "--jobs", "2"], "--jobs 2: there is one robot", 2),
         (["--robot", "worker:no-such-program"], "no-such-program", 3),
+        (["--robot", f"worker:{sys.executable} {ROGUE} blind"], "the look says nothing of", 1),
     ],
 )
 def test_what_cannot_be(
@@ -92,7 +98,8 @@ def test_what_cannot_be(
 ) -> None:
     task = write(tmp_path)
     assert run(["execute", task, *words, "--out", str(tmp_path / "out")]) == code
-    assert message in capsys.readouterr().err
+    assert message in "".join(capsys.readouterr())
+    assert (tmp_path / "out" / "report.json").exists() == (code != 2)
 
 
 def test_a_signal_leaves_a_report(tmp_path: Path) -> None:

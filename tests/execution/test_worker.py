@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import shlex
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -69,6 +70,8 @@ def test_a_worker_that_behaves():
         ("hang", "no answer to 'state' within"),
         ("flood", "more than"),
         ("others", "never made"),
+        ("far", "answers 'look' wrongly: objects.ball.position.0: .*100"),
+        ("flat", "objects.ball.quaternion: .*its norm is 0, expected a unit quaternion"),
     ],
 )
 def test_a_worker_that_misbehaves_is_found_out_and_ended(how, words, monkeypatch):
@@ -80,7 +83,7 @@ def test_a_worker_that_misbehaves_is_found_out_and_ended(how, words, monkeypatch
     begun = time.monotonic()
     with pytest.raises(ServiceError, match=words) as found:
         robot.connect()
-        robot.state()
+        WorkerEyes(robot).look(robot, Observation(robot.state()))
     assert found.value.exit_code == 3
     pid = pid_of(robot)
     robot.close()
@@ -95,6 +98,23 @@ def test_a_limit_is_no_lost_robot():
         robot.follow(np.zeros((1, 6)), Guards())
     robot.state()  # it is still there
     robot.close()
+
+
+def test_a_worker_that_does_not_listen_ends_with_the_program():
+    command = shlex.join([sys.executable, "-c", "import time; time.sleep(60)"])
+    program = (
+        "from etot_cli.execution.robots.worker_process import WorkerProcess\n"
+        f"import time; print(WorkerProcess({command!r})._child.pid, flush=True); time.sleep(60)"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    pid = int(parent.stdout.readline())
+    assert alive(pid)
+    parent.kill()
+    parent.communicate()
+    deadline = time.monotonic() + 3
+    while alive(pid) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert not alive(pid)
 
 
 def test_its_children_end_with_it():
@@ -112,10 +132,9 @@ def test_its_children_end_with_it():
     assert not alive(child)
 
 
-@pytest.mark.parametrize("command", ["/no/such/program", "", "unclosed 'quote"])
-def test_a_command_that_is_none(command):
-    with pytest.raises(ServiceError):
-        WorkerRobot(command, JOINTS, Episode()).connect()
+def test_a_command_that_is_none():
+    with pytest.raises(ServiceError, match="cannot be started"):
+        WorkerRobot("/no/such/program", JOINTS, Episode()).connect()
 
 
 class Toy:

@@ -52,15 +52,18 @@ class FileCamera:
         """The next capture.
 
         Raises:
-            SpecError: it is unusable.
-            ServiceError: there are no more.
+            ServiceError: it is unusable, or there are no more.
         """
         if self._next >= len(self._captures):
             raise ServiceError(
                 f"{self._folder} has {len(self._captures)} captures, and one more was looked for"
             )
-        found = read_capture(self._captures[self._next], use_masks=False)
+        capture = self._captures[self._next]
         self._next += 1
+        try:
+            found = read_capture(capture, use_masks=False)
+        except SpecError as error:
+            raise ServiceError(str(error)) from None
         view = found.view
         matrix = np.array([[view.fx, 0.0, view.cx], [0.0, view.fy, view.cy], [0.0, 0.0, 1.0]])
         return Frame(found.color, found.depth, matrix, view.camera_to_base, float(self._next))

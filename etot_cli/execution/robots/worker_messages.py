@@ -6,22 +6,27 @@ docs/worker.md describes them for people who write a worker.
 from __future__ import annotations
 
 import json
+import math
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.skills.motion.motion import PhaseEnd, Press
+from etot_cli.specs.base import QUATERNION_TOLERANCE
 
 PROTOCOL = "etot.worker/1"
+FARTHEST = 100.0
+"""Nothing in a robot's cell is farther away [m]; what is has another unit."""
 MOST_JOINTS = 12
 MOST_THINGS = 1000
 """Objects or parts in one look, at most."""
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
+Place = Annotated[float, Field(ge=-FARTHEST, le=FARTHEST, allow_inf_nan=False)]
 Joints = Annotated[list[Number], Field(min_length=1, max_length=MOST_JOINTS)]
 Short = Annotated[str, Field(max_length=200)]
 
@@ -89,11 +94,19 @@ class Touched(Message):
 
 
 class Seen(Message):
-    """Where an object is: body pose, base frame [m], quaternion w x y z."""
+    """Where an object is: body pose, base frame [m], unit quaternion w x y z."""
 
-    position: tuple[Number, Number, Number]
+    position: tuple[Place, Place, Place]
     quaternion: tuple[Number, Number, Number, Number]
     mark: Mark = Mark.SEEN
+
+    @field_validator("quaternion")
+    @classmethod
+    def _unit(cls, given: tuple[float, ...]) -> tuple[float, ...]:
+        norm = math.hypot(*given)
+        if not abs(norm - 1.0) <= QUATERNION_TOLERANCE:
+            raise ValueError(f"its norm is {norm:.4g}, expected a unit quaternion w x y z")
+        return given
 
 
 class Looked(Message):

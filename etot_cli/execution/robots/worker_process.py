@@ -17,8 +17,9 @@ import time
 from collections import deque
 from typing import IO, Any
 
-from etot_cli.errors import RobotStoppedError, ServiceError
+from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.robots.worker_messages import line_of
+from etot_cli.world.workers import parent_death
 
 MAX_LINE = 64 * 1024 * 1024
 """Largest reply [bytes]: a frame of 12 megapixels fits."""
@@ -33,6 +34,21 @@ SHOWN = 200
 """Characters of foreign text in a message."""
 
 
+def words_of(command: str) -> list[str]:
+    """The words of a command, quotes and escapes as in a shell.
+
+    Raises:
+        EtotError: there are none, or a quote is not closed.
+    """
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        raise EtotError(f"worker {command!r} is no command: {error}") from None
+    if not words or not words[0] or "\0" in command:
+        raise EtotError("no command after 'worker:'; expected e.g. worker:python bridge.py")
+    return words
+
+
 class WorkerProcess:
     """A worker and the pipe to it.
 
@@ -40,17 +56,13 @@ class WorkerProcess:
         command: as in a shell, without its expansions.
 
     Raises:
+        EtotError: it is no command.
         ServiceError: it cannot be started.
     """
 
     def __init__(self, command: str) -> None:
         self.command = command
-        try:
-            words = shlex.split(command)
-        except ValueError as error:
-            raise ServiceError(f"worker {command!r} is no command: {error}") from None
-        if not words:
-            raise ServiceError("no command after 'worker:'; expected e.g. worker:python bridge.py")
+        words = words_of(command)
         try:
             self._child = subprocess.Popen(
                 words,
@@ -58,6 +70,9 @@ class WorkerProcess:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 start_new_session=True,
+                # A worker that waits for its robot does not see that its input has ended. It is
+                # asked and not killed, so that it may stop the robot.
+                preexec_fn=parent_death(signal.SIGTERM),
                 bufsize=0,
             )
         except OSError as error:
