@@ -7,6 +7,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
     Parser,
+    Rule,
     either,
     optional,
     phrase,
@@ -24,7 +25,7 @@ EITHER = silent(phrase(small_words.EITHER))
 OF = silent(phrase("of, belonging to"))
 WITH = silent(phrase("with"))
 BE = silent(phrase(verbs.BE))
-EMPTY_WORDS = silent(some(phrase(small_words.WITHOUT_MEANING)))
+EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
 LISTED = either(AND, sequence(COMMA, optional(AND), build=lambda: ()))
 LIST = silent(LISTED)
 ALTERNATIVE = silent(either(COMMA, OR))

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import coordinated, noun_p
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
+    one_of,
     optional,
     phrase,
     separated,
@@ -39,9 +40,9 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
     return (Beside(relation, nps),)
 
 
-_NEARBY = either(*(phrase(text, relation) for relation, text in places.NEARBY.items()))
-_REGION = either(*(phrase(text, regions) for regions, text in places.REGIONS.items()))
-_ITS_SIDE = either(*(phrase(text, relation) for relation, text in places.ITS_SIDE.items()))
+_NEARBY = one_of(places.NEARBY)
+_REGION = one_of(places.REGIONS)
+_ITS_SIDE = one_of(places.ITS_SIDE)
 BESIDE = either(
     sequence(_NEARBY, noun_phrase, build=_beside),
     sequence(
@@ -97,13 +98,15 @@ destination = Rule(
         ),
     )
 )
-DESTINATIONS = either(
-    separated(destination, OR, most=5),
-    sequence(
-        EITHER,
+DESTINATIONS = Rule(
+    either(
         separated(destination, OR, most=5),
-        build=lambda found: found if len(found) > 1 else None,
-    ),
+        sequence(
+            EITHER,
+            separated(destination, OR, most=5),
+            build=lambda found: found if len(found) > 1 else None,
+        ),
+    )
 )
 _directed = either(
     sequence(silent(phrase(places.INTO_DIRECTED)), TARGETS, build=_toward(Toward.INSIDE)),

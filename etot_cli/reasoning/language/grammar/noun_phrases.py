@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -33,7 +34,7 @@ _NUMBER = sequence(
     silent(optional(phrase("of [the|these|those]"), None)),
     build=lambda number: number,
 )
-DETERMINER = either(*(phrase(pattern) for pattern in nouns.DETERMINERS), _NUMBER)
+DETERMINER = either(phrase(", ".join(nouns.DETERMINERS)), _NUMBER)
 PRONOUN = phrase("it, them, they, this, that, these, those, its")
 RELATIVE = silent(phrase(nouns.RELATIVE))
 DENIED = silent(phrase(nouns.RELATIVE_NOT))
@@ -45,11 +46,7 @@ ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
 NON = silent(phrase("non, not"))
 
 
-def _relation(patterns: str, prep: Prep) -> Parser:
-    return phrase(patterns, prep)
-
-
-PREPOSITION = either(*(_relation(pattern, prep) for prep, pattern in places.PREPOSITIONS.items()))
+PREPOSITION = one_of(places.PREPOSITIONS)
 SIDE = phrase(places.SIDE)
 
 
@@ -313,11 +310,13 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
     return None if whole is None else Things(whole, either=True)
 
 
-THINGS = either(
-    valued(NP_LIST, Things),
-    sequence(
-        optional(EITHER),
-        separated(noun_phrase, OR, most=6),
-        build=_one_of,
-    ),
+THINGS = Rule(
+    either(
+        valued(NP_LIST, Things),
+        sequence(
+            optional(EITHER),
+            separated(noun_phrase, OR, most=6),
+            build=_one_of,
+        ),
+    )
 )

@@ -7,7 +7,7 @@ bounded; text with too many readings is refused, never cut down to some of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -91,34 +91,45 @@ def phrase(patterns: str, value: Any = None) -> Parser:
         patterns: see :func:`spellings`.
         value: of every phrase.
     """
-    table: dict[str, list[tuple[str, ...]]] = {}
-    for text in spellings(patterns):
-        split = tuple(text.split())
-        table.setdefault(split[0], []).append(split)
+    return one_of({value: patterns})
+
+
+def one_of(table: Mapping[Any, str]) -> Parser:
+    """One of several phrases with the value that they stand behind, the phrase itself for None."""
+    root = _Node()
+    for value, patterns in table.items():
+        for text in spellings(patterns):
+            node = root
+            for item in text.split():
+                node = node.following.setdefault(item, _Node())
+            node.values.append(text if value is None else value)
 
     def parse(given: Input, at: int) -> list[Result]:
-        if at >= len(given.words):
-            return []
-        found = []
-        for candidate in table.get(given.words[at], ()):
-            end = at + len(candidate)
-            if given.words[at:end] == candidate:
-                given.reach(end)
-                found.append((end, " ".join(candidate) if value is None else value))
-            elif len(candidate) > 1:
-                _reach_partly(given, at, candidate)
+        words, node = given.words, root
+        found: list[Result] = []
+        while at < len(words):
+            further = node.following.get(words[at])
+            if further is None:
+                return found
+            at, node = at + 1, further
+            if node.values:
+                given.reach(at)
+                found += [(at, value) for value in node.values]
+        if node is not root and node.following:
+            given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
 
     return parse
 
 
-def _reach_partly(given: Input, at: int, candidate: tuple[str, ...]) -> None:
-    """Notes how far a phrase of several words could be followed ("in front" without "of")."""
-    count = 0
-    while at + count < len(given.words) and given.words[at + count] == candidate[count]:
-        count += 1
-    if at + count == len(given.words):
-        given.reach(at + count)
+class _Node:
+    """Phrases that begin alike: the values of what ends here, and the words that may follow."""
+
+    __slots__ = ("following", "values")
+
+    def __init__(self) -> None:
+        self.following: dict[str, _Node] = {}
+        self.values: list[Any] = []
 
 
 def word(test: Callable[[Input, str], bool]) -> Parser:

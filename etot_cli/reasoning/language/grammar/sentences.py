@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     complete,
     either,
     located,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -37,10 +38,12 @@ from etot_cli.reasoning.language.words import nouns, small_words
 
 Reading = tuple[Spoken, ...]
 LEFT_OUT = sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps)
-_ASKED = either(
-    PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID,
-    KEEP_STILL, AGAIN,
-)  # fmt: skip
+_ASKED = Rule(
+    either(
+        *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
+        *(KEEP_STILL, AGAIN),
+    )
+)
 CLAUSE = located(
     sequence(
         EMPTY_WORDS,
@@ -62,11 +65,13 @@ CLAUSE = located(
     ),
     lambda at, found: (at, *found),
 )
-ORDER_WORDS = either(
-    phrase(small_words.LEADING_FIRST, Order.FIRST),
-    phrase(small_words.LEADING_BEFORE, Order.BEFORE_THAT),
-    phrase(small_words.LEADING_LAST, Order.LAST),
-    phrase(small_words.LEADING_THEN, Order.THEN),
+ORDER_WORDS = one_of(
+    {
+        Order.FIRST: small_words.LEADING_FIRST,
+        Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+        Order.LAST: small_words.LEADING_LAST,
+        Order.THEN: small_words.LEADING_THEN,
+    }
 )
 LEAD = sequence(
     some(

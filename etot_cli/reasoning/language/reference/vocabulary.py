@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import lru_cache
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.text import normalized
@@ -214,9 +215,10 @@ def _head_of(words: Sequence[str]) -> str | None:
     return nouns[-1] if nouns else None
 
 
-def _words_of(text: str) -> list[str]:
+@lru_cache(maxsize=1024)  # every sentence about a scene needs the words of all its names
+def _words_of(text: str) -> tuple[str, ...]:
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|_|(?<=[A-Za-z])(?=\d)", " ", text)
-    return re.findall(r"\w+", normalized(spaced))
+    return tuple(re.findall(r"\w+", normalized(spaced)))
 
 
 def _object_entry(info: ObjectInfo) -> Entry:
@@ -242,7 +244,7 @@ def _object_entry(info: ObjectInfo) -> Entry:
         exact=(info.name.casefold(),),
         color=info.color,
         info=info,
-        called=tuple(dict.fromkeys(tuple(words) for words in called if words)),
+        called=tuple(dict.fromkeys(words for words in called if words)),
     )
 
 
