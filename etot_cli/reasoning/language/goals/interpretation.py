@@ -119,13 +119,13 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
             if problem is None or error.weight - simplicity > blame:
                 problem, blame = error, error.weight - simplicity
             continue
-        if unclear is not None:
-            # What is no simpler than a reading that leaves the choice open settles nothing.
-            raise unclear
         cost = simplicity
         found.setdefault(_meaning(goal), attempt)
         if len(found) > MAX_COMPARED:
             raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
+    if unclear is not None:
+        # What is no simpler than a reading that leaves the choice open settles nothing.
+        raise unclear
     if not found:
         assert problem is not None  # a sentence has at least one reading
         raise problem

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     silent,
+    some,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
@@ -22,7 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, places, verbs
 
 REORIENT = either(
     sequence(
@@ -56,6 +57,7 @@ def _tower(
     return TowerClause(things, upward, named.get("bottom"), named.get("top"), base)
 
 
+_ON = silent(phrase(places.ONTO))
 _UPWARD = sequence(
     OPTIONAL_COMMA,
     either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False)),
@@ -65,6 +67,13 @@ _TOWER_ENDS = optional(
     sequence(OPTIONAL_COMMA, optional(WITH), _ENDS, build=lambda ends: ends), None
 )
 TOWER = either(
+    sequence(
+        # "Stack the red block on the green one on the blue one"
+        silent(phrase(verbs.STACK)),
+        noun_phrase,
+        some(sequence(_ON, noun_phrase, build=lambda np: np), least=2, most=5),
+        build=lambda top, below: TowerClause(Things((top, *below)), upward=False),
+    ),
     sequence(
         silent(phrase(verbs.STACK)),
         THINGS,

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, nouns, places
-from etot_cli.reasoning.language.words.lexicon import ORDINALS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, is_descriptive, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 noun_phrase = Rule()
@@ -138,6 +138,19 @@ _none_of = sequence(
     some(sequence(OR, ADJECTIVE, build=lambda text: text), least=1, most=2),
     build=lambda first, more: Modifier(Prep.QUALITY, words=(first, *more)),
 )
+
+
+def _other_than(np: NounPhrase) -> Modifier | None:
+    """What it is not: "not the big cup", "not the biggest" of them."""
+    if not np.words:
+        return None
+    if is_descriptive(np.words[-1]):
+        if np.determiner != "the":
+            return None
+        np = replace(np, words=(*np.words, "one"))
+    return Modifier(Prep.EXCEPT, (np,))
+
+
 _described = either(_plain_modifier, _contents, _quality)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
@@ -154,9 +167,7 @@ _modifier = either(
     sequence(
         DENIED,
         noun_phrase,
-        build=lambda np: (
-            Modifier(Prep.EXCEPT, (np,)) if np.words and not is_descriptive(np.words[-1]) else None
-        ),
+        build=_other_than,
     ),
     sequence(
         silent(phrase(nouns.RELATIVE_NEITHER)),
@@ -171,6 +182,12 @@ _modifier = either(
         _plain_modifier,
         # "The right not of the cup" is no English.
         build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
+    ),
+    sequence(
+        silent(optional(phrase("~comma"), None)),
+        silent(phrase(nouns.CONTRAST)),
+        noun_phrase,
+        build=lambda np: Modifier(Prep.CONTRAST, (np,)) if np.determiner and np.words else None,
     ),
     sequence(
         silent(optional(phrase("~comma"), None)),
@@ -197,6 +214,12 @@ def _joined(
     return NounPhrase(determiner, (*first, *rest), modifiers, joined=True)
 
 
+def _nounless(determiner: str, modifiers: Any) -> NounPhrase | None:
+    """A determiner alone; in "the other one" the last word is the noun."""
+    alone = determiner.split()
+    return None if len(alone) > 1 and alone[-1] == "one" else NounPhrase(determiner, (), modifiers)
+
+
 def _negative(determiner: str, without: str, words: Any, modifiers: Any) -> NounPhrase:
     return NounPhrase(determiner, words, modifiers, without=(without,))
 
@@ -206,6 +229,16 @@ def _general(determiner: str, head: str, quality: Any, modifiers: Any) -> NounPh
     return NounPhrase(determiner, (head,), modifiers)
 
 
+def _any_of(determiner: str, first: str, more: Any, rest: Any, modifiers: Any) -> NounPhrase | None:
+    """All that are one or the other ("all red or blue cups")."""
+    words = (first, *more, *rest)
+    adjectives = (*words[: len(more) + 1], *rest[:-1])
+    several = determiner in ("all", "all the", "the", "") and singular(rest[-1]) != rest[-1]
+    if not several or not all(map(is_descriptive, adjectives)):
+        return None
+    return NounPhrase(determiner, words, modifiers, joined=True)
+
+
 def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
     if modifiers and pronoun in ("it", "its"):
         return None
@@ -213,6 +246,8 @@ def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
 
 
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
+_DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
+_OR_OTHER = some(sequence(OR, _DESCRIPTIVE, build=lambda text: text), least=1, most=3)
 noun_phrase.define(
     spanned(
         either(
@@ -241,12 +276,27 @@ noun_phrase.define(
             ),
             sequence(
                 OPTIONAL_DETERMINER,
+                _DESCRIPTIVE,
+                _OR_OTHER,
+                WORDS,
+                MODIFIERS,
+                build=_any_of,
+            ),
+            sequence(
+                silent(phrase("everything, anything")),
+                _DESCRIPTIVE,
+                _OR_OTHER,
+                MODIFIERS,
+                build=lambda first, more, mods: _any_of("all", first, more, ("objects",), mods),
+            ),
+            sequence(
+                OPTIONAL_DETERMINER,
                 phrase(nouns.GENERAL_NOUNS),
                 optional(_quality, None),
                 MODIFIERS,
                 build=_general,
             ),
-            sequence(DETERMINER, MODIFIERS, build=lambda det, mods: NounPhrase(det, (), mods)),
+            sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,
                 WORDS,

@@ -149,6 +149,23 @@ _ONE_BY_ONE = sequence(
     DESTINATIONS,
     build=lambda first, more, where: PutGroup(Things((first, *more)), where),
 )
+_ONES_THAT_GO = sequence(
+    silent(phrase("first")),
+    noun_phrase,
+    some(
+        sequence(
+            OPTIONAL_COMMA,
+            silent(phrase(small_words.THEN_JOINTS)),
+            noun_phrase,
+            build=lambda np: np,
+        ),
+        least=1,
+        most=4,
+    ),
+    silent(phrase(verbs.MODAL)),
+    DESTINATIONS,
+    build=lambda first, more, where: PutGroup(Things((first, *more)), where),
+)
 _SO_THAT_IT_IS = sequence(
     THINGS,
     OPTIONAL_COMMA,
@@ -160,6 +177,7 @@ _SO_THAT_IT_IS = sequence(
 )
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
+    valued(_ONES_THAT_GO, lambda group: PutClause((group,))),
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         silent(phrase(verbs.PLACE)),

@@ -110,7 +110,10 @@ _JOINED = either(
         build=lambda clause: ("then", clause),
     ),
     sequence(
-        OPTIONAL_COMMA, silent(phrase("before")), LED_CLAUSE, build=lambda clause: ("then", clause)
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.BEFORE)),
+        LED_CLAUSE,
+        build=lambda clause: ("then", clause),
     ),
     sequence(
         OPTIONAL_COMMA,
@@ -200,7 +203,7 @@ SENTENCE = either(
     ),
     sequence(
         LEAD,
-        silent(phrase("before")),
+        silent(phrase(small_words.BEFORE)),
         LED_CLAUSE,
         COMMA,
         CHAIN,

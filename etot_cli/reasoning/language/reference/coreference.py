@@ -27,6 +27,8 @@ class Mention:
     role: Role
     clause: int
     noun: str
+    several: bool = False
+    """It speaks of all that fit, even where that is one."""
 
 
 @dataclass
@@ -70,8 +72,8 @@ class Discourse:
             dict(self.stacks),
         )
 
-    def add(self, resolved: Resolved, text: str, role: Role) -> int:
-        """Notes what a phrase means and returns its referent.
+    def add(self, resolved: Resolved, text: str, role: Role, *, several: bool = False) -> int:
+        """Notes what a phrase means and returns its referent; ``several``: no "it" means that.
 
         A definite phrase with the same meaning as an earlier one speaks of the same choice.
         """
@@ -80,7 +82,9 @@ class Discourse:
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
-                    self.mentions.append(Mention(earlier, role, self.clause, resolved.noun))
+                    self.mentions.append(
+                        Mention(earlier, role, self.clause, resolved.noun, several)
+                    )
                     return earlier
         distinct: tuple[int, ...] = ()
         if resolved.other:
@@ -91,7 +95,7 @@ class Discourse:
                 if things & {thing for option in referent.options for thing in option}
             )
         self.referents.append(Referent(resolved.options, text, distinct))
-        self.mentions.append(Mention(index, role, self.clause, resolved.noun))
+        self.mentions.append(Mention(index, role, self.clause, resolved.noun, several))
         return index
 
     def _is_again(self, referent: int, resolved: Resolved) -> bool:
@@ -209,6 +213,7 @@ class Discourse:
         for mention in self.mentions:
             referent = mention.referent
             single = any(len(option) == 1 for option in self.referents[referent].options)
+            single = single and not mention.several
             fits = single and referent not in excluded and self._fits(referent, role)
             if mention.clause != clause or not fits:
                 continue

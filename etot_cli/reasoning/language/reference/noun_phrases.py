@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.reference.selection import select, state_holds
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.lexicon import (
+    CONTAINER_NOUNS,
     LEVELS,
     SIDES,
     SIZES,
@@ -36,7 +37,9 @@ from etot_cli.world.state import SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
-_INCOMPLETE = frozenset({"", "the", "a", "an", "my", "your", "its", "their", "our"})
+_INCOMPLETE = frozenset(
+    {"", "the", "a", "an", "my", "your", "its", "their", "our", "this", "that", "these", "those"}
+)
 """Determiners that do not stand without a noun."""
 
 
@@ -75,6 +78,25 @@ def _tells_parts(modifier: Modifier) -> bool:
     named = any(word in LEVELS for item in modifier.phrases for word in item.words)
     by_part = named and modifier.prep is Prep.EXCEPT
     return state or side or by_part or modifier.prep in _OF_PARTS
+
+
+def _means_the_others(modifier: Modifier) -> bool:
+    """Whether "between the other two" is said of one of three."""
+    (first, *more) = modifier.phrases
+    return not more and not first.pronoun and quantity_of(first.determiner).other
+
+
+def _between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneState) -> list[Thing]:
+    found = [
+        thing
+        for thing in things
+        if len(others := [item for item in things if item != thing]) == 2
+        and space.holds_at(Prep.BETWEEN, thing, others, scene)
+    ]
+    if len(found) != 1:
+        names = ", ".join(thing.name for thing in things)
+        raise ReferenceProblem(phrase.text, f"one of {names} should be between two others", 2)
+    return found
 
 
 class Resolver:
@@ -163,7 +185,9 @@ class Resolver:
         if quantity.sole and len(things) > 1:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"it is not the only one: {names}", 2, word="only")
-        if match.dropped and quantity.definite and count == 1 and len(things) > 1:
+        vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
+        single = quantity.definite and count == 1
+        if match.dropped and (single or vague) and len(things) > 1:
             names = ", ".join(thing.name for thing in things)
             why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
@@ -249,7 +273,7 @@ class Resolver:
                 out |= {
                     t for word in modifier.words for t in self._with_quality(things, word, phrase)
                 }
-            if modifier.prep is Prep.EXCEPT:
+            if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
                 for item in modifier.phrases:
                     out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))
         if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
@@ -298,7 +322,10 @@ class Resolver:
             if modifier.prep is Prep.MATCHING:
                 why = "say which thing's colour is meant"
                 raise ReferenceProblem(phrase.text, why, 2)
-            if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT):
+            if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
+                continue
+            if modifier.prep is Prep.BETWEEN and _means_the_others(modifier):
+                things = _between_the_others(things, phrase, self._scene)
                 continue
             ways = {
                 tuple(related(modifier, things, landmarks, quantity, count, self._scene))

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -43,7 +44,7 @@ class Places:
 
     def on_the_desk(self) -> Place:
         """Somewhere on the desk."""
-        return Place(Relation.ON, self.discourse.add(_DESK, DESK, Role.SURFACE))
+        return Place(Relation.ON, self.discourse.add(_DESK, DESK, Role.SURFACE, several=True))
 
     def no_themes(self, destinations: Sequence[Destination]) -> list[int]:
         """Referents that "it" cannot mean as what goes there: the places themselves, and what has
@@ -100,8 +101,21 @@ class Places:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             if phrase.pronoun and toward is Toward.ON:
                 self._check_upon_it(phrase, index, themes)
+            self._check_carried(phrase, index, themes)
             found += self.relations_to(toward, index, themes)
         return found
+
+    def _check_carried(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
+        """Nothing goes in or on what it carries itself, unless that has gone elsewhere before."""
+        moved = {t.name for item in self.discourse.put for t in self.discourse.things(item)}
+        carried = self.discourse.things(index)
+        if any(thing.name in moved for thing in carried):
+            return
+        states = self._scene.states
+        under = [bearers(self._scene, t.name) for t in carried if t.name in states]
+        for thing in (thing for theme in themes for thing in self.discourse.things(theme)):
+            if under and all(thing.name in names for names in under):
+                raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
     def _check_upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
         """What sinks into a vessel and would as well lie on what was put there: "on it" is both."""

@@ -74,7 +74,10 @@ class Phrases:
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
-        index = self.discourse.add(self._resolved(phrase, role), phrase.text, role)
+        resolved = self._resolved(phrase, role)
+        whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
+        several = resolved.every and not whole
+        index = self.discourse.add(resolved, phrase.text, role, several=several)
         self._note_landmarks(phrase)
         return (index,)
 
@@ -181,7 +184,7 @@ class Phrases:
     def _resolved_as(
         self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
     ) -> Resolved:
-        if noun is not None and _leaves_noun_out(phrase):
+        if noun is not None and not is_descriptive(noun) and _leaves_noun_out(phrase):
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other
         named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]

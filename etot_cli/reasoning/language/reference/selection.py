@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import contents, is_closed
@@ -62,6 +62,10 @@ def select(
             things = [thing for thing in things if state_holds(word, thing, scene)]
     if not things:
         raise ReferenceProblem(phrase, "nothing is in that state", 1)
+    by_size = [word for word in words if word in SIZES]
+    plain = not any(sides) and not any(word in SIDES for word in words)
+    if len(ordinals) == len(by_size) == 1 and plain and by_size[0].endswith("est"):
+        return [_nth_by_size(ordinals[0], by_size[0], things, scene, phrase)]
     if ordinals:
         others = [word for word in words if word in SIZES or word in SIDES]
         if len(ordinals) > 1 or others or len(sides) > 1:
@@ -127,6 +131,30 @@ def _nth(
 def _by_size(
     word: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
+    measure = _measure(word, scene)
+    ordered = sorted(things, key=measure)
+    last = measure(_leading(ordered, count, phrase)[-1])
+    return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
+
+
+def _nth_by_size(
+    ordinal: str, word: str, things: list[Thing], scene: SceneState, phrase: str
+) -> Thing:
+    """The second largest, where that is one and no more."""
+    measure = _measure(word, scene)
+    ordered = sorted(things, key=measure)
+    index = ORDINALS[ordinal] % len(ordered) if ordinal == "last" else ORDINALS[ordinal]
+    if index >= len(ordered):
+        names = ", ".join(thing.name for thing in things)
+        raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
+    equal = [thing.name for thing in ordered if measure(thing) == measure(ordered[index])]
+    if len(equal) > 1:
+        raise ReferenceProblem(phrase, f"{' and '.join(equal)} are as large", 2, word=ordinal)
+    return ordered[index]
+
+
+def _measure(word: str, scene: SceneState) -> Callable[[Thing], float]:
+    """What a word for size orders things by, the one that fits it best first."""
     quantity, sign = SIZES[word]
 
     def measure(thing: Thing) -> float:
@@ -135,9 +163,7 @@ def _by_size(
         values = {"volume": x * y * z, "height": z, "width": max(x, y), "mass": info.mass}
         return -sign * values[quantity]
 
-    ordered = sorted(things, key=measure)
-    last = measure(_leading(ordered, count, phrase)[-1])
-    return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
+    return measure
 
 
 def _at_side(

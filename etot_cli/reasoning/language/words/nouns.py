@@ -27,6 +27,8 @@ GENERAL_NOUNS = """
     all (others|the others|the rest)
 """
 EXCEPT = "except [for], but not, other than, apart from, but, excluding, aside from, save for"
+CONTRAST = "not, and not, but not, rather than, instead of, as opposed to"
+"""Before what is not meant, behind what is."""
 RELATIVE = """
     (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)
     [currently|now|already],

@@ -34,6 +34,8 @@ class Prep(StrEnum):
     """"that is red", "red" after "everything": the words say which."""
     MATCHING = "matching"
     """"of the same colour": as each of the things that go there."""
+    CONTRAST = "rather than"
+    """What is not meant, said to make sure which is."""
     EXCEPT = "except"
     """Those that fit, without the phrases' things."""
 

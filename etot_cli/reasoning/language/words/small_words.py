@@ -47,5 +47,6 @@ THEN_JOINTS = """
     [and|but] then, [and] after that, [and] afterwards, [and] next, [and] finally, after which,
     and later
 """
+BEFORE = "before [you]"
 AFTER = "(once|after|when) [you have|having|you]"
 SO_THAT = "so that, such that, so, until, in such a way that"
