@@ -11,8 +11,10 @@ import re
 
 from etot_cli.errors import EtotError, ServiceError
 
-NEEDED_MIB = 640
-"""Address space in which a small task can be planned: libraries and models take 610 to 640 MiB."""
+NEEDED_MIB = 480
+"""Address space in which a small task can be planned: 440 to 460 MiB for libraries and models, most
+of it numpy, scipy and MuJoCo. Pictures (OpenCV) take 170 MiB more and are loaded where there are
+some."""
 MIB = 1 << 20
 _LACK = re.compile(
     r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"

@@ -6,14 +6,12 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from etot_cli.control.simulator import world_seed
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError, WorldError
 from etot_cli.execution.evaluation import Evaluation
-from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.observation import Observation
-from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Eyes, Planner, RobotDevice
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
@@ -24,6 +22,9 @@ from etot_cli.specs.scene import Scene, SceneObject
 from etot_cli.specs.task import Task
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.state import Cause, SceneState
+
+if TYPE_CHECKING:  # reports know trials, and pictures' libraries take much address space
+    from etot_cli.execution.grasp_server import GraspServer
 
 MAX_REPLANS = 6
 """A scene that went wrong this often will again."""
@@ -311,6 +312,15 @@ class Describes(Protocol):
         ...
 
 
+@runtime_checkable
+class Closes(Protocol):
+    """Eyes that hold something that has to be let go of."""
+
+    def close(self) -> None:
+        """Lets go of it; idempotent."""
+        ...
+
+
 def run_trial(
     task: Task,
     make_planner: MakePlanner,
@@ -352,7 +362,7 @@ def run_trial(
             cell.robot.stop()
         with suppress(EtotError):
             cell.robot.close()
-        if isinstance(cell.eyes, CameraEyes):
+        if isinstance(cell.eyes, Closes):
             cell.eyes.close()
     return loop.trial(*ended)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import resource
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -58,6 +59,17 @@ def test_so_does_every_command(tmp_path: Path, arguments: tuple[str, ...]) -> No
 def test_a_narrow_place_is_enough_for_workers_too(tmp_path: Path) -> None:
     done = narrow(tmp_path, ROOMY_MIB, 12, "plan", TASK, "--jobs", "2", "--no-html", "-q")
     assert done.returncode == 0, done.stderr
+
+
+def test_a_plan_needs_no_library_for_pictures() -> None:
+    """OpenCV and the video library take more address space than all the others together."""
+    loaded = "import sys, etot_cli.control.simulator, etot_cli.commands.plan, "
+    loaded += "etot_cli.reporting.summary; print({'cv2', 'av', 'coacd'} & {*sys.modules})"
+    done = subprocess.run(
+        [sys.executable, "-c", loaded], cwd=ROOT, env=environment(), capture_output=True,
+        text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout == "set()\n"
 
 
 def _raised(outer: Exception, inner: Exception) -> Exception:
