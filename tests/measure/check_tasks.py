@@ -12,24 +12,25 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from etot_cli.commands.plan import PlanOptions, run_plan
-from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.control.simulator import ActionSimulator
 from etot_cli.control.worlds import Recipe, Worlds
 from etot_cli.planning.conditions import holds
 from etot_cli.planning.options import Ablation
 from etot_cli.reasoning.builtin import BuiltinReasoner
-from etot_cli.reasoning.protocol import Outcome
 from etot_cli.reporting.files import write_report
 from etot_cli.reporting.replay import plan_from_report
+from etot_cli.skills.action import Action, parse_plan
 from etot_cli.specs.load import load_task
 from etot_cli.specs.look import Look
+from etot_cli.specs.scene import Scene
+from etot_cli.specs.task import Task
 from etot_cli.specs.vary import vary_truth
 from etot_cli.specs.wording import describe
 from tests.measure.expectations import NAIVE_PLANS, TASKS, Naive, is_right_plan
@@ -38,7 +39,7 @@ from tests.measure.markdown import replace_section, table
 
 RESULTS = ROOT / "docs" / "results.md"
 KEPT = ROOT / "results" / "check"
-AT_ONCE = 5
+AT_ONCE = 10
 """True worlds beside one twin: few enough that little is lost when the command is stopped."""
 SOLVED_WITHOUT_REFLECTIVE = ("task2", "task3", "disturbance")
 
@@ -107,62 +108,83 @@ def report_folder(code: str, name: str) -> Path:
     return KEPT / code[:12] / name
 
 
-def truth_trials(arguments: tuple[str, str, int, int, int]) -> list[tuple[str, int, int, str]]:
-    """Carries a nominal plan out in true worlds of some seeds, as ``etot simulate --vary`` does.
+@dataclass(frozen=True)
+class Fate:
+    """What became of a plan in one true world."""
+
+    status: str
+    action: str
+    """The last one carried out."""
+    kind: str
+    objects: tuple[str, ...]
+    text: str
+    """Of the cause; empty where all went well."""
+
+
+def carried_out(
+    task: Task, plan: Sequence[Action], scene: Scene, look: Look, seeds: range
+) -> list[dict[str, Any]]:
+    """Carries a plan out in true worlds, as ``etot simulate --vary`` does in one.
 
     The twin rehearses every action once for all of them.
 
+    Args:
+        task: whose scene is the twin's, and whose success conditions have to hold.
+        plan: its actions.
+        scene: the one that true worlds are drawn from.
+        look: when the robot looks.
+        seeds: of the worlds.
+
     Returns:
-        Task, setting, seed and what went wrong, which is nothing where the plan held.
+        A :class:`Fate` for each seed, as plain data.
     """
+    truths = tuple(vary_truth(scene, seed) for seed in seeds)
+    recipe = Recipe(task.scene, truths, seed=0, record=False, look=look)
+    simulator, reasoner = ActionSimulator(Worlds(recipe), 1, go_on=True), BuiltinReasoner()
+    fates = dict.fromkeys(range(1, simulator.world_count), Fate("success", "", "", (), ""))
+    state, start = simulator.start()
+    finals = dict.fromkeys(fates, start)
+    for action in plan:
+        simulated = simulator.submit(state, action).result()
+        for world in [world for world, fate in fates.items() if fate.status == "success"]:
+            record = simulated.outcomes[world].record
+            verdict, finals[world] = reasoner.judge(action, record), record.after
+            cause = verdict.cause
+            fates[world] = Fate(
+                verdict.outcome.value,
+                str(action),
+                str(cause.kind) if cause else "",
+                tuple(cause.objects) if cause else (),
+                cause.text if cause else "",
+            )
+        state = simulated.end
+    for world, fate in fates.items():
+        missing = [item for item in task.success if not holds(item, finals[world])]
+        if missing and fate.status == "success":
+            text = f"{describe(missing[0])} does not hold"
+            fates[world] = replace(fate, status="failure", text=text)
+    return [asdict(fate) for fate in fates.values()]
+
+
+def truth_trials(arguments: tuple[str, str, int, int, int]) -> list[dict[str, Any]]:
+    """Carries a task's nominal plan out in true worlds of a setting and some seeds."""
     code, name, index, first, count = arguments
-    setting = SETTINGS[index]
-    task, reasoner = load_task(task_file(name)), BuiltinReasoner()
+    setting, task = SETTINGS[index], load_task(task_file(name))
     variation = task.scene.variation.model_copy(
         update={"position_m": setting.position_m, "yaw_deg": setting.yaw_deg}
     )
-    varied = task.scene.model_copy(update={"variation": variation})
-    seeds = range(first, first + count)
-    truths = tuple(vary_truth(varied, seed) for seed in seeds)
-    recipe = Recipe(task.scene, truths, seed=0, record=False, look=setting.look)
-    simulator = ActionSimulator(Worlds(recipe), 1, go_on=True)
-    wrong = dict.fromkeys(range(1, count + 1), "")
-    state, scene = simulator.start()
-    finals = dict.fromkeys(wrong, scene)
-    for action in plan_from_report(report_folder(code, name) / "report.json"):
-        simulated = simulator.submit(state, action).result()
-        for world in [world for world, text in wrong.items() if not text]:
-            record = simulated.outcomes[world].record
-            verdict = reasoner.judge(action, record)
-            finals[world] = record.after
-            if verdict.outcome is not Outcome.SUCCESS:
-                cause = verdict.cause.text if verdict.cause else "no cause"
-                wrong[world] = f"{verdict.outcome.value} at {action}: {cause}"
-        state = simulated.end
-    for world, final in finals.items():
-        missing = [item for item in task.success if not holds(item, final)]
-        if missing and not wrong[world]:
-            wrong[world] = f"{describe(missing[0])} does not hold"
-    return [(name, index, seed, text) for seed, text in zip(seeds, wrong.values(), strict=True)]
+    scene = task.scene.model_copy(update={"variation": variation})
+    plan = plan_from_report(report_folder(code, name) / "report.json")
+    return carried_out(task, plan, scene, setting.look, range(first, first + count))
 
 
-def naive_trial(arguments: tuple[int, int | None]) -> tuple[int, str, tuple[str, ...], str, str]:
-    """Simulates a naive plan: its index, status, blamed objects, failed action and cause text."""
-    index, seed = arguments
+def naive_trials(arguments: tuple[int, int, int]) -> list[dict[str, Any]]:
+    """Carries a naive plan out in true worlds of some seeds."""
+    index, first, count = arguments
     naive = NAIVE_PLANS[index]
-    options = SimulateOptions(
-        task=task_file(naive.task), plan=naive.plan, seed=seed or 0, vary=seed is not None
-    )
-    report = run_simulate(options).report
-    last = report.steps[-1]
-    cause = last.cause
-    return (
-        index,
-        report.status,
-        tuple(cause.objects) if cause else (),
-        last.action,
-        f"{cause.kind}: {cause.text}" if cause else "",
-    )
+    task = load_task(task_file(naive.task))
+    plan, seeds = parse_plan(naive.plan), range(first, first + count)
+    return carried_out(task, plan, task.scene, Look.EACH, seeds)
 
 
 def ablation_trial(arguments: tuple[str, str]) -> tuple[str, str, str, int]:
@@ -210,23 +232,23 @@ def check_truth(measuring: Measuring) -> tuple[str, bool]:
         if not (report_folder(measuring.code, task) / "report.json").exists():
             plan_trial((measuring.code, task, None))
     jobs = [
-        (measuring.code, task, i, first, min(AT_ONCE, seeds - first))
+        (measuring.code, task, index, *part)
+        for part in parts(seeds)
         for task in measuring.tasks
-        for i in range(len(SETTINGS))
-        for first in range(0, seeds, AT_ONCE)
+        for index in range(len(SETTINGS))
     ]
-    found = [world for batch in measuring.trials(truth_trials, jobs) for world in batch]
+    found = dict(zip(jobs, measuring.trials(truth_trials, jobs), strict=True))
     rows, good = [], True
     for task in measuring.tasks:
         cells, passed = [], True
         for index, setting in enumerate(SETTINGS):
-            mine = [(seed, wrong) for name, i, seed, wrong in found if (name, i) == (task, index)]
-            alive = sum(not wrong for _, wrong in mine)
+            mine = fates(found, lambda job, key=(task, index): job[1:3] == key)
+            alive = sum(fate.status == "success" for fate in mine)
             passed &= alive >= setting.least * seeds / 20
             cells.append(f"{alive}/{seeds}")
-            for seed, wrong in mine:
-                if wrong and setting.least:
-                    print(f"  {task}, {setting.title}, seed {seed}: {wrong}")
+            for seed, fate in enumerate(mine):
+                if fate.status != "success" and setting.least:
+                    print(f"  {task}, {setting.title}, seed {seed}: {fate}")
         good &= passed
         rows.append([task, *cells, "yes" if passed else "NO"])
     return table(["task", *(setting.title for setting in SETTINGS), "demand met"], rows), good
@@ -236,29 +258,38 @@ def check_naive(measuring: Measuring) -> tuple[str, bool]:
     """The plans that anybody would try first."""
     seeds = measuring.seeds
     wanted = [i for i, naive in enumerate(NAIVE_PLANS) if naive.task in measuring.tasks]
-    jobs: list[tuple[int, int | None]] = [(i, seed) for i in wanted for seed in range(seeds)]
-    results = measuring.trials(naive_trial, jobs)
+    jobs = [(index, *part) for part in parts(seeds) for index in wanted]
+    found = dict(zip(jobs, measuring.trials(naive_trials, jobs), strict=True))
     rows, good = [], True
     for index in wanted:
         naive: Naive = NAIVE_PLANS[index]
-        mine = [result for result in results if result[0] == index]
-        failed = sum(status != "success" for _, status, *_ in mine)
-        blamed = sum(
-            status != "success" and naive.blame in objects for _, status, objects, *_ in mine
-        )
+        mine = fates(found, lambda job, key=index: job[0] == key)
+        failed = [fate for fate in mine if fate.status != "success"]
+        blamed = sum(naive.blame in fate.objects for fate in failed)
         passed = blamed >= naive.at_least * seeds / 20
         good &= passed
-        kinds = Counter(text.split(":")[0] for *_, text in mine if text)
+        kinds = Counter(fate.kind or "not done" for fate in failed)
         rows.append(
-            [naive.task, f"`{naive.plan}`", f"{failed}/{seeds}", f"{naive.blame} {blamed}/{seeds}",
+            [naive.task, f"`{naive.plan}`", f"{len(failed)}/{seeds}",
+             f"{naive.blame} {blamed}/{seeds}",
              ", ".join(f"{kind} {count}" for kind, count in kinds.most_common()),
              "yes" if passed else "NO"]
         )  # fmt: skip
-        for _, status, objects, action, text in mine:
-            if status == "success" or naive.blame not in objects:
-                print(f"  {naive.task} {naive.plan}: {status} at {action} {objects} {text}")
+        for fate in mine:
+            if fate.status == "success" or naive.blame not in fate.objects:
+                print(f"  {naive.task} {naive.plan}: {fate}")
     heads = ["task", "naive plan", "fails", "blames", "causes", "demand met"]
     return table(heads, rows), good
+
+
+def parts(seeds: int) -> list[tuple[int, int]]:
+    """Seeds in parts: the first of each, and how many."""
+    return [(first, min(AT_ONCE, seeds - first)) for first in range(0, seeds, AT_ONCE)]
+
+
+def fates(found: Mapping[Any, list[dict[str, Any]]], of: Callable[[Any], bool]) -> list[Fate]:
+    """What was found by all jobs of a kind, in the order of seeds."""
+    return [Fate(**fate) for job, batch in found.items() if of(job) for fate in batch]
 
 
 def check_ablations(measuring: Measuring) -> tuple[str, bool]:
