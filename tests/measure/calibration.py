@@ -73,11 +73,21 @@ def decompose(pairs: Sequence[Pair]) -> Decomposition:
     return Decomposition(reliability, resolution, base * (1.0 - base))
 
 
-def explained(pairs: Sequence[Pair], seed: int = 0) -> tuple[float, float]:
-    """What perfect odds would show with as many draws: mean reliability, and mean coverage.
+@dataclass(frozen=True, slots=True)
+class Chance:
+    """What perfect odds would show with as many draws, in the mean.
 
-    Every setting's true odds are taken from all of its worlds together.
+    ``covered``: share of told intervals that hold the rate of the unseen worlds, which is a draw
+    itself; ``covered_in_the_long_run``: that hold the odds, as endless unseen worlds would show.
     """
+
+    reliability: float
+    covered: float
+    covered_in_the_long_run: float
+
+
+def explained(pairs: Sequence[Pair], seed: int = 0) -> Chance:
+    """Simulates perfect odds: every setting's are taken from all of its worlds together."""
     rng = np.random.default_rng(seed)
     odds = np.array([(p.alive + p.held) / (p.worlds + p.unseen) for p in pairs])
     worlds = np.array([p.worlds for p in pairs])
@@ -89,18 +99,20 @@ def explained(pairs: Sequence[Pair], seed: int = 0) -> tuple[float, float]:
             Pair(p.name, int(a), p.worlds, int(h), p.unseen)
             for p, a, h in zip(pairs, alive, held, strict=True)
         ]
-        found.append((decompose(drawn).reliability, coverage(drawn)))
-    reliability, covered = np.mean(found, axis=0)
-    return float(reliability), float(covered)
+        inside = np.mean([holds(p, rate) for p, rate in zip(drawn, odds, strict=True)])
+        found.append((decompose(drawn).reliability, coverage(drawn), inside))
+    return Chance(*(float(value) for value in np.mean(found, axis=0)))
+
+
+def holds(pair: Pair, rate: float) -> bool:
+    """Whether a rate lies in the interval that was told."""
+    low, high = wilson(pair.alive, pair.worlds)
+    return low <= rate <= high
 
 
 def coverage(pairs: Sequence[Pair]) -> float:
     """Share of settings whose observed rate lies in the interval that was told."""
-    inside = 0
-    for pair in pairs:
-        low, high = wilson(pair.alive, pair.worlds)
-        inside += low <= pair.observed <= high
-    return inside / len(pairs)
+    return sum(holds(pair, pair.observed) for pair in pairs) / len(pairs)
 
 
 def bias(pairs: Sequence[Pair]) -> float:

@@ -16,12 +16,12 @@ def pair(alive: int, held: int, worlds: int = 16, unseen: int = 24) -> Pair:
     return Pair("", alive, worlds, held, unseen)
 
 
-def drawn(odds: np.ndarray, seed: int, off: float = 0.0) -> list[Pair]:
+def drawn(odds: np.ndarray, seed: int, off: float = 0.0, unseen: int = 24) -> list[Pair]:
     """Settings of these odds, told too high by ``off``."""
     rng = np.random.default_rng(seed)
     told = rng.binomial(16, np.clip(odds + off, 0.0, 1.0))
-    held = rng.binomial(24, odds)
-    return [pair(int(k), int(m)) for k, m in zip(told, held, strict=True)]
+    held = rng.binomial(unseen, odds)
+    return [pair(int(k), int(m), unseen=unseen) for k, m in zip(told, held, strict=True)]
 
 
 def test_the_parts_add_up_to_the_brier_score() -> None:
@@ -45,13 +45,23 @@ def test_odds_that_come_true_are_reliable_and_constant_ones_resolve_nothing() ->
 def test_perfect_odds_are_explained_by_their_draws_and_optimistic_ones_are_not() -> None:
     odds = np.linspace(0.02, 0.98, 60)
     honest = np.mean(
-        [decompose(p).reliability - explained(p)[0] for p in (drawn(odds, s) for s in range(4))]
+        [
+            decompose(p).reliability - explained(p).reliability
+            for p in (drawn(odds, s) for s in range(4))
+        ]
     )
     assert abs(honest) < 0.004
     optimistic = drawn(odds, 0, off=0.2)
-    assert decompose(optimistic).reliability - explained(optimistic)[0] > 0.01
+    assert decompose(optimistic).reliability - explained(optimistic).reliability > 0.01
     assert bias(optimistic) > 0.1
     assert abs(np.mean([bias(drawn(odds, seed)) for seed in range(16)])) < 0.015
+
+
+def test_a_rate_of_few_worlds_leaves_the_interval_more_often_than_the_odds_do() -> None:
+    odds = np.linspace(0.1, 0.9, 60)
+    few, many = explained(drawn(odds, 0)), explained(drawn(odds, 0, unseen=2400))
+    assert few.covered < 0.9 < 0.94 < few.covered_in_the_long_run
+    assert many.covered == pytest.approx(many.covered_in_the_long_run, abs=0.01)
 
 
 def test_coverage_counts_rates_within_the_told_interval() -> None:
