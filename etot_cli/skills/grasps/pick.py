@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import chain, islice
 
 import numpy as np
@@ -50,11 +51,19 @@ def pick_motions(
     The grasp of a ``rehearsed`` motion comes first, where the object now is.
     """
     name = action.target
-    found = sample_grasps(belief.world, belief.solids, belief.data, name, action.pose)
+
+    @cache
+    def found() -> GraspSet:
+        return sample_grasps(belief.world, belief.solids, belief.data, name, action.pose)
+
+    def sampled() -> Iterator[Grasp]:
+        # Not before it is asked for: sampling takes longest, and a rehearsed grasp mostly goes.
+        yield from _variants(found())
+
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
-    for candidate in chain(_again(belief, name, rehearsed), _variants(found)):
+    for candidate in chain(_again(belief, name, rehearsed), sampled()):
         belief.checker.freeze(belief.data)
         result = prepare_grasp(belief, name, candidate, blockers)
         if result is None:
@@ -70,7 +79,7 @@ def pick_motions(
             prepared.append(result)
             yield motion
     if not prepared:
-        yield _explain(belief, name, found, blockers.evidence(unreachable))
+        yield _explain(belief, name, found(), blockers.evidence(unreachable))
 
 
 def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Grasp]:
