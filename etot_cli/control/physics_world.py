@@ -22,7 +22,7 @@ from etot_cli.skills.motions import outcome_of
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
-from etot_cli.world.placing import place_objects
+from etot_cli.world.placing import check_robot_is_free, place_objects
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Memory, Snapshot, restore, save
@@ -77,7 +77,12 @@ class PhysicsWorld:
         """Time spent stepping motions so far [s]."""
 
     def start(self) -> tuple[Snapshot, SceneState]:
-        """The settled initial state."""
+        """The settled initial state.
+
+        Raises:
+            WorldError: an object does not fit where the scene puts it, or the robot stands in
+                something.
+        """
         world, data = self.world, self.data
         mujoco.mj_resetData(world.model, data)
         place_objects(world, data)
@@ -87,6 +92,7 @@ class PhysicsWorld:
         data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
         data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
         mujoco.mj_forward(world.model, data)
+        check_robot_is_free(world, data)
         robot = SimulatedRobot(world, data, deadline=self.deadline)
         robot.wait(SETTLE_AT_START, Guards(), until_rest=True)
         self.total_steps += robot.steps

@@ -21,6 +21,8 @@ DROP_STEP = 0.002
 MAX_RAISE = 0.6
 """What is put where others are is lifted clear of them by this at most [m]: higher than any piece
 of furniture."""
+IN_THE_ROBOT = 0.001
+"""Overlap of the robot and what is fastened up to this is touching [m], as between objects."""
 PENETRATION = 0.0002
 """Overlap that still counts as touching [m]."""
 
@@ -44,6 +46,34 @@ def place_objects(world: World, data: mujoco.MjData) -> None:
     for name in _supports_first(world, free):
         place_object(world, data, name, world.scene.objects[name])
     mujoco.mj_forward(model, data)
+
+
+def check_robot_is_free(world: World, data: mujoco.MjData) -> None:
+    """Sees to it that the robot stands in nothing that is fastened, where no motion would ever be
+    free: a desk as high as its shoulder that begins at its base, say.
+
+    Raises:
+        WorldError: it does.
+    """
+    for contact in data.contact:
+        pair = [world.geom_address[int(geom)] for geom in contact.geom]
+        others = [address for address in pair if address not in ("robot", "gripper")]
+        if len(others) != 1 or -contact.dist <= IN_THE_ROBOT:
+            continue
+        name, depth = others[0].split(".")[0], -1000 * float(contact.dist)
+        if name == DESK:
+            desk = world.scene.desk
+            edge = desk.center[0] - desk.size[0] / 2
+            raise WorldError(
+                f"the robot stands in the desk, by {depth:.0f} mm: its top is at {desk.top:g} m "
+                f"and it begins at x = {edge:g} m; expected a lower 'desk.top', or a "
+                "'desk.center' farther off"
+            )
+        if name in world.entries and not world.entries[name].free:
+            raise WorldError(
+                f"objects.{name}: the robot stands in it, by {depth:.0f} mm, before it has moved; "
+                "expected it farther from the robot"
+            )
 
 
 def place_object(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:

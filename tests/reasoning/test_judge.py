@@ -169,6 +169,22 @@ def test_what_blocks_a_drawer() -> None:
     assert verdict.cause.objects == ("toy", "drawer")
 
 
+@pytest.mark.parametrize(
+    ("impulse", "kind"), [(5.0, CauseKind.BLOCKED), (0.1, CauseKind.NO_EFFECT)]
+)
+def test_what_held_a_drawer_until_the_fingers_slid_off(impulse: float, kind: CauseKind) -> None:
+    """Nothing stopped the arm, so the skill itself saw nobody; what only bumped is not to blame."""
+    before = scenes.toy_in_drawer()
+    after = changed(before, drawer={"openness": {"top": 0.5}})
+    seen = record(
+        before, after, effect=False, cause=cause(CauseKind.NO_EFFECT, "drawer"),
+        contacts=(contact("drawer.top", "toy", impulse), contact("gripper", "drawer.top", 9.0)),
+    )  # fmt: skip
+    verdict = judge("[CLOSE, drawer]", seen)
+    assert verdict.cause is not None and verdict.cause.kind is kind
+    assert verdict.cause.objects == (("toy", "drawer") if impulse > 1.0 else ("drawer",))
+
+
 def test_contents_ride_along() -> None:
     before = scenes.toy_in_drawer()
     after = changed(before, drawer={"openness": {"top": 0.0}}, toy={"position": (0.518, 0.10, 0.2)})

@@ -119,9 +119,17 @@ def test_out_of_reach_is_said() -> None:
     assert record.cause.objects == ("unit",)
 
 
-def test_what_offers_no_hold_is_told_from_what_is_out_of_reach() -> None:
-    unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers()}
-    record = episode(unit=unit).do("[OPEN, unit]").record
+@pytest.mark.parametrize(
+    "unit",
+    [
+        UNIT | {"at": [0.45, 0.0], "drawers": drawers()},
+        UNIT | {"at": [0.45, 0.25], "size": [0.22, 0.2, 0.12], "drawers": [{"name": "wide"}]},
+        OVEN | {"at": [0.45, 0.25], "door": {"hinge": "left"}},
+    ],
+    ids=["drawer", "wide drawer", "door"],
+)
+def test_what_offers_no_hold_is_told_from_what_is_out_of_reach(unit: dict[str, Any]) -> None:
+    record = episode(unit=unit | {"yaw_deg": -90}).do("[OPEN, unit]").record
     assert not record.effect
     assert record.cause is not None and record.cause.kind is CauseKind.NO_GRASP
     assert record.cause.objects == ("unit",)

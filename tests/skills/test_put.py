@@ -75,6 +75,21 @@ def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
     assert long_axis(after.states["pen"])[2] < -0.6
 
 
+@pytest.mark.parametrize(
+    "thing",
+    [
+        {"kind": "box", "size": [0.16, 0.02, 0.01], "mass": 0.04, "at": [0.36, 0.2]},
+        {"kind": "cylinder", "diameter": 0.012, "height": 0.16, "mass": 0.03,
+         "at": [0.36, 0.2, 0.1365], "quaternion": [0.7071068, 0.0, 0.7071068, 0.0]},
+    ],
+    ids=["spoon", "stick"],
+)  # fmt: skip
+def test_long_things_without_a_point_stand_in_a_cup_too(thing: dict[str, Any]) -> None:
+    cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.3, "at": [0.42, -0.15]}
+    run = episode(thing=thing, cup=cup)
+    assert run.must("[PICK UP, thing]", "[PUT INTO, cup]").states["thing"].inside == "cup"
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("thing", [BOX | {"size": [0.04, 0.04, 0.04]}, BALL | {"diameter": 0.05}],
                          ids=lambda item: str(item["kind"]))  # fmt: skip

@@ -59,8 +59,13 @@ def without(objects: dict[str, dict[str, Any]], names: tuple[str, ...]) -> dict[
                                         "inside": "chest"}},
             {"filler"},
         ),
+        (
+            "[PUT ON, desk] (at 0.420 -0.200)",
+            {"block": TOP | {"size": [0.2, 0.2, 0.1], "fixed": True}},
+            {"block"},
+        ),
     ],
-    ids=["a full top", "two on a top", "a full drawer"],
+    ids=["a full top", "two on a top", "a full drawer", "a place that is built on"],
 )  # fmt: skip
 def test_no_room_names_who_fills_it(
     action: str, scene: dict[str, dict[str, Any]], guilty: set[str]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+
 import mujoco
 import numpy as np
 import pytest
 
 from etot_cli.errors import WorldError
+from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
-from etot_cli.world.placing import object_bounds, place_objects
+from etot_cli.world.placing import check_robot_is_free, object_bounds, place_objects
 from tests.world.helpers import BALL, BOX, CUP, PEN, SHELF, UNIT, make_scene, set_up
 
 FAR = 0.003
@@ -144,3 +147,23 @@ def test_inside_something_solid_is_refused() -> None:
     world = build_world(scene)
     with pytest.raises(WorldError, match="ball: nothing can be inside 'box'; containers are none"):
         place_objects(world, mujoco.MjData(world.model))
+
+
+@pytest.mark.parametrize(
+    ("desk", "height", "found"),
+    [
+        ({"top": 0.22}, 0.15, "stands in the desk, by .* at 0.22 m"),
+        ({"top": 0.22, "center": [0.55, 0.0]}, 0.15, None),
+        ({}, 0.15, None),
+        ({}, 0.5, "objects.unit: the robot stands in it"),
+    ],
+)
+def test_a_robot_that_stands_in_what_is_fastened_is_an_error(desk, height, found) -> None:
+    unit = UNIT | {"at": [0.4, 0.0], "size": [0.2, 0.18, height]}
+    world = build_world(Scene.model_validate({"desk": desk, "objects": {"unit": unit}}))
+    data = mujoco.MjData(world.model)
+    place_objects(world, data)
+    data.qpos[world.robot.qpos] = world.robot.spec.home
+    mujoco.mj_forward(world.model, data)
+    with nullcontext() if found is None else pytest.raises(WorldError, match=found):
+        check_robot_is_free(world, data)

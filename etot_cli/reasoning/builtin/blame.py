@@ -17,6 +17,9 @@ from etot_cli.world.state import DESK, Cause, CauseKind, ContactEvent, RolloutRe
 
 ROBOT = frozenset({"robot", "gripper"})
 GROUND = frozenset({"desk", "floor"})
+HELD_UP = 1.0
+"""Impulse by which something held up a door or drawer until the fingers slid off [N s]: the hand
+pulls with some ten newtons for a tenth of a second; what lies in a drawer only bumps into it."""
 
 
 def cause_of_failure(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
@@ -25,7 +28,7 @@ def cause_of_failure(action: Action, record: RolloutRecord, harmed: Sequence[Har
     What the skill said itself comes first; harm to others is added to it.
     """
     if record.cause is not None:
-        return _with_harm(record.cause, harmed)
+        return _with_harm(_held_up(action, record) or record.cause, harmed)
     derive = {
         Verb.PICK_UP: _not_picked_up,
         Verb.PUT_ON: _not_put,
@@ -46,6 +49,22 @@ def cause_of_harm(action: Action, record: RolloutRecord, harmed: Sequence[Harm])
         f"during {action} {_listed(harm.words() for harm in harmed)}",
         min(times, default=None),
     )
+
+
+def _held_up(action: Action, record: RolloutRecord) -> Cause | None:
+    """What a door or drawer was pressed against though nothing stopped the arm: its fingers slid
+    off. None where there is nothing of that.
+    """
+    if record.cause is None or record.cause.kind is not CauseKind.NO_EFFECT:
+        return None
+    if action.verb not in (Verb.OPEN, Verb.CLOSE):
+        return None
+    owner = owner_of(action.target)
+    held = _struck_by({owner}, record, excluding=set(ROBOT), least=HELD_UP)
+    if not held:
+        return None
+    text = f"{record.cause.text}: {_listed(held)} blocks it"
+    return Cause(CauseKind.BLOCKED, (*held, owner), text, _first_touch(record, held[0]))
 
 
 def _with_harm(cause: Cause, harmed: Sequence[Harm]) -> Cause:
@@ -140,8 +159,10 @@ def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:
     return owner in record.before.infos and is_on(record.before, name, owner)
 
 
-def _struck_by(movers: Iterable[str], record: RolloutRecord, excluding: set[str]) -> list[str]:
-    """Objects touched by any of ``movers``, the hardest hit first."""
+def _struck_by(
+    movers: Iterable[str], record: RolloutRecord, excluding: set[str], least: float = 0.0
+) -> list[str]:
+    """Objects touched by ``movers`` with at least that impulse [N s], the hardest hit first."""
     moving = set(movers)
     known = set(record.before.infos)
     impulses: dict[str, float] = {}
@@ -150,7 +171,8 @@ def _struck_by(movers: Iterable[str], record: RolloutRecord, excluding: set[str]
         for one, other in (pair, pair[::-1]):
             if one in moving and other in known - moving - excluding:
                 impulses[other] = impulses.get(other, 0.0) + contact.impulse
-    return sorted(impulses, key=lambda name: -impulses[name])
+    hit = (name for name, impulse in impulses.items() if impulse >= least)
+    return sorted(hit, key=lambda name: -impulses[name])
 
 
 def _first_touch(record: RolloutRecord, name: str) -> float | None:

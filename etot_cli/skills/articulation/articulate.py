@@ -177,15 +177,17 @@ def articulation_outcome(
 
 
 def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
-    """Movable objects that the part pressed on when it halted, the hardest pressed first."""
-    entries = belief.world.entries
+    """Objects that the part pressed on when it halted, the hardest pressed first; fastened ones
+    too, for one with a door or drawer that stands open can be closed.
+    """
+    others = belief.world.entries.keys() - {part.info.owner}
     force: dict[str, float] = {}
     along = trace.phase("along")
     for press in along.presses if along else ():
         for first, second in ((press.first, press.second), (press.second, press.first)):
             name = second.split(".")[0]
             ours = first.split(".")[0] == part.info.owner
-            if ours and name in entries and entries[name].info.movable:
+            if ours and name in others:
                 force[name] = force.get(name, 0.0) + press.sideways
     ranked = sorted(force.items(), key=lambda item: (-item[1], item[0]))
     return [name for name, value in ranked if value > PRESSED]

@@ -104,8 +104,10 @@ class PartSearch:
         hindered: list[_Hold] = []
         partial: list[_Partial] = []
         found = False
+        shut = self.opening and fraction_open(self.part, self._travel.value) <= CLOSED_AT
         for hold in self._holds():
-            self.has_hold = True
+            # Nothing that is shut can be pushed open from inside, though its walls have room there.
+            self.has_hold = self.has_hold or hold.contact.grip or not shut
             if not hold.met.free:
                 hindered.append(hold)
                 continue

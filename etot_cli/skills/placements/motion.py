@@ -141,7 +141,8 @@ def put_outcome(belief: Belief, action: Action, trace: Trace, after: SceneState)
         return failed(
             CauseKind.SLIP,
             [*(item for item in trace.touching if item != name), name],
-            f"{name} slipped out of the fingers {when}",
+            f"{name} slipped out of the fingers {when} ({belief.opening * 1000:.0f} mm wide where "
+            "they held it)",
             trace.seconds,
             another_way=True,
         )

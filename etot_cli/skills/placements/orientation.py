@@ -19,6 +19,8 @@ HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
 TURNS_AT_ONCE = 4
 """The most comfortable turns mostly do, so the others are looked at only where they do not."""
+LYING = 0.5
+"""What is long lies as long as it rises by less than this (sine)."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 INWARD_TURNS = tuple(np.radians((0, 20, -20, 40, -40)))
@@ -45,6 +47,23 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     return _align(up, UP) @ pose.rotation
 
 
+def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | None:
+    """The orientation (3, 3) that stands something long, which lies in the hand, on its end; None
+    where it stands already, or fits the floor as it lies. Of its two ends the one is down with
+    which the hand points down further.
+    """
+    pose = belief.object_pose(attached.name)
+    size = np.array(belief.world.entries[attached.name].info.size)
+    longest = int(np.argmax(size))
+    along = pose.rotation[:, longest]
+    if abs(along[2]) > LYING or size[longest] <= 2 * float(support.half.max()):
+        return None
+    ways = [_align(along, end * UP) @ pose.rotation for end in (1.0, -1.0)]
+    heights = [float((way @ attached.in_tool.rotation.T)[2, 2]) for way in ways]
+    lowest = int(np.argmin(np.round(heights, 6)))
+    return ways[lowest] if heights[lowest] <= HIGHEST_APPROACH else None
+
+
 def standing_rotation(belief: Belief, attached: Attached) -> Vector:
     """The rod upright, its point down."""
     pose = belief.object_pose(attached.name)
@@ -67,7 +86,7 @@ def orientations(belief: Belief, attached: Attached, support: Support) -> list[O
     """Orientations to put an object down with, a few turns at a time, the best first: as it is
     held, then laid down where falling over does it no harm.
 
-    A rod that is too long for a vessel stands in it.
+    A rod that is too long for a vessel stands in it; so may other long things.
     """
     entry = belief.world.entries[attached.name]
     if (
@@ -77,7 +96,12 @@ def orientations(belief: Belief, attached: Attached, support: Support) -> list[O
     ):
         return _turned(belief, attached, support, standing_rotation(belief, attached), laid=False)
     base = resting_rotation(belief, attached)
-    found = _turned(belief, attached, support, base, laid=False)
+    found: list[Orientations] = []
+    is_drawer = support.address in belief.world.parts
+    if support.is_container and not (support.from_front or is_drawer or entry.info.container):
+        stood = stood_up(belief, attached, support)
+        found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
+    found += _turned(belief, attached, support, base, laid=False)
     if entry.upright_matters and not entry.info.container:
         for rotation in laid_rotations(belief, attached, base)[:MAX_LAID]:
             found += _turned(belief, attached, support, rotation, laid=True)

@@ -253,13 +253,14 @@ class PlaceFinder:
                  for count in (support.half / relief.cell).astype(np.int64)]  # fmt: skip
         offsets = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 2)
         offsets = offsets[support.inside(offsets * relief.cell)]
-        if self._request.at:
-            asked = support.local(np.array(self._request.at)) / relief.cell
-            asked = asked[support.inside(asked * relief.cell)]
-            offsets = np.concatenate([offsets, np.round(asked).astype(np.int64)])
         if self._on_desk:
             distance = np.hypot(*relief.points(offsets + relief.middle).T)
             offsets = offsets[distance <= self._belief.world.robot.spec.reach]
+        if self._request.at:
+            # Whether the arm gets to a place that was asked for, kinematics tells.
+            asked = support.local(np.array(self._request.at)) / relief.cell
+            asked = asked[support.inside(asked * relief.cell)]
+            offsets = np.concatenate([offsets, np.round(asked).astype(np.int64)])
         return np.asarray(offsets + relief.middle)
 
     def _judge(self, rotation: Vector) -> _Turned:

@@ -32,7 +32,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*owner, name],
             f"the arm does not reach {address} with {name} held as it is",
         )
-    suspects = _suspects(belief, request, tally)
+    suspects, fastened = _suspects(belief, request, tally)
     stamps: Stamps = {}
 
     def helps(absent: Iterable[str]) -> bool:
@@ -43,6 +43,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
     if not guilty and len(suspects) > 1 and helps(suspects):
         guilty = _least(suspects, helps)
+    guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
     if guilty:
         return failed(
             CauseKind.NO_ROOM,
@@ -69,16 +70,16 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     )
 
 
-def _suspects(belief: Belief, request: Request, tally: Tally) -> list[str]:
-    """Movable objects that may be in the way, those that stand there first."""
+def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:
+    """Movable objects that may be in the way, and fastened ones; what stands there first."""
     name = request.attached.name
     there = PlaceFinder(belief, request).relief.occupants()
     met = tally.blockers.evidence().most(excluding=[name])
-    return [
-        other
-        for other in dict.fromkeys([*there, *met])
-        if belief.world.entries[other].info.movable and other not in (name, request.support.owner)
-    ]
+    own = (name, request.support.owner)
+    found = [one for one in dict.fromkeys([*there, *met]) if one not in own]
+    entries = belief.world.entries
+    movable = [one for one in found if entries[one].info.movable]
+    return movable, [one for one in found if not entries[one].info.movable]
 
 
 def _least(suspects: list[str], helps: Callable[[Iterable[str]], bool]) -> list[str]:
