@@ -24,8 +24,9 @@ from etot_cli.reconstruction.known.library import without, words_of
 from etot_cli.reconstruction.masks.automatic import find_segments
 from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
 from etot_cli.reconstruction.masks.naming import assign_names, color_of, hint_of, mentions
-from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.reconstruction.objects import DESK, Segment, Solid
 from etot_cli.reconstruction.twin import assembly
+from etot_cli.specs.checks import BASE_RADIUS, DEFAULT_REACH, FURNITURE_BEYOND
 from etot_cli.specs.scene import Scene
 
 
@@ -67,6 +68,8 @@ class Twin:
     joints: list[Joint] = field(default_factory=list)
     scene: Scene | None = None
     settled: dict[str, assembly.Settled] = field(default_factory=dict)
+    loads: bool = True
+    """Whether the scene file can be read again, as ``etot plan`` does."""
 
 
 def reconstruct(options: Options) -> Twin:
@@ -96,6 +99,10 @@ def reconstruct(options: Options) -> Twin:
     solids = given_shapes(seen, solids, options)
     clock.lap("meshes and poses")
     solids, joints = _joints(seen, solids, options)
+    solids, beyond = _within_reach(solids)
+    warnings += beyond
+    if not solids:
+        raise SpecError("; ".join(["nothing is in reach", *beyond]), file=str(options.capture))
     solids = _named(seen, solids, options.instruction)
     clock.lap("articulation")
     document = assembly.scene_document(safe_title(options.capture), seen, solids, options.materials)
@@ -185,6 +192,34 @@ def _named(seen: Calibrated, solids: list[Solid], instruction: str | None) -> li
         support = names.get(solid.support, solid.support)
         renamed.append(replace(solid, segment=segment, support=support))
     return renamed
+
+
+def _within_reach(solids: list[Solid]) -> tuple[list[Solid], list[str]]:
+    """The solids without those that no arm gets at, which no scene may have, and what they bear;
+    and what is to be said about them.
+    """
+    kept = list(solids)
+    notes: list[str] = []
+    while beyond := [solid for solid in kept if not _is_within_reach(solid, kept)]:
+        names = {solid.name for solid in beyond}
+        kept = [solid for solid in kept if solid.name not in names]
+        for solid in beyond:
+            distance = float(np.hypot(*solid.center[:2]))
+            x, y, z = (1000 * side for side in solid.size)
+            what = solid.name if solid.segment.named else f"a {solid.kind}"
+            notes.append(
+                f"{what}, {x:.0f} × {y:.0f} × {z:.0f} mm, is {distance:.2f} m from the robot's "
+                "axis, where no arm gets at it; left out"
+            )
+    return kept, notes
+
+
+def _is_within_reach(solid: Solid, others: list[Solid]) -> bool:
+    limit = DEFAULT_REACH
+    if solid.kind in assembly.FURNITURE:
+        limit += FURNITURE_BEYOND
+    borne = solid.support == DESK or any(other.name == solid.support for other in others)
+    return borne and BASE_RADIUS <= float(np.hypot(*solid.center[:2])) <= limit
 
 
 def settle_twin(twin: Twin, folder: Path) -> None:

@@ -12,6 +12,7 @@ from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 from etot_cli.reconstruction.shapes.rod import Capsule, Pen
 from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
+from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
 
 POSE = np.array(
@@ -54,6 +55,20 @@ def test_scene_keys_make_a_valid_object(family, values) -> None:
     spec = family.spec(np.array(values))
     scene = Scene.model_validate({"objects": {"thing": {**spec, "at": [0.4, 0.1]}}})
     assert scene.objects["thing"].kind == family.kind
+
+
+@pytest.mark.parametrize("rim", [0.03, 0.08, 0.2])
+def test_the_most_pointed_cup_with_the_thickest_wall_is_a_valid_object(rim) -> None:
+    family = ConicalCup()
+    start = np.array([0.4, 0.1, 0.1, rim, 0.6 * rim, 0.003, 0.004, 0.8 * rim])
+    low, high = family.bounds(start)
+    pointed = start.copy()
+    pointed[5], pointed[7] = high[5], low[7]
+    spec = {**family.spec(pointed), "at": [0.4, 0.1]}
+    check_scene(Scene.model_validate({"objects": {"thing": spec}}))
+    assert family.plausible(pointed)
+    pointed[7] = 0.1 * rim
+    assert not family.plausible(pointed)
 
 
 @pytest.mark.parametrize(("family", "values"), SHAPES, ids=IDS)

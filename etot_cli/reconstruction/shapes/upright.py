@@ -20,6 +20,9 @@ TYPICAL_WALL = 0.003
 """Wall of a cup where none is seen [m]."""
 TYPICAL_FLOOR = 0.004
 """Floor of a cup where none is seen [m]."""
+LEAST_FOOT, LEAST_FOOT_SHARE = 0.02, 0.3
+"""Least diameter of a cup's foot [m], wide enough for two of the thickest walls, and its least
+share of the rim's: what is more pointed does not stand."""
 
 
 class Cylinder(Family):
@@ -118,6 +121,17 @@ class ConicalCup(Cup):
     def guesses(self, evidence: Evidence) -> list[Array]:
         """Parameter vectors to start from."""
         return [np.array([*guess, 0.8 * guess[3]]) for guess in super().guesses(evidence)]
+
+    def bounds(self, start: Array) -> tuple[Array, Array]:
+        """Lowest and highest parameters."""
+        low, high = super().bounds(start)
+        low[7] = min(max(LEAST_FOOT, LEAST_FOOT_SHARE * start[3]), start[7])
+        return low, high
+
+    def plausible(self, params: Array) -> bool:
+        """Whether the proportions fit the family."""
+        stands = params[7] >= max(LEAST_FOOT, LEAST_FOOT_SHARE * params[3])
+        return super().plausible(params) and bool(stands)
 
     def hulls(self, params: Array, view: View) -> list[Array]:
         """Point sets (k, 3) whose hulls make up the silhouette."""
