@@ -71,7 +71,9 @@ def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedMod
 def moved_text(item: MovedModel) -> str:
     """In words: from where to where, or how far where that stayed the same."""
     if item.before == item.after:
-        return f"{item.object} moved {100 * item.moved_m:.1f} cm"
+        swayed = item.moved_m < SEEN_MOVE_M < item.largest_m
+        way = f"{100 * (item.largest_m if swayed else item.moved_m):.1f} cm"
+        return f"{item.object} moved {way}{' and back' if swayed else ''}"
     return f"{item.object}: {item.before} → {item.after}"
 
 

@@ -94,6 +94,29 @@ def test_every_kind_of_geom_is_where_and_as_large_as_in_the_model() -> None:
         assert shape.faces.min() >= 0 and shape.faces.max() < len(shape.vertices)
 
 
+PAINTED = """
+<mujoco>
+  <asset>
+    <texture name="half" type="cube" builtin="flat" rgb1=".5 .5 .5" width="8" height="8"/>
+    <material name="plain"/>
+    <material name="green" rgba="0 1 0 1"/>
+    <material name="wood" texture="half"/>
+  </asset>
+  <worldbody>
+    <geom size=".1" material="plain" rgba="1 0 0 1"/>
+    <geom size=".1" material="green"/>
+    <geom size=".1" material="wood" rgba="1 0 .5 1"/>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_colours_are_those_that_mujoco_draws() -> None:
+    colors = [shape.color for shape in shapes_of(mujoco.MjModel.from_xml_string(PAINTED))]
+    assert colors[:2] == [(255, 0, 0), (0, 255, 0)]
+    assert np.allclose(colors[2], (127, 0, 64), atol=2), "a texture's mean, tinted"
+
+
 def _reel(world_qpos: np.ndarray, count: int) -> Reel:
     rows = np.tile(world_qpos, (count, 1))
     rows[:, 0] += np.linspace(0.0, 0.5, count)

@@ -32,8 +32,6 @@ def trial_page(report: TrialReport, trial: Trial, title: str, *, repeatable: boo
         (f"{report.costs['simulated_s']:.0f} s", "simulated in planning"),
         (f"{report.trial.robot_s:.0f} s", "the robot acted"),
     ]
-    if report.trial.failure_class:
-        tiles.insert(0, (report.trial.failure_class.replace("_", " "), "whose failure"))
     return assemble(
         "trial.html.j2",
         scripts=(),

@@ -20,8 +20,8 @@ HERE = "127.0.0.1"
 """Only this machine may look; from elsewhere by an SSH tunnel."""
 PORT = 8080
 """Where this one is taken, the next free one is used."""
-EYE = (1.5, 0.0, 1.1)
-"""Of whoever begins to look: in front of the desk, obliquely, towards the robot [m]."""
+EYE = (1.15, -0.4, 0.75)
+"""Of whoever begins to look: before the desk and a little aside, so that the arm is seen bent [m]."""
 
 
 class BrowserReplay:

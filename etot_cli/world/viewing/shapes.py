@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 SEEN_GROUPS = 3
 """Geom groups from this number on are for collisions and are not drawn."""
+UNPAINTED = (0.5, 0.5, 0.5, 1.0)
+"""MuJoCo's colour of geoms that have none of their own."""
 ENDLESS_M = 4.0
 """Side of a plane without an end [m]."""
 THIN_M = 0.002
@@ -33,10 +35,7 @@ class Shape:
 def shapes_of(model: mujoco.MjModel) -> Iterator[Shape]:
     """Everything of a model that is seen, height fields excepted."""
     for geom in range(model.ngeom):
-        rgba = model.geom_rgba[geom]
-        material = model.geom_matid[geom]
-        if material >= 0:
-            rgba = model.mat_rgba[material]
+        rgba = _paint(model, geom)
         mesh = _mesh(model, geom)
         if model.geom_group[geom] >= SEEN_GROUPS or rgba[3] <= 0.0 or mesh is None:
             continue
@@ -46,6 +45,25 @@ def shapes_of(model: mujoco.MjModel) -> Iterator[Shape]:
         placed = vertices @ turn.reshape(3, 3).T + model.geom_pos[geom]
         red, green, blue = (round(255 * float(share)) for share in rgba[:3])
         yield Shape(int(model.geom_bodyid[geom]), placed, faces, (red, green, blue), float(rgba[3]))
+
+
+def _paint(model: mujoco.MjModel, geom: int) -> NDArray[np.float64]:
+    """A geom's colour (4,), 0…1, as MuJoCo draws it; of a texture, its mean."""
+    rgba = np.array(model.geom_rgba[geom], dtype=np.float64)
+    material = int(model.geom_matid[geom])
+    if material < 0:
+        return rgba
+    # A geom's own colour goes before its material's, unless it is the one that all geoms have.
+    if np.allclose(rgba, UNPAINTED):
+        rgba = np.array(model.mat_rgba[material], dtype=np.float64)
+    texture = int(model.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB])
+    if texture >= 0:
+        channels = int(model.tex_nchannel[texture])
+        first = int(model.tex_adr[texture])
+        count = int(model.tex_width[texture] * model.tex_height[texture]) * channels
+        pixels = model.tex_data[first : first + count].reshape(-1, channels)
+        rgba[:3] *= pixels[:, :3].mean(axis=0) / 255
+    return rgba
 
 
 def _mesh(model: mujoco.MjModel, geom: int) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
