@@ -32,11 +32,11 @@ from etot_cli.reporting.plan_report import (
     statistics_model,
     success_model,
     survival_model,
-    tree_model,
     understood_model,
-    vlm_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.reporting.tree_report import tree_model
+from etot_cli.reporting.vlm_report import vlm_model
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
 from etot_cli.specs.look import Look
 from etot_cli.specs.reading import printable

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from etot_cli.reporting.plan_report import NodeModel
+from etot_cli.reporting.tree_report import NodeModel
 
 
 @dataclass(frozen=True, slots=True)

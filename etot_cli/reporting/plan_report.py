@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -12,33 +11,22 @@ from etot_cli.planning.alternatives import Prefix
 from etot_cli.planning.conditions import holds
 from etot_cli.planning.result import SearchResult
 from etot_cli.planning.survival import Survival
-from etot_cli.planning.tree import PlanNode
 from etot_cli.reasoning.protocol import Branch, Understanding
-from etot_cli.reasoning.vlm.accounts import VlmAccount
-from etot_cli.reasoning.vlm.notes import NoteKind
-from etot_cli.reporting.evidence import (
-    ContactModel,
-    MovedModel,
-    contact_models,
-    moved_models,
-)
 from etot_cli.reporting.models import (
-    ActionModel,
-    CauseModel,
     Count,
     Digest,
     Model,
     Report,
     Seconds,
     Share,
-    action_fields,
-    cause_model,
     seconds,
 )
 from etot_cli.reporting.motion_report import MotionModel
+from etot_cli.reporting.tree_report import TreeModel
+from etot_cli.reporting.vlm_report import VlmModel
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
-from etot_cli.world.state import RolloutRecord, SceneState
+from etot_cli.world.state import SceneState
 
 
 class PlanOptionsModel(Model):
@@ -83,50 +71,6 @@ class SurvivalModel(Model):
     probability: Share
     ci95: tuple[Share, Share]
     """Wilson 95 % interval of the probability."""
-
-
-class LossModel(Model):
-    """A varied world in which the plan went wrong at this node."""
-
-    world: Count
-    """0 is the nominal world."""
-    status: Literal["failure", "unsafe"]
-    cause: CauseModel | None
-
-
-class NodeModel(ActionModel):
-    """One node of the planning tree."""
-
-    id: Count
-    parent: Count | None
-    """Null for a first action."""
-    origin: Literal["priori", "reflective"]
-    """The mechanism that put the node into the tree."""
-    status: Literal["pending", "success", "failure", "unsafe", "removed"]
-    """Removed: below a failed node, never tried. Pending: the search ended before its turn."""
-    cause: CauseModel | None
-    changes: list[str]
-    """Objects whose state changed."""
-    branch_end: bool
-    """A branch ends here: with it the goal should hold."""
-    revisions: Count | None
-    """Reflections behind the branch that ends here; null elsewhere."""
-    worlds_alive: Count | None
-    """Varied worlds in which the plan still held after this action; null when not evaluated."""
-    losses: list[LossModel]
-    moved: list[MovedModel] = Field(default_factory=list)
-    """What moved or changed in the nominal world, the farthest first."""
-    contacts: list[ContactModel] = Field(default_factory=list)
-    """Contacts of the nominal world that had to do with it, in order of time."""
-    simulated_s: Seconds
-    """Physics time stepped for this node, all worlds together."""
-    wall_s: Seconds
-
-
-class TreeModel(Model):
-    """The planning tree, with everything that failed or was removed."""
-
-    nodes: list[NodeModel]
 
 
 class PrefixModel(Model):
@@ -195,52 +139,6 @@ class StatisticsModel(Model):
     )
     """The bound that stopped the search or cut something off; docs/plan.md lists them. Service:
     what the reasoner needs is not there."""
-
-
-class VlmRoleModel(Model):
-    """What was asked of the model in one role, or in all."""
-
-    requests: Count
-    """Requests over the network, retries included."""
-    failed: Count
-    """Requests that brought no usable response."""
-    cached: Count
-    """Questions answered from a cassette or the cache."""
-    input_tokens: Count
-    output_tokens: Count
-    estimated: Count
-    """Requests whose tokens the server did not state."""
-    cost: Annotated[float, Field(ge=0.0)] | None
-    """US dollars; null when no price is known."""
-
-
-class VlmNoteModel(Model):
-    """Something that happened between the planner and the model."""
-
-    kind: NoteKind
-    role: str
-    """The prompt concerned."""
-    action: str
-    """The action concerned, or empty."""
-    text: str
-
-
-class VlmModel(Model):
-    """The vision-language model that reasoned."""
-
-    url: str
-    model: str
-    judge: Literal["state", "vlm", "both"]
-    hints: bool
-    """Whether it was told what the simulator knows of the causes of failures."""
-    replayed: bool
-    """Its answers came from a cassette."""
-    prompts: dict[str, str]
-    """Version of each prompt."""
-    total: VlmRoleModel
-    roles: dict[str, VlmRoleModel]
-    notes: list[VlmNoteModel]
-    """Repairs, dropped branches, diagnoses, disagreements and what settled them, in order."""
 
 
 class PlanReport(Report):
@@ -334,64 +232,6 @@ def prefix_model(prefix: Prefix | None) -> PrefixModel | None:
         actions=[str(action) for action in prefix.last.actions],
         nodes=[node.id for node in prefix.last.path],
         missing=[str(node.action) for node in prefix.missing],
-    )
-
-
-def node_model(node: PlanNode, record: RolloutRecord | None = None) -> NodeModel:
-    """A tree node as it stands in reports; ``record``: what the nominal world did."""
-    verdict = node.verdict
-    changes = () if verdict is None else tuple(verdict.changes)
-    blamed = verdict.cause.objects if verdict is not None and verdict.cause is not None else changes
-    return NodeModel.model_validate(
-        {
-            **action_fields(node.action),
-            "id": node.id,
-            "parent": None if node.parent is None else node.parent.id,
-            "origin": node.origin.value,
-            "status": node.status.value,
-            "cause": None if verdict is None else cause_model(verdict.cause),
-            "changes": list(changes),
-            "branch_end": node.end is not None,
-            "revisions": None if node.end is None else node.end.revisions,
-            "worlds_alive": None if node.survived is None else len(node.survived),
-            "losses": [
-                {
-                    "world": loss.world,
-                    "status": loss.verdict.outcome.value,
-                    "cause": cause_model(loss.verdict.cause),
-                }
-                for loss in node.losses
-            ],
-            "moved": [] if record is None else moved_models(record, changes),
-            "contacts": [] if record is None else contact_models(record, blamed),
-            "simulated_s": seconds(node.simulated_s),
-            "wall_s": seconds(node.wall_s),
-        }
-    )
-
-
-def tree_model(result: SearchResult) -> TreeModel:
-    """The planning tree as it stands in reports."""
-    records = {number: outcome.record for number, outcome in result.rollouts.items()}
-    return TreeModel(nodes=[node_model(node, records.get(node.id)) for node in result.tree])
-
-
-def vlm_model(account: VlmAccount | None) -> VlmModel | None:
-    """What a model was asked, as it stands in reports."""
-    if account is None:
-        return None
-    return VlmModel.model_validate(
-        {
-            "url": account.url,
-            "model": account.model,
-            "judge": account.judge,
-            "hints": account.hints,
-            "replayed": account.replayed,
-            "prompts": dict(account.prompts),
-            "total": asdict(account.total),
-            "roles": {role: asdict(part) for role, part in account.roles.items()},
-            "notes": [asdict(note) for note in account.notes],
-        }
     )
 
 

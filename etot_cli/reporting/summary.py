@@ -14,9 +14,11 @@ from rich.text import Text
 
 from etot_cli.reporting.execute_report import CLASSES, ExecuteReport, HappenedModel, TrialModel
 from etot_cli.reporting.failures import Failure, distinct_failures
-from etot_cli.reporting.plan_report import DoubtModel, NodeModel, PlanReport, VlmModel
+from etot_cli.reporting.plan_report import DoubtModel, PlanReport
 from etot_cli.reporting.simulate_report import SimulateReport
 from etot_cli.reporting.style import LOOKS, Verbosity, badge, counted, speaks_unicode
+from etot_cli.reporting.tree_report import NodeModel
+from etot_cli.reporting.vlm_report import VlmModel
 
 MAX_FAILURES = 6
 """Different failures shown unless more detail is asked for, and fewer on a low screen."""

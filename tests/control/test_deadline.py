@@ -10,7 +10,7 @@ import pytest
 from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.rooms import default_rooms
 from etot_cli.planning.options import Limits
-from etot_cli.reporting.plan_report import NodeModel
+from etot_cli.reporting.tree_report import NodeModel
 from etot_cli.skills.action import parse_plan
 from etot_cli.skills.deadline import Deadline, OutOfTimeError
 

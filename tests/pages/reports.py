@@ -7,7 +7,8 @@ from pathlib import Path
 
 from etot_cli.commands.plan import Planning, PlanOptions, plan_task
 from etot_cli.reporting.page.pictures import Frame, Picture
-from etot_cli.reporting.plan_report import NodeModel, PlanReport
+from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.tree_report import NodeModel
 from etot_cli.world.state import CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails
 from tests.reporting.toy_rooms import ToyRooms

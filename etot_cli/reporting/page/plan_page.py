@@ -10,7 +10,8 @@ from etot_cli.reporting.failures import distinct_failures
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Frame, Frames, Store
 from etot_cli.reporting.page.timeline import time_parts
-from etot_cli.reporting.plan_report import NodeModel, PlanReport
+from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.tree_report import NodeModel
 
 NO_FRAMES: Sequence[Frame] = ()
 

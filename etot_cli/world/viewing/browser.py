@@ -21,7 +21,7 @@ HERE = "127.0.0.1"
 PORT = 8080
 """Where this one is taken, the next free one is used."""
 EYE = (1.15, -0.4, 0.75)
-"""Of whoever begins to look: before the desk and a little aside, so that the arm is seen bent [m]."""
+"""Of whoever begins to look: before the desk, a little aside, to see the arm bent [m]."""
 
 
 class BrowserReplay:
