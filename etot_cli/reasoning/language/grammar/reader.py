@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
@@ -143,6 +144,12 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
         raise UnreadableError(_some(words), before, why) from None
     if not found:
         raise _stopped(given, before)
+    over = {reading: unaccounted(words, reading) for reading in found}
+    found = [reading for reading in found if over[reading] is None]
+    if not found:
+        word = next(word for word in over.values() if word is not None)
+        why = "it would be read over here; say it in a sentence of its own"
+        raise UnreadableError(word, before, why)
     return Sentence(spaced(words), tuple(sorted(found, key=reading_cost)))
 
 

@@ -1,4 +1,4 @@
-"""What is said of a pronoun that may mean several things, or nothing."""
+"""What is said of words that may mean several things, or nothing."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ UNCLEAR = "it is not clear what this refers to"
 
 
 class AmbiguousReference(ReferenceProblem):
-    """A pronoun that may mean several things; no far-fetched reading of the sentence undoes that.
+    """Words that may mean several things; no far-fetched reading of the sentence undoes that.
 
     Args:
         text: as written.
-        named: what it may mean, in the sentence's words.
+        named: what may be meant, in the sentence's words.
+        why: what to say before these.
     """
 
-    def __init__(self, text: str, named: Sequence[str]) -> None:
-        super().__init__(text, f"it may mean {' or '.join(dict.fromkeys(named))}; name it", 4)
+    def __init__(self, text: str, named: Sequence[str], why: str = "it may mean") -> None:
+        super().__init__(text, f"{why} {' or '.join(dict.fromkeys(named))}; name it", 4)

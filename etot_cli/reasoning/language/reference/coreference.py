@@ -182,6 +182,10 @@ class Discourse:
                 return around  # what is put on what lies in a vessel, goes on or into that
             if len(acted_on) == 1:
                 rivals = [place for place in places if self._rivals(place, acted_on[0], role)]
+                # "Take the cup off the saucer and put the plum on it": either takes a plum.
+                own = {thing.name for thing in self.things(acted_on[0])}
+                if role in (Role.SURFACE, Role.CONTAINER):
+                    rivals += [i for i in landmarks if not own & {t.name for t in self.things(i)}]
                 found = (*acted_on, *rivals)
             else:
                 # One of several things that were acted on together is not "it".

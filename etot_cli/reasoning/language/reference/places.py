@@ -139,6 +139,8 @@ class Places:
         things = self.discourse.things(index)
         fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
         laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        if toward is Toward.ON and fits_in:
+            self._check_alike(laid, things, index)
         fits_on = any(
             can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
             for thing in things
@@ -151,6 +153,14 @@ class Places:
             names = " or ".join(dict.fromkeys(thing.name for thing in things))
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found
+
+    def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
+        """Of several lids that may be meant, all or none lie on a vessel's rim."""
+        ways = {any(lies_on([one], thing, self._scene) for thing in things) for one in laid}
+        if len(ways) > 1:
+            text = f"on {self.discourse.referents[index].text}"
+            names = [thing.name for thing in laid]
+            raise AmbiguousReference(text, names, "only one stays on top of it, of")
 
     def _narrowed(
         self, places: list[Place], destination: Destination, themes: Sequence[int]

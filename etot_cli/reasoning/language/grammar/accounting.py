@@ -1,0 +1,178 @@
+"""Whether a reading accounts for every word that changes what is asked for.
+
+The grammar's rules say which words they read; this looks only at the words and at what came of
+them. A number, a denial, a word for all or any, for order, colour, size, place or state that has
+left no trace in the syntax tree was read over, by whatever rule, and the reading is not one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import fields, is_dataclass
+from enum import Enum
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    AvoidClause,
+    Beside,
+    Destination,
+    Modifier,
+    MoveClause,
+    NounPhrase,
+    Order,
+    PutClause,
+    Spoken,
+    State,
+    SwapClause,
+    Things,
+    Toward,
+    TowerClause,
+)
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    ORDINALS,
+    SIDES,
+    STATES,
+    is_descriptive,
+    word_set,
+)
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.reasoning.language.words.small_words import FRAMES, WITHOUT_MEANING
+from etot_cli.world.spatial import Nearby
+
+_DENIAL, _ORDER = "a denial", "an order"
+_DENIALS = word_set("not never without except excluding non neither no")
+_ORDERS = word_set("before after finally beforehand afterwards lastly firstly first last")
+_QUANTITIES = word_set("all every each both either any other another same only remaining")
+_ALIKE = {
+    "center": "middle", "centre": "middle", "behind": "back", "far": "back", "near": "front",
+    "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
+}  # fmt: skip
+"""Words that a tree may have one for the other."""
+_FIXED = """
+    on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
+    (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back, right next,
+    at the very, (first|last) of all, one (by|after) (one|the other|another), in back, at last,
+    each other, one another, (on|over) the other, none of, (to|at) the end, all the rest,
+    (near|close|next|closer|nearer) to,
+    s (top|surface)
+"""
+"""Phrases in which such words say something else, or nothing of their own."""
+_SAY_NOTHING = re.compile(
+    r"\b(?:"
+    + "|".join(
+        sorted(
+            map(re.escape, spellings(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")),
+            key=len,
+            reverse=True,
+        )
+    )
+    + r")\b"
+)
+
+
+def unaccounted(words: Iterable[str], reading: tuple[Spoken, ...]) -> str | None:
+    """The first word of a sentence that its reading has read over, None when there is none."""
+    plain = _SAY_NOTHING.sub(" ", " ".join(words))
+    left = Counter(_traces(reading))
+    for word in plain.split():
+        kinds = _kinds(word)
+        if not kinds:
+            continue
+        kind = next((item for item in kinds if left[item] > 0), None)
+        if kind is None:
+            return word
+        if kind not in (_DENIAL, _ORDER):  # one of either may take several words
+            left[kind] -= 1
+    return None
+
+
+def _kinds(word: str) -> tuple[str, ...]:
+    """What a word has to leave in the tree, any of these; nothing for most words."""
+    if word in _DENIALS:
+        return (_DENIAL, word)
+    if word in _ORDERS or word in ORDINALS:
+        return (word, _ORDER)
+    if word in _QUANTITIES or (word in NUMBERS and word != "one") or word.isdigit():
+        return (word,)
+    if is_descriptive(word) or word in LEVELS or (word in STATES and word != "empty"):
+        return (_canonical(word),)
+    return ()
+
+
+def _canonical(word: str) -> str:
+    plain = SIDES.get(word) or LEVELS.get(word) or STATES.get(word) or word
+    return _ALIKE.get(plain, plain)
+
+
+def _traces(node: object) -> Iterator[str]:
+    """Every word that a tree keeps, and a word for what else it says."""
+    if isinstance(node, str) and not isinstance(node, Enum):
+        for word in node.split():
+            yield word
+            yield from {_canonical(word)} - {word}
+    elif isinstance(node, Enum):
+        yield from _traces(str(node.value))
+    elif isinstance(node, tuple):
+        for item in node:
+            yield from _traces(item)
+    elif is_dataclass(node):
+        yield from _said(node)
+        for field in fields(node):
+            if field.name not in ("text", "grouping"):
+                yield from _traces(getattr(node, field.name))
+
+
+def _said(node: object) -> Iterator[str]:
+    """Words for what a node says by what it is."""
+    match node:
+        case Spoken(order=order) if order is not Order.SAID:
+            yield _ORDER
+        case Modifier(prep=prep, denied=denied):
+            if denied or prep in (Prep.EXCEPT, Prep.CONTRAST):
+                yield from (_DENIAL, "other")
+            if prep is Prep.MATCHING:
+                yield "same"
+        case NounPhrase(without=without) if without:
+            yield _DENIAL
+        case AvoidClause():
+            yield from (_DENIAL, "other", "any")
+        case Beside(relation=Nearby.AWAY):
+            yield _canonical("far")
+        case State(kept=kept, word=word):
+            yield from (_canonical(word), *((_DENIAL,) if kept else ()))
+        case MoveClause(opens=opens):
+            yield "open" if opens else "closed"
+        case TowerClause():
+            yield from (_ORDER, "top", "bottom")
+        case SwapClause():
+            yield "other"
+        case AgainClause():
+            yield "same"
+        case Destination(toward=Toward.HOME):
+            yield "back"
+        case PutClause():
+            yield from _said_of_put(node)
+        case Things(phrases=phrases, either=either):
+            yield from ("either", "any") if either else ()
+            yield from ("both", _ORDER) if len(phrases) > 1 else ()
+        case _:
+            return
+
+
+def _said_of_put(clause: PutClause) -> Iterator[str]:
+    if clause.first or clause.last:
+        yield _ORDER
+    if clause.ruled_out:
+        yield _DENIAL
+    if clause.one_each or clause.grouping is Grouping.SEPARATELY:
+        yield from ("each", "every")
+    places = [target for group in clause.groups for item in group.destinations for target in
+              (item.targets or (item,))]  # fmt: skip
+    if len(places) > 1 or clause.grouping is not Grouping.ANY:
+        yield from ("either", "both", "any")
