@@ -94,7 +94,7 @@ def _report(
             rest.moved * 1000 <= assembly.SETTLE_MM and rest.turned <= assembly.SETTLE_DEG
             for rest in twin.settled.values()
         )
-        status = "success" if still and twin.loads else "partial"
+        status = "success" if still and twin.whole else "partial"
     found: dict[str, Any] = {
         "desk_top": None, "tilt_deg": 0.0, "depth_shift_px": (0, 0), "objects": [], "joints": [],
         "warnings": [], "stages": {},
@@ -198,7 +198,7 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
     try:
         load_scene(folder / SCENE)
     except SpecError as error:
-        twin.loads = False
+        twin.whole = False
         twin.warnings.append(f"etot plan will not take this scene as it is: {error}")
     if options.settle and not twin.settled:
         settle_twin(twin, folder)

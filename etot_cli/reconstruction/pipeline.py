@@ -68,8 +68,8 @@ class Twin:
     joints: list[Joint] = field(default_factory=list)
     scene: Scene | None = None
     settled: dict[str, assembly.Settled] = field(default_factory=dict)
-    loads: bool = True
-    """Whether the scene file can be read again, as ``etot plan`` does."""
+    whole: bool = True
+    """Whether all that was found in reach is in the scene, and ``etot plan`` takes that."""
 
 
 def reconstruct(options: Options) -> Twin:
@@ -105,8 +105,11 @@ def reconstruct(options: Options) -> Twin:
         raise SpecError("; ".join(["nothing is in reach", *beyond]), file=str(options.capture))
     solids = _named(seen, solids, options.instruction)
     clock.lap("articulation")
-    document = assembly.scene_document(safe_title(options.capture), seen, solids, options.materials)
-    twin = Twin(seen, solids, document, warnings, timing, joints)
+    title = safe_title(options.capture)
+    document = assembly.scene_document(title, seen, solids, options.materials)
+    solids, document, impossible = assembly.what_a_scene_may_have(solids, document)
+    warnings += impossible
+    twin = Twin(seen, solids, document, warnings, timing, joints, whole=not impossible)
     if options.settle and not any(solid.kind == "mesh" for solid in solids):
         settle_twin(twin, options.capture)
     clock.lap("assembly")
@@ -208,8 +211,8 @@ def _within_reach(solids: list[Solid]) -> tuple[list[Solid], list[str]]:
             x, y, z = (1000 * side for side in solid.size)
             what = solid.name if solid.segment.named else f"a {solid.kind}"
             notes.append(
-                f"{what}, {x:.0f} × {y:.0f} × {z:.0f} mm, is {distance:.2f} m from the robot's "
-                "axis, where no arm gets at it; left out"
+                f"{what}, {x:.0f} × {y:.0f} × {z:.0f} mm, {distance:.2f} m from the robot's axis: "
+                "no arm gets there, or at what bears it; left out"
             )
     return kept, notes
 

@@ -39,7 +39,11 @@ LOOKS: dict[str, Look] = {
     "feasible": Look("✓", "+", "bold green"),
     "infeasible": Look("✗", "x", "bold red"),
     "limit": Look("✗", "x", "bold yellow"),
+    "partial": Look("!", "!", "bold yellow"),
     "interrupted": Look("!", "!", "bold yellow"),
+    "planned": Look("·", ".", "dim"),
+    "lost": Look("✗", "x", "bold red"),
+    "error": Look("✗", "x", "bold red"),
 }
 
 

@@ -10,6 +10,7 @@ import pytest
 from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.reconstruct import run_reconstruct
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.reconstruction.twin.assembly import what_a_scene_may_have
 from etot_cli.reconstruction.twin.physics import MASS_DOUBT, WORLDS
 from etot_cli.specs.load import load_scene, load_task
 from etot_cli.specs.scene import Scene
@@ -127,3 +128,15 @@ def test_plan_for_the_real_capture_holds_in_most_worlds(tmp_path: Path) -> None:
     ]  # fmt: skip
     assert "pen" not in report.plan[0] and "pen" in report.plan[2]
     assert report.survival is not None and report.survival.alive >= 6
+
+
+def test_what_no_scene_may_have_is_left_out_with_what_it_bears(folder: Path) -> None:
+    twin = reconstruct(Options(capture=folder, settle=False))
+    x, y = twin.document["objects"]["crate"]["at"]
+    ghost = {"kind": "box", "size": [0.05, 0.05, 0.05], "at": [x, y]}
+    rider = {"kind": "box", "size": [0.02, 0.02, 0.02], "at": [x, y], "on": "ghost"}
+    objects = {**twin.document["objects"], "ghost": ghost, "rider": rider}
+    document = {**twin.document, "objects": objects}
+    solids, usable, notes = what_a_scene_may_have(twin.solids, document)
+    assert solids == twin.solids and usable == twin.document
+    assert len(notes) == 1 and notes[0].startswith("ghost, rider: left out, for overlaps 'crate'")

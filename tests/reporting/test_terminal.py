@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import io
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from rich.console import Console
@@ -17,7 +19,7 @@ from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.live import LiveView, window
 from etot_cli.reporting.log import PlainLog
 from etot_cli.reporting.plan_report import PlanReport
-from etot_cli.reporting.style import Verbosity, make_console
+from etot_cli.reporting.style import LOOKS, Verbosity, make_console
 from etot_cli.reporting.summary import Summary
 from etot_cli.world.state import CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails
@@ -215,3 +217,15 @@ def test_simulate_summary() -> None:
     assert "✗ the plan fails" in text
     assert "not tried" in text
     assert "✓ cup on desk: holds" in text
+
+
+def test_every_status_of_a_report_has_a_look() -> None:
+    modules = ("plan", "simulate", "execute", "bench", "reconstruct")
+    statuses: set[str] = set()
+    for name in modules:
+        module = importlib.import_module(f"etot_cli.reporting.{name}_report")
+        for model in vars(module).values():
+            field = getattr(model, "model_fields", {}).get("status")
+            statuses |= set() if field is None else set(get_args(field.annotation))
+    assert {"feasible", "partial", "interrupted"} <= statuses
+    assert statuses <= set(LOOKS)

@@ -10,11 +10,12 @@ import mujoco
 import numpy as np
 import yaml
 
-from etot_cli.errors import EtotError
+from etot_cli.errors import EtotError, SpecError
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import DESK, Solid
 from etot_cli.reconstruction.twin.physics import FRICTION_DOUBT, MASS_DOUBT, guess
+from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects
@@ -30,6 +31,8 @@ FURNITURE = ("drawer_unit", "cabinet")
 ROUND = ("sphere", "cylinder", "cup", "bowl")
 RIM_OVERLAP = 0.0006
 """Play of what stands inside a cup [m]."""
+FILLED = 0.5
+"""Share of a free form's extents within which nothing else can be."""
 LEAST_REST = 0.3
 """A ball in a mouth rests with its centre at least this share of its radius above the rim."""
 
@@ -73,6 +76,56 @@ def scene_document(
             solid.name: _object(seen, solid, by_name, materials.get(solid.name)) for solid in solids
         },
     }
+
+
+def what_a_scene_may_have(
+    solids: list[Solid], document: dict[str, Any]
+) -> tuple[list[Solid], dict[str, Any], list[str]]:
+    """The solids and the document without what no scene may have, such as a thing deep in another,
+    and without what that bears: one impossible thing must not make the whole desk unusable.
+
+    Returns:
+        Solids, document, and what is to be said about those left out.
+    """
+    objects, notes = dict(document["objects"]), []
+    while len(objects) > 1 and (found := _impossible(objects, document, solids)) is not None:
+        worst, why = found
+        gone = [worst]
+        while borne := [name for name, item in objects.items()
+                        if name not in gone and _support(item) in gone]:  # fmt: skip
+            gone += borne
+        objects = {name: item for name, item in objects.items() if name not in gone}
+        notes.append(f"{', '.join(gone)}: left out, for {why}")
+    kept = [solid for solid in solids if solid.name in objects]
+    return kept, {**document, "objects": objects}, notes
+
+
+def _support(item: dict[str, Any]) -> str:
+    return str(item.get("on") or item.get("inside") or DESK).split(".")[0]
+
+
+def _impossible(
+    objects: dict[str, Any], document: dict[str, Any], solids: list[Solid]
+) -> tuple[str, str] | None:
+    """The object that a scene is refused for, and why; None where it is not. Boxes stand in for
+    free forms, whose files are not there yet and which need not fill their own.
+    """
+    sizes = {solid.name: _rounded(FILLED * np.array(solid.size)) for solid in solids}
+    tried = {
+        name: {"kind": "box", "size": sizes[name]}
+        | {key: item[key] for key in ("at", "on", "inside", "yaw_deg") if key in item}
+        if item["kind"] == "mesh" else item
+        for name, item in objects.items()
+    }  # fmt: skip
+    try:
+        scene = load({**document, "objects": tried}, Path())
+        check_scene(scene)
+    except SpecError as error:
+        root, name, *_ = [*error.path.split("."), ""]
+        return (name, error.message) if root == "objects" and name in objects else None
+    except EtotError:
+        return None  # said when the scene is written
+    return None
 
 
 def _rounded(values: Any, digits: int = 4) -> list[float]:
