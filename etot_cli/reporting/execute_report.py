@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field
 
-from etot_cli.execution.trial import Carried, Difference, Look, PlanMade, Trial
 from etot_cli.reporting.evidence import MovedModel, moved_models
 from etot_cli.reporting.models import (
     ActionModel,
@@ -25,6 +24,9 @@ from etot_cli.skills.motion.motion import Trace
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord
+
+if TYPE_CHECKING:  # every command's summary imports this module, and few execute
+    from etot_cli.execution.trial import Carried, Difference, Look, PlanMade, Trial
 
 FailureClassName = Literal["execution", "perception", "world_model", "planning"]
 CLASSES: tuple[FailureClassName, ...] = ("execution", "perception", "world_model", "planning")

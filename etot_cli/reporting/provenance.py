@@ -7,11 +7,13 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
+from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 
 from etot_cli.reporting.models import UNKNOWN, TimingModel, VersionsModel, seconds
 
 
+@lru_cache
 def package_version(name: str) -> str:
     """The installed version of a distribution, read from its metadata without importing it."""
     try:

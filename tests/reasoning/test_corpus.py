@@ -16,8 +16,8 @@ from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.instructions import goal_of
 from tests.reasoning import corpus_scenes
 
-CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.safe_load(
-    (Path(__file__).parent / "corpus.yaml").read_text(encoding="utf-8")
+CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
+    (Path(__file__).parent / "corpus.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader
 )
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 

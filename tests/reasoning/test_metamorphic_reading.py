@@ -8,10 +8,8 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import islice
-from pathlib import Path
 
 import pytest
-import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -26,8 +24,8 @@ from etot_cli.reasoning.language.words import known, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import SceneState
 from tests.reasoning import corpus_scenes, scenes
+from tests.reasoning.test_corpus import CORPUS
 
-CORPUS = yaml.safe_load((Path(__file__).parent / "corpus.yaml").read_text(encoding="utf-8"))
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 READ = [(name, text) for name, found in CORPUS.items() for text in found["read"]]
 LIMIT_S = 1.0
@@ -249,6 +247,7 @@ BATCH = 40
 SEEDS = st.lists(st.integers(0, 2**32), min_size=BATCH, max_size=BATCH, unique=True)
 
 
+@pytest.mark.slow
 @settings(
     max_examples=130, deadline=None, derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],

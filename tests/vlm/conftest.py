@@ -20,7 +20,8 @@ Make = Callable[..., VlmSettings]
 def _own_environment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """No keys, endpoints, proxies or caches of the machine."""
     for name in list(os.environ):
-        if name.startswith(("ETOT_", "OPENAI_")) or name.lower().endswith("_proxy"):
+        ours = name.startswith(("ETOT_", "OPENAI_")) and name != "ETOT_HTML"
+        if ours or name.lower().endswith("_proxy"):
             monkeypatch.delenv(name)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -113,6 +114,7 @@ def world(history: str, action: Action, _: int) -> Cause | None:
     return cause() if blocked or on_lid else None
 
 
+@pytest.mark.slow
 def test_fuzzed_replies(make_settings: Make) -> None:
     served: list[int] = [0]
     reached: set[str] = set()

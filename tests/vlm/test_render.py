@@ -60,6 +60,7 @@ def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> N
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
     write_video(
         SCENE, [Take(trajectory)] * 2, tmp_path / "deep" / "run.mp4", size=(320, 180), rate=10
