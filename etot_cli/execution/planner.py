@@ -74,7 +74,7 @@ class TreePlanner:
             result.plan,
             tuple(motion if isinstance(motion, Motion) else None for motion in motions),
             result.status.value,
-            result.stopped or _why_not(result),
+            result.stopped or why_not(result),
             {
                 "nodes": float(numbers.nodes_evaluated),
                 "reflections": float(numbers.reflections),
@@ -89,7 +89,7 @@ class TreePlanner:
             self._simulator.close()
 
 
-def _why_not(result: SearchResult) -> str | None:
+def why_not(result: SearchResult) -> str | None:
     """What keeps everything from working, the first things first; None with a plan."""
     if result.status is not SearchStatus.INFEASIBLE:
         return None

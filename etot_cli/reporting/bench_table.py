@@ -6,6 +6,7 @@ numbers. In a pipe every line is whole, whatever reads it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -90,31 +91,45 @@ class BenchSummary:
 
     def _averages(self, report: BenchReport) -> None:
         titles = {method.name: method.title for method in report.methods}
-        table = Table(box=None, pad_edge=False, padding=(0, 1))
-        table.add_column("over all trials", no_wrap=True)
-        table.add_column("rate", justify="right", no_wrap=True)
-        table.add_column("95 % interval", justify="right", no_wrap=True)
-        table.add_column("failures", overflow="fold")
+        rows = []
         for item in report.averages:
             low, high = item.ci95
             failures = ", ".join(f"{count} {name}" for name, count in item.failures.items())
-            table.add_row(
+            rows.append([
                 titles[item.method], f"{item.successes}/{item.trials}",
                 f"{_percent(low)} to {_percent(high)}", failures,
-            )  # fmt: skip
-        self._table(table)
+            ])  # fmt: skip
+        self._listed(["over all trials", "rate", "95 % interval", "failures"], rows)
 
     def _costs(self, report: BenchReport) -> None:
         titles = {method.name: method.title for method in report.methods}
         asked = any(item.model_calls for item in report.averages)
-        table = Table(box=None, pad_edge=False, padding=(0, 1))
-        table.add_column("cost per trial", no_wrap=True)
-        heads = ["plan s", "nodes", "sim s", "total s"]
-        for head in [*heads, *(["calls", "tokens", "US $"] if asked else [])]:
-            table.add_column(head, justify="right", no_wrap=True)
-        for item in report.averages:
-            table.add_row(titles[item.method], *_cost_cells(item, asked))
-        self._table(table)
+        heads = ["cost per trial", "plan s", "nodes", "sim s", "total s"]
+        heads += ["calls", "tokens", "US $"] if asked else []
+        rows = [[titles[item.method], *_cost_cells(item, asked)] for item in report.averages]
+        self._listed(heads, rows)
+
+    def _listed(self, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+        """A table whose last column may fold, or a line per row where even then it is too wide."""
+
+        def table(filled: Iterable[Sequence[str]]) -> Table:
+            made = Table(box=None, pad_edge=False, padding=(0, 1))
+            made.add_column(heads[0], no_wrap=True)
+            for head in heads[1:-1]:
+                made.add_column(head, justify="right", no_wrap=True)
+            words = rows[0][-1].replace(".", "").isdigit()
+            made.add_column(heads[-1], justify="right" if words else "left", overflow="fold")
+            for row in filled:
+                made.add_row(*row)
+            return made
+
+        if self._fits(table([*row[:-1], max(row[-1].split() or [""], key=len)] for row in rows)):
+            self._table(table(rows))
+            return
+        self._line(f"\n{heads[0]}")
+        for row in rows:
+            told = [f"{head} {cell}" for head, cell in zip(heads[1:], row[1:], strict=True) if cell]
+            self._console.print(f"  {row[0]}: {', '.join(told)}", markup=False, highlight=False)
 
     def _fits(self, table: Table) -> bool:
         if not self._console.is_terminal:

@@ -227,6 +227,10 @@ def test_the_table_is_readable_in_80_columns(
     lines = capsys.readouterr().out.splitlines()
     table = [line for line in lines if "/1" in line]
     assert len(table) >= tasks and all(len(line) <= 80 for line in table)
+    terminal.width = 40
+    BenchSummary(terminal, Verbosity.NORMAL).show(report, Path("r.json"))
+    narrow = capsys.readouterr().out
+    assert "EToT: plan s 0.5, nodes 3.0" in narrow, "lines where a table would be cut"
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ from etot_cli.benchmark.methods.attention import StaticScene
 from etot_cli.benchmark.methods.thinking import Thinking
 from etot_cli.control.simulated import Simulator
 from etot_cli.errors import InstructionError, ServiceError
+from etot_cli.execution.planner import why_not
 from etot_cli.execution.protocols import Planned, Planner
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.result import LimitKind, SearchResult, SearchStatus
@@ -152,6 +153,6 @@ def _planned(result: SearchResult) -> Planned:
         result.plan,
         tuple(motion if isinstance(motion, Motion) else None for motion in motions),
         result.status.value,
-        result.stopped or None,
+        result.stopped or why_not(result),
         account,
     )
