@@ -30,6 +30,7 @@ from etot_cli.reporting.execute_report import (
     trial_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
+from etot_cli.services.redact import public_url
 from etot_cli.specs.task import Task
 from etot_cli.world.workers import WorkerLostError, WorkerPool
 
@@ -230,7 +231,7 @@ def _report(
             max_actions=limits.max_actions,
             max_robot_s=limits.max_robot_s,
             max_nodes=options.limits.max_nodes,
-            grasp_url=options.grasp_url,
+            grasp_url=None if options.grasp_url is None else public_url(options.grasp_url),
         ),
         successes=successes,
         trials=[trial_model(trial, task.success if task else ()) for trial in trials],

@@ -27,6 +27,7 @@ from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
 from etot_cli.execution.trial import Cell, TrialOptions, simulated_world
 from etot_cli.execution.world import ExecutionWorld
+from etot_cli.services.endpoint import check_address
 from etot_cli.specs.task import Task
 from etot_cli.world.robot import RobotSpec, load_robot
 
@@ -181,5 +182,6 @@ def open_cell(request: DeviceRequest) -> Cell:
     if request.grasp_url is not None:
         if not isinstance(eyes, CameraEyes):
             raise EtotError("--grasp-url shows the server a picture; expected --perception camera")
+        check_address(request.grasp_url, "--grasp-url")
         grasps = GraspServer(request.grasp_url, eyes)
     return Cell(opened.robot, eyes, opened.world, grasps)

@@ -1,4 +1,4 @@
-"""Servers that take a stage over: JSON over HTTP with a deadline, bounded sizes and retries.
+"""Servers that take a stage over: JSON in and out.
 
 The formats are described in docs/reconstruct_servers.md. Whatever a server does, the caller gets a
 checked value or one :class:`ServiceError` that says which server and why.
@@ -9,12 +9,9 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-import random
-import time
 from dataclasses import dataclass
 from typing import Any
 
-import httpx
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,18 +19,13 @@ from etot_cli.errors import EtotError, ServiceError
 from etot_cli.reconstruction.capture.folder import LEAST_MASK, mask_of, safe_name, unique_name
 from etot_cli.reconstruction.capture.pictures import decode_png, encode_png
 from etot_cli.reconstruction.capture.view import Array, Mask, View
+from etot_cli.services.endpoint import SHOWN, Endpoint
 
 DEADLINE = 120.0
 """A whole stage, retries included, takes no longer [s]."""
-ATTEMPTS = 4
-FIRST_PAUSE = 0.5
-LONGEST_PAUSE = 8.0
 MAX_REPLY = 64 * 1024 * 1024
 """Largest reply in bytes."""
 MAX_MESH = 32 * 1024 * 1024
-TRANSIENT = frozenset({408, 409, 425, 429, 500, 502, 503, 504})
-SHOWN = 200
-PLAIN = {"Accept-Encoding": "identity"}
 
 
 @dataclass(frozen=True)
@@ -50,75 +42,7 @@ class Server:
         Raises:
             ServiceError: no usable reply within the deadline.
         """
-        until = time.monotonic() + self.deadline
-        reason = "no answer"
-        for attempt in range(ATTEMPTS):
-            if attempt:
-                pause = min(FIRST_PAUSE * 2 ** (attempt - 1), LONGEST_PAUSE)
-                pause *= 0.5 + random.random()  # so that several clients do not come at once
-                if time.monotonic() + pause >= until:
-                    break
-                time.sleep(pause)
-            try:
-                return self._once(request, until)
-            except _TryAgainError as error:
-                reason = str(error)
-        raise self.error(f"{reason} (after {attempt + 1} attempts)")
-
-    def error(self, reason: str) -> ServiceError:
-        """An error that names this server; what may be secret in its URL is left out."""
-        url = httpx.URL(self.url)
-        shown = f"{url.scheme}://{url.host}" + (f":{url.port}" if url.port else "") + url.path
-        return ServiceError(f"{self.stage} server {shown}: {reason}")
-
-    def _once(self, request: dict[str, Any], until: float) -> dict[str, Any]:
-        left = max(until - time.monotonic(), 0.1)
-        try:
-            with (
-                httpx.Client(timeout=left, follow_redirects=False, trust_env=False) as client,
-                client.stream("POST", self.url, json=request, headers=PLAIN) as response,
-            ):
-                if response.status_code in TRANSIENT:
-                    raise _TryAgainError(f"answers {response.status_code}")
-                body = self._body(response, until)
-        except httpx.InvalidURL as error:
-            raise ServiceError(f"{self.stage} server: {self.url!r} is no URL ({error})") from None
-        except httpx.UnsupportedProtocol:
-            raise ServiceError(
-                f"{self.stage} server: {self.url!r} is no http or https address"
-            ) from None
-        except httpx.TimeoutException:
-            raise self.error(f"no complete answer within {self.deadline:g} s") from None
-        except httpx.TransportError as error:
-            raise _TryAgainError(
-                f"cannot be reached: {str(error) or type(error).__name__}"
-            ) from None
-        return self._checked(response, body)
-
-    def _body(self, response: httpx.Response, until: float) -> bytes:
-        encoding = response.headers.get("content-encoding", "identity")
-        if encoding.strip().lower() != "identity":
-            # Kilobytes may unpack to gigabytes, and the library unpacks before anybody counts.
-            raise self.error(f"the answer is compressed as {encoding[:40]!r}, unasked")
-        parts: list[bytes] = []
-        size = 0
-        for part in response.iter_raw():
-            size += len(part)
-            if size > MAX_REPLY:
-                raise self.error(f"the answer is larger than {MAX_REPLY // 2**20} MiB")
-            # Bytes that drip in keep every single read in time, but not the whole.
-            if time.monotonic() > until:
-                raise self.error(f"no complete answer within {self.deadline:g} s")
-            parts.append(part)
-        return b"".join(parts)
-
-    def _checked(self, response: httpx.Response, body: bytes) -> dict[str, Any]:
-        kind = response.headers.get("content-type", "").split(";")[0].strip().lower()
-        if response.status_code != 200:
-            text = body[:SHOWN].decode("utf-8", "replace").strip()
-            raise self.error(f"answers {response.status_code}: {text or 'no text'}")
-        if kind != "application/json":
-            raise self.error(f"answers {kind or 'without a content type'}; expected JSON")
+        body = self._endpoint.post(request, "application/json")
         try:
             reply = json.loads(body)
         except (ValueError, RecursionError):
@@ -129,9 +53,13 @@ class Server:
             raise self.error(f"says: {str(reply['error'])[:SHOWN]}")
         return reply
 
+    def error(self, reason: str) -> ServiceError:
+        """An error that names this server; what may be secret in its URL is left out."""
+        return self._endpoint.error(reason)
 
-class _TryAgainError(Exception):
-    """A failure that may pass."""
+    @property
+    def _endpoint(self) -> Endpoint:
+        return Endpoint(self.url, f"{self.stage} server", self.deadline, MAX_REPLY)
 
 
 def picture(color: NDArray[np.uint8]) -> str:

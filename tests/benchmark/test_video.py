@@ -17,6 +17,7 @@ from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reasoning.vlm.chat import Picture
 from etot_cli.reasoning.vlm.frames import Eye
+from etot_cli.services import endpoint as services_endpoint
 from etot_cli.skills.action import format_plan
 from etot_cli.world.snapshot import Memory, Snapshot
 from etot_cli.world.state import RolloutRecord, SceneState
@@ -27,7 +28,12 @@ IMAGE = np.full((48, 64, 3), 90, dtype=np.uint8)
 
 
 def endpoint(server: Server, key: str | None = None) -> VideoEndpoint:
-    return VideoEndpoint(server.url, key, deadline_s=10.0, pause_s=0.01)
+    return VideoEndpoint(server.url, key, deadline_s=10.0)
+
+
+@pytest.fixture(autouse=True)
+def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(services_endpoint, "FIRST_PAUSE", 0.01)
 
 
 def test_a_picture_and_a_sentence_become_a_video(server: Server) -> None:
@@ -60,11 +66,15 @@ def test_a_server_in_trouble_is_asked_again(server: Server) -> None:
 @pytest.mark.parametrize(
     ("reply", "told", "requests"),
     [
-        ((500, "text/plain", b""), "status 500 .after 3 attempts", 3),
-        ((401, "text/plain", b"who are you, vk-1234567890?"), "status 401, expected 200", 1),
-        ((302, "text/plain", b""), "status 302", 1),
-        ((200, "text/html", b"<p>"), "content type 'text/html', expected video/mp4", 1),
-        ((200, "video/mp4", b"0" * 70_000), "more than 0 MiB", 1),
+        ((500, "text/plain", b""), "answers 500 .after 4 attempts", 4),
+        (
+            (401, "text/plain", b"who are you, vk-1234567890?"),
+            r"answers 401: who are you, \[redacted\]",
+            1,
+        ),
+        ((302, "text/plain", b""), "answers 302", 1),
+        ((200, "text/html", b"<p>"), "answers text/html; expected video/mp4", 1),
+        ((200, "video/mp4", b"0" * 70_000), "larger than 0.0572", 1),
     ],
 )
 def test_what_is_no_video_is_told_without_secrets(

@@ -12,12 +12,13 @@ PACKAGE = ROOT / "etot_cli"
 
 BELOW: dict[str, set[str]] = {
     "specs": set(),
+    "services": set(),
     "world": {"specs"},
     "skills": {"specs", "world"},
     "control": {"specs", "world", "skills"},
-    "reasoning": {"specs", "world", "skills", "control"},
+    "reasoning": {"specs", "services", "world", "skills", "control"},
     "planning": {"specs", "world", "skills", "control", "reasoning"},
-    "reconstruction": {"specs", "world"},
+    "reconstruction": {"specs", "world", "services"},
     "reporting": {
         "specs",
         "world",
@@ -30,6 +31,7 @@ BELOW: dict[str, set[str]] = {
     },
     "execution": {
         "specs",
+        "services",
         "world",
         "skills",
         "control",
@@ -39,6 +41,7 @@ BELOW: dict[str, set[str]] = {
     },
     "benchmark": {
         "specs",
+        "services",
         "world",
         "skills",
         "control",
@@ -48,6 +51,7 @@ BELOW: dict[str, set[str]] = {
     },
     "commands": {
         "specs",
+        "services",
         "world",
         "skills",
         "control",

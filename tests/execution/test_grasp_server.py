@@ -15,7 +15,7 @@ from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.observation import Observation, Sighting
 from etot_cli.execution.protocols import Frame
-from etot_cli.reconstruction import services
+from etot_cli.services import endpoint
 from etot_cli.skills.action import parse_plan
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Motion
@@ -98,7 +98,7 @@ def test_the_best_grasp_that_is_free_in_the_twin_is_taken():
         (saying({"grasps": [{"score": 1, "width": -1, "pose": np.eye(4).tolist()}]}),
          "width is -1"),
         (saying({"error": "out of memory"}), "out of memory"),
-        (sending(b"<html>", kind="text/html"), "expected JSON"),
+        (sending(b"<html>", kind="text/html"), "expected application/json"),
         (saying({}, 404), "answers 404"),
     ],
 )  # fmt: skip
@@ -111,7 +111,7 @@ def test_a_server_that_fails_leaves_it_to_the_built_in_sampler(reply, words, cap
 
 
 def test_a_server_that_is_not_there(caplog, monkeypatch):
-    monkeypatch.setattr(services, "FIRST_PAUSE", 0.01)
+    monkeypatch.setattr(endpoint, "FIRST_PAUSE", 0.01)
     assert GraspServer("http://127.0.0.1:9/grasps", Shown(), 2.0).motion(belief(), PICK) is None
     assert "cannot be reached" in caplog.text
 

@@ -22,6 +22,7 @@ import trimesh
 
 from etot_cli.reconstruction import services
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.services import endpoint
 from etot_cli.world.capture import Picture, camera_to_base
 
 pytestmark = pytest.mark.slow
@@ -35,7 +36,7 @@ NAMES = ("masks_server", "mesh_server", "pose_server", "articulation_server")
 def load(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Imports a reference server as a module of its own."""
     monkeypatch.syspath_prepend(str(SERVERS))
-    monkeypatch.setattr(services, "FIRST_PAUSE", 0.01)
+    monkeypatch.setattr(endpoint, "FIRST_PAUSE", 0.01)
 
     def chosen(name: str) -> ModuleType:
         for module in ("stage", name):

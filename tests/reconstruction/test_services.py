@@ -15,6 +15,7 @@ import pytest
 from etot_cli.errors import ServiceError
 from etot_cli.reconstruction import services
 from etot_cli.reconstruction.capture.pictures import encode_png
+from etot_cli.services import endpoint
 from tests.reconstruction.stage_server import Reply, saying, sending, serving
 
 COLOR = np.full((48, 64, 3), 120, np.uint8)
@@ -28,7 +29,7 @@ def a_mask(shape: tuple[int, int] = (48, 64)) -> str:
 
 @pytest.fixture(autouse=True)
 def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(services, "FIRST_PAUSE", 0.01)
+    monkeypatch.setattr(endpoint, "FIRST_PAUSE", 0.01)
 
 
 def test_masks_by_name() -> None:
@@ -50,7 +51,7 @@ BAD: dict[str, tuple[Reply, str]] = {
     "always busy": (saying({}, 503), r"answers 503 \(after 4 attempts\)"),
     "forbidden": (sending(b"who are you?", 403, "text/plain"), "answers 403: who are you?"),
     "redirect": (saying({}, 302), "answers 302"),
-    "web page": (sending(b"<html>", kind="text/html"), "text/html; expected JSON"),
+    "web page": (sending(b"<html>", kind="text/html"), "text/html; expected application/json"),
     "no json": (sending(b"{"), "no valid JSON"),
     "list": (saying([]), "no JSON object"),
     "error": (saying({"error": "out of memory"}), "says: out of memory"),

@@ -20,6 +20,7 @@ from etot_cli.cli.app import run
 from etot_cli.reconstruction import services
 from etot_cli.reconstruction.capture.pictures import decode_png
 from etot_cli.reporting.reconstruct_report import ReconstructReport
+from etot_cli.services import endpoint
 from etot_cli.specs.load import load_scene
 from etot_cli.world.capture import Picture, camera_to_base, write_capture
 from tests.reconstruction.conftest import render
@@ -48,7 +49,7 @@ def etot(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Run:
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(services, "FIRST_PAUSE", 0.01)
+    monkeypatch.setattr(endpoint, "FIRST_PAUSE", 0.01)
     monkeypatch.setenv("ETOT_CACHE", str(tmp_path / "cache"))
 
 
@@ -274,7 +275,7 @@ def test_every_stage_fails_with_one_sentence(
     assert line.startswith(f"error: {name} server http://127.0.0.1:")
     assert re.search(message, line), line
     assert "secret" not in line
-    assert len(requests) <= services.ATTEMPTS
+    assert len(requests) <= endpoint.ATTEMPTS
 
 
 @pytest.mark.parametrize("case", WRONG)

@@ -10,8 +10,8 @@ import pytest
 
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reasoning.vlm.prompts import BUILTIN, NAMES, Prompts
-from etot_cli.reasoning.vlm.redact import Redactor, public_url
 from etot_cli.reasoning.vlm.settings import VlmSettings
+from etot_cli.services.redact import Redactor, public_url
 from tests.vlm.conftest import KEY
 
 

@@ -9,39 +9,28 @@ from __future__ import annotations
 import base64
 import io
 import os
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import av
 import cv2
-import httpx
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.errors import EtotError, ServiceError
-from etot_cli.reasoning.vlm.redact import Redactor, public_url
+from etot_cli.errors import ServiceError
+from etot_cli.services.endpoint import Endpoint, check_address
 
 KEY_VARIABLE = "ETOT_VIDEO_KEY"
 """Environment variable with the bearer token that the server wants, if it wants one."""
 DEADLINE_S = 300.0
 """One video, retries and pauses included [s]: such models take one to two minutes."""
-ATTEMPTS = 3
-PAUSE_S = 1.0
-"""Before the first retry [s]; doubles with the next."""
 MAX_BYTES = 64 * 1024 * 1024
 """Largest video: ten seconds in high definition need a tenth of it."""
 MAX_FRAMES = 1200
 """Decoded at most: forty seconds at 30 Hz."""
 MAX_SIDE = 4096
 """Longest side of a frame [px]."""
-TRANSIENT = frozenset({408, 409, 425, 429, 500, 502, 503, 504})
-
 Frame = NDArray[np.uint8]
-
-
-class _TryAgainError(Exception):
-    """The server may do better the next time."""
 
 
 @dataclass(frozen=True)
@@ -55,15 +44,9 @@ class VideoEndpoint:
     url: str
     key: str | None = field(default_factory=lambda: os.environ.get(KEY_VARIABLE), repr=False)
     deadline_s: float = DEADLINE_S
-    pause_s: float = PAUSE_S
 
     def __post_init__(self) -> None:
-        try:
-            url = httpx.URL(self.url)
-        except httpx.InvalidURL:
-            url = httpx.URL()
-        if url.scheme not in ("http", "https") or not url.host:
-            raise EtotError(f"--video-url: found {public_url(self.url)!r}, expected http(s)://…")
+        check_address(self.url, "--video-url")
 
     def generate(self, image: Frame, prompt: str, seed: int) -> bytes:
         """A video that begins with a picture.
@@ -77,56 +60,15 @@ class VideoEndpoint:
             ServiceError: no video within the deadline.
         """
         request = {"image": encoded(image), "prompt": prompt, "seed": seed}
-        until = time.monotonic() + self.deadline_s
-        reason = "no answer"
-        for attempt in range(ATTEMPTS):
-            if attempt:
-                pause = self.pause_s * 2 ** (attempt - 1)
-                if time.monotonic() + pause >= until:
-                    break
-                time.sleep(pause)
-            try:
-                return self._once(request, until)
-            except _TryAgainError as error:
-                reason = str(error)
-        raise self.error(f"{reason} (after {attempt + 1} attempts)")
+        return self._endpoint.post(request, "video/mp4")
 
     def error(self, reason: str) -> ServiceError:
         """An error that names the server, without what may be secret."""
-        secrets = () if self.key is None else (self.key,)
-        return ServiceError(Redactor(secrets)(f"video server {public_url(self.url)}: {reason}"))
+        return self._endpoint.error(reason)
 
-    def _once(self, request: dict[str, object], until: float) -> bytes:
-        left = max(until - time.monotonic(), 0.1)
-        headers = {"Accept": "video/mp4", "Accept-Encoding": "identity"}
-        if self.key:
-            headers["Authorization"] = f"Bearer {self.key}"
-        try:
-            with (
-                httpx.Client(timeout=left, follow_redirects=False, trust_env=False) as client,
-                client.stream("POST", self.url, json=request, headers=headers) as response,
-            ):
-                if response.status_code in TRANSIENT:
-                    raise _TryAgainError(f"status {response.status_code}")
-                if response.status_code != 200:
-                    raise self.error(f"status {response.status_code}, expected 200")
-                kind = response.headers.get("content-type", "").partition(";")[0].strip()
-                if kind != "video/mp4":
-                    raise self.error(f"content type {kind or 'missing'!r}, expected video/mp4")
-                return self._body(response, until)
-        except httpx.HTTPError as error:
-            raise _TryAgainError(f"{type(error).__name__}: {error}") from None
-
-    def _body(self, response: httpx.Response, until: float) -> bytes:
-        content = bytearray()
-        for chunk in response.iter_bytes():
-            content += chunk
-            if len(content) > MAX_BYTES:
-                raise self.error(f"a video of more than {MAX_BYTES // 2**20} MiB")
-            # A server that drips byte by byte outlasts any timeout of the connection.
-            if time.monotonic() > until:
-                raise _TryAgainError(f"not done within {self.deadline_s:g} s")
-        return bytes(content)
+    @property
+    def _endpoint(self) -> Endpoint:
+        return Endpoint(self.url, "video server", self.deadline_s, MAX_BYTES, self.key)
 
 
 def encoded(image: Frame) -> str:

@@ -18,7 +18,7 @@ from typing import Any
 from etot_cli.errors import EtotError, ServiceError, SpecError
 from etot_cli.reasoning.vlm.chat import Answer, Question, Trouble, Usage
 from etot_cli.reasoning.vlm.images import encode
-from etot_cli.reasoning.vlm.redact import Redactor
+from etot_cli.services.redact import Redactor
 from etot_cli.specs.reading import read_utf8
 
 SCHEMA = "etot.exchange/1"

@@ -20,10 +20,10 @@ from etot_cli.reasoning.vlm.accounts import Accounts
 from etot_cli.reasoning.vlm.cassette import Cassette
 from etot_cli.reasoning.vlm.chat import Answer, Question, Usage
 from etot_cli.reasoning.vlm.envelope import Problem, Remedy, read_response
-from etot_cli.reasoning.vlm.redact import Redactor, public_url
 from etot_cli.reasoning.vlm.settings import DEFAULT_URL, VlmSettings
 from etot_cli.reasoning.vlm.terms import Rung, Terms
-from etot_cli.reasoning.vlm.wire import Wire, WireError
+from etot_cli.services.redact import Redactor, public_url
+from etot_cli.services.wire import Wire, WireError
 
 MAX_BACKOFF_S = 30.0
 MAX_ADAPTATIONS = 12

@@ -11,8 +11,8 @@ from enum import Enum, auto
 from typing import Any
 
 from etot_cli.reasoning.vlm.chat import Answer, Trouble, Usage
-from etot_cli.reasoning.vlm.redact import Redactor
-from etot_cli.reasoning.vlm.wire import Response
+from etot_cli.services.redact import Redactor
+from etot_cli.services.wire import Response
 
 RETRIED = frozenset({408, 409, 425, 429})
 """Besides these, every 5xx."""

@@ -16,9 +16,9 @@ from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.notes import Notebook
 from etot_cli.reasoning.vlm.prompts import Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
-from etot_cli.reasoning.vlm.redact import public_url
 from etot_cli.reasoning.vlm.rendered import RenderedFrames, Unseen, Watched
 from etot_cli.reasoning.vlm.settings import VlmSettings
+from etot_cli.services.redact import public_url
 from etot_cli.specs.scene import Scene
 from etot_cli.world.state import SceneState
 

@@ -61,6 +61,8 @@ class Wire:
         headers: sent with every request; they hold the key and are never shown.
         connect_s, read_s: timeouts of connecting and of the longest silence [s].
         concurrency: requests under way at the same time.
+        largest: answer that is taken [bytes, decompressed].
+        proxies: whether those of the environment are used.
 
     Raises:
         ServiceError: the proxy or TLS settings of the environment cannot be used.
@@ -74,13 +76,15 @@ class Wire:
         connect_s: float,
         read_s: float,
         concurrency: int,
+        largest: int = MAX_BODY,
+        proxies: bool = True,
     ) -> None:
-        self._url = url
+        self._url, self._largest, self._proxies = url, largest, proxies
         self._headers = dict(headers)
         self._timeout = httpx.Timeout(read_s, connect=connect_s, pool=None)
         self._slots = threading.BoundedSemaphore(concurrency)
         self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._loop.run_forever, name="vlm", daemon=True)
+        self._thread = threading.Thread(target=self._loop.run_forever, name="http", daemon=True)
         self._thread.start()
         try:
             self._client = self._run(self._open(), 30.0)
@@ -132,7 +136,9 @@ class Wire:
 
     async def _open(self) -> httpx.AsyncClient:
         headers = {"Accept-Encoding": "identity", **self._headers}
-        return httpx.AsyncClient(headers=headers, timeout=self._timeout, follow_redirects=False)
+        return httpx.AsyncClient(
+            headers=headers, timeout=self._timeout, follow_redirects=False, trust_env=self._proxies
+        )
 
     async def _post(
         self, body: bytes, headers: Mapping[str, str], read_s: float | None, deadline_s: float
@@ -145,7 +151,7 @@ class Wire:
                 async with self._client.stream(
                     "POST", self._url, content=body, headers=headers, timeout=timeout
                 ) as response:
-                    return await _collect(response)
+                    return await _collect(response, self._largest)
         except TimeoutError:
             raise WireError(f"no complete answer within {deadline_s:g} s") from None
         except httpx.ConnectTimeout:
@@ -161,21 +167,24 @@ class Wire:
             raise WireError(f"the connection broke ({_reason(error)})") from None
 
 
-async def _collect(response: httpx.Response) -> Response:
+async def _collect(response: httpx.Response, largest: int) -> Response:
     encoding = response.headers.get("content-encoding", "").strip().lower()
     if encoding not in ("", "identity", "gzip", "deflate"):
         # Layers of compression turn kilobytes into gigabytes; none of them was asked for.
-        raise WireError(f"the answer is compressed as {encoding[:40]!r}")
+        raise WireError(f"the answer is compressed as {encoding[:40]!r}", passing=False)
     # Unpacked here and not by the library, which unpacks a chunk before its size is known.
     unpack = zlib.decompressobj(ANY_ZLIB) if encoding in ("gzip", "deflate") else None
     body = bytearray()
-    async for chunk in response.aiter_raw():
-        try:
-            body += chunk if unpack is None else unpack.decompress(chunk, MAX_BODY + 1 - len(body))
-        except zlib.error as error:
-            raise WireError(f"the answer's compression is damaged ({error})") from None
-        if len(body) > MAX_BODY:
-            raise WireError(f"the answer is larger than {MAX_BODY // 2**20} MiB")
+    # Closed at once where the answer is refused: left to the collector, it outlives the loop.
+    async with contextlib.aclosing(response.aiter_raw()) as chunks:
+        async for chunk in chunks:
+            try:
+                left = largest + 1 - len(body)
+                body += chunk if unpack is None else unpack.decompress(chunk, left)
+            except zlib.error as error:
+                raise WireError(f"the answer's compression is damaged ({error})") from None
+            if len(body) > largest:
+                raise WireError(f"the answer is larger than {largest / 2**20:g} MiB", passing=False)
     kind = response.headers.get("content-type", "").split(";")[0].strip().lower()
     return Response(
         status=response.status_code,

@@ -1,0 +1,1 @@
+"""Servers over HTTP: one bounded request, retries, and secrets that stay secret."""
