@@ -176,12 +176,13 @@ def open_cell(request: DeviceRequest) -> Cell:
         ServiceError: a device, or the software for it, is not there.
     """
     check_names(request.robot, request.perception)
+    if request.grasp_url is not None:
+        check_address(request.grasp_url, "--grasp-url")
     opened = ROBOTS[request.robot_name](request)
     eyes = EYES[request.perception](request, opened)
     grasps = None
     if request.grasp_url is not None:
         if not isinstance(eyes, CameraEyes):
             raise EtotError("--grasp-url shows the server a picture; expected --perception camera")
-        check_address(request.grasp_url, "--grasp-url")
         grasps = GraspServer(request.grasp_url, eyes)
     return Cell(opened.robot, eyes, opened.world, grasps)

@@ -12,9 +12,9 @@ import contextlib
 import re
 import threading
 import zlib
-from collections.abc import Coroutine, Mapping
+from collections.abc import AsyncGenerator, Coroutine, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import httpx
 
@@ -176,7 +176,8 @@ async def _collect(response: httpx.Response, largest: int) -> Response:
     unpack = zlib.decompressobj(ANY_ZLIB) if encoding in ("gzip", "deflate") else None
     body = bytearray()
     # Closed at once where the answer is refused: left to the collector, it outlives the loop.
-    async with contextlib.aclosing(response.aiter_raw()) as chunks:
+    raw = cast(AsyncGenerator[bytes, None], response.aiter_raw())
+    async with contextlib.aclosing(raw) as chunks:
         async for chunk in chunks:
             try:
                 left = largest + 1 - len(body)

@@ -86,6 +86,7 @@ def test_nothing_can_be_done(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         (["--robot", "teapot"], "--robot 'teapot': expected sim", 2),
         (["--robot", "sim:other"], "'sim:other': expected nothing behind 'sim'", 2),
         (["--perception", "rumour"], "--perception 'rumour': expected state", 2),
+        (["--grasp-url", "ftp://me:hidden@host/?key=hidden"], "found 'ftp://host/', expected", 2),
         (["--robot", "worker:"], "no command after 'worker:'", 2),
         (["--robot", "worker:'open"], "is no command: No closing quotation", 2),
         (["--robot", "worker:true", "--jobs", "2"], "--jobs 2: there is one robot", 2),
@@ -98,7 +99,8 @@ def test_what_cannot_be(
 ) -> None:
     task = write(tmp_path)
     assert run(["execute", task, *words, "--out", str(tmp_path / "out")]) == code
-    assert message in "".join(capsys.readouterr())
+    said = "".join(capsys.readouterr())
+    assert message in said and "hidden" not in said
     assert (tmp_path / "out" / "report.json").exists() == (code != 2)
 
 

@@ -87,13 +87,16 @@ def test_no_address(url: str) -> None:
         services.ask_masks(url, COLOR, [], deadline=2.0)
 
 
-def test_a_drip_of_bytes_ends_at_the_deadline() -> None:
+@pytest.mark.parametrize("drop", [b"X-More: and more\r\n", b" "])
+def test_a_drip_of_bytes_ends_at_the_deadline(drop: bytes) -> None:
     def drip(handler: BaseHTTPRequestHandler, _: dict[str, Any]) -> None:
         handler.send_response(200)
         handler.send_header("content-type", "application/json")
-        handler.end_headers()
-        for _i in range(100):
-            handler.wfile.write(b" ")
+        if drop == b" ":
+            handler.end_headers()
+        handler.flush_headers()
+        for _i in range(60):
+            handler.wfile.write(drop)
             handler.wfile.flush()
             time.sleep(0.1)
 

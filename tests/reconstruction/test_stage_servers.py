@@ -221,7 +221,7 @@ EVERYWHERE: dict[str, tuple[Reply, str]] = {
     "forbidden": (sending(b"no", 403, "text/plain"), "answers 403: no"),
     "too slow": (sleepy, "no complete answer within 0.5 s"),
     "too much": (sending(b" " * 3_000_000), "larger than 2 MiB"),
-    "hangs up": (hanging_up, "cannot be reached"),
+    "hangs up": (hanging_up, "connection broke"),
     "an error": (saying({"error": "out of memory"}), "says: out of memory"),
 }
 WRONG: dict[str, tuple[str, Any, str]] = {
