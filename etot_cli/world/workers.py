@@ -7,7 +7,6 @@ a second loss is the task's result, :class:`WorkerLostError`. Other tasks never 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import multiprocessing
 import os
 import signal
@@ -22,21 +21,14 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
+from etot_cli.world.worker import HANDLERS, how_it_ended, work
+
 METHOD = "fork" if sys.platform.startswith("linux") else "spawn"
 """How workers start; forked ones share what the parent has built."""
 TRIES = 2
 """Workers that may die on one task. One death can be chance, two are the task's fault."""
 IDLE_DEATHS = 4
 """Workers per job that may die with nothing to do before the pool gives up."""
-PARENT_CHECK_S = 0.25
-"""Between two looks at whether the parent lives, where the kernel does not tell [s]."""
-OUT_OF_MEMORY = 77
-"""Exit code of a worker that memory ran out in; what it still holds is not worth keeping."""
-_PR_SET_PDEATHSIG = 1
-
-_HANDLERS: dict[int, Any] = {signal.SIGINT: signal.SIG_IGN, signal.SIGTERM: signal.SIG_DFL}
-if hasattr(signal, "SIGHUP"):
-    _HANDLERS[signal.SIGHUP] = signal.SIG_IGN
 
 Result = TypeVar("Result")
 
@@ -145,7 +137,7 @@ class WorkerPool:
         try:
             if hasattr(signal, "pthread_sigmask"):
                 # Inherited by workers, which are not ready for signals while they start.
-                signal.pthread_sigmask(signal.SIG_BLOCK, _HANDLERS)
+                signal.pthread_sigmask(signal.SIG_BLOCK, HANDLERS)
             self._fill()
             self._ready.set()
             while not self._closing:
@@ -174,7 +166,7 @@ class WorkerPool:
             inherited = [ours, self._wake, self._bell, *(w.pipe for w in self._workers)]
         try:
             process = self._context.Process(
-                target=_work,
+                target=work,
                 args=(theirs, inherited, os.getpid(), *self._begin),
                 daemon=True,
             )  # fmt: skip
@@ -244,7 +236,7 @@ class WorkerPool:
         if task is None:
             self._idle_deaths += 1
             if self._idle_deaths > IDLE_DEATHS * self._jobs:
-                raise WorkerLostError(f"worker processes keep ending ({_how(code)})")
+                raise WorkerLostError(f"worker processes keep ending ({how_it_ended(code)})")
         else:
             task.deaths += 1
             if task.deaths < TRIES:
@@ -253,7 +245,7 @@ class WorkerPool:
             else:
                 task.future.set_exception(
                     WorkerLostError(f"the process that worked on it ended {TRIES} times, last time "
-                                    f"{_how(code)}")
+                                    f"{how_it_ended(code)}")
                 )  # fmt: skip
         self._fill()
 
@@ -279,88 +271,3 @@ class WorkerPool:
             if task.future.cancel() or task.future.done():
                 continue
             task.future.set_exception(WorkerLostError(str(reason) or type(reason).__name__))
-
-
-def _how(code: int | None) -> str:
-    """How a process ended, in words."""
-    if code == OUT_OF_MEMORY:
-        return "out of memory"
-    if code is not None and code < 0:
-        try:
-            return f"killed by {signal.Signals(-code).name}"
-        except ValueError:
-            return f"killed by signal {-code}"
-    return f"with exit code {code}"
-
-
-# -- in the worker -----------------------------------------------------------------------------
-
-
-def _work(
-    pipe: Connection,
-    inherited: list[Connection],
-    parent: int,
-    begin: Callable[..., None],
-    arguments: tuple[Any, ...],
-) -> None:
-    # The parent's handlers mean nothing here. Ctrl-C and a hang-up reach the whole process group;
-    # only the parent answers them.
-    for number, handler in _HANDLERS.items():
-        signal.signal(number, handler)
-    if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, _HANDLERS)
-    _die_with(parent)
-    # A copy of the other ends would keep pipes open that the parent has closed.
-    for other in inherited:
-        other.close()
-    try:
-        begin(*arguments)
-        while True:
-            function, given = pipe.recv()
-            try:
-                result = False, function(*given)
-            except MemoryError:
-                raise
-            except Exception as error:  # delivered to whoever asks for the result
-                result = True, error
-            try:
-                pipe.send(result)
-            except (TypeError, AttributeError, ValueError) as error:
-                pipe.send((True, RuntimeError(f"the result cannot be sent: {error}")))
-    except MemoryError:
-        os._exit(OUT_OF_MEMORY)
-    except (EOFError, OSError):
-        os._exit(0)  # the parent has closed the pipe
-
-
-def parent_death(number: signal.Signals) -> Callable[[], None]:
-    """What a new process calls to be sent a signal when the thread that started it ends.
-
-    Only Linux can do that; elsewhere the call does nothing.
-    """
-    prctl: Any = None
-    if sys.platform.startswith("linux"):
-        with contextlib.suppress(OSError, AttributeError):
-            prctl = ctypes.CDLL(None, use_errno=True).prctl
-
-    def ask_for_it() -> None:
-        if prctl is not None:
-            prctl(_PR_SET_PDEATHSIG, number)
-
-    return ask_for_it
-
-
-def _die_with(parent: int) -> None:
-    """Sees to it that this process ends when its parent does, however that ends."""
-    parent_death(signal.SIGKILL)()
-    with contextlib.suppress(RuntimeError):  # no room for a thread: the kernel has to do
-        threading.Thread(target=_watch, args=(parent,), daemon=True).start()
-
-
-def _watch(parent: int) -> None:
-    process = multiprocessing.parent_process()
-    # Where the parent died before this line, its number has already been given away.
-    while process is not None and process.is_alive() and (os.name == "nt" or
-                                                          os.getppid() == parent):  # fmt: skip
-        process.join(PARENT_CHECK_S)
-    os._exit(1)

@@ -19,7 +19,7 @@ from typing import IO, Any
 
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.robots.worker_messages import line_of
-from etot_cli.world.workers import parent_death
+from etot_cli.world.worker import parent_death
 
 MAX_LINE = 64 * 1024 * 1024
 """Largest reply [bytes]: a frame of 12 megapixels fits."""
