@@ -421,8 +421,10 @@ class Loop:
         last = self._carried[-1] if self._carried else None
         if last is not None and last.failure_class is not None:
             return last.failure_class
-        # Nobody's failure where somebody took away what it needed.
-        return None if self._happened else FailureClass.PLANNING
+        # Nobody's failure where somebody took something away; what was moved can be planned for.
+        scene = self._scene
+        gone = scene is not None and any(state.lost for state in scene.states.values())
+        return None if self._happened and gone else FailureClass.PLANNING
 
     def _robot_s(self) -> float:
         if self._begun_s is None:

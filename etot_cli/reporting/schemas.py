@@ -1,4 +1,6 @@
-"""JSON Schemas of all reports: ``python -m etot_cli.reporting.schemas docs/schemas``."""
+"""JSON Schemas of all reports, and of the files that are one document each:
+``python -m etot_cli.reporting.schemas docs/schemas``.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,10 @@ import json
 import sys
 from pathlib import Path
 
+from pydantic import BaseModel
+
+from etot_cli.benchmark.suite import Suite
+from etot_cli.execution.cameras.calibration import Calibration
 from etot_cli.reporting.bench_report import BenchReport, CompareReport
 from etot_cli.reporting.execute_report import ExecuteReport
 from etot_cli.reporting.files import write_atomically
@@ -28,11 +34,19 @@ REPORTS: dict[str, type[Model]] = {
     "etot.trial-1.json": TrialReport,
 }
 """Schema file name → report model."""
+INPUTS: dict[str, type[BaseModel]] = {
+    "etot.suite-1.json": Suite,
+    "etot.calibration-1.json": Calibration,
+}
+"""Schema file name → model of a file that is read, for editors. Tasks and scenes are put together
+from several files, which no schema of one of them can tell; docs/formats.md has their keys.
+"""
 
 
-def schema_text(model: type[Model]) -> str:
-    """A report model's JSON Schema, as it stands in its file."""
-    schema = model.model_json_schema(mode="serialization")
+def schema_text(model: type[BaseModel]) -> str:
+    """A model's JSON Schema, as it stands in its file."""
+    written = issubclass(model, Model)
+    schema = model.model_json_schema(mode="serialization" if written else "validation")
     return json.dumps({"$schema": DIALECT, **schema}, indent=2, ensure_ascii=False) + "\n"
 
 
@@ -41,7 +55,7 @@ def main(arguments: list[str]) -> int:
     if len(arguments) != 1:
         print("usage: python -m etot_cli.reporting.schemas FOLDER", file=sys.stderr)
         return 2
-    for name, model in REPORTS.items():
+    for name, model in (REPORTS | INPUTS).items():
         write_atomically(Path(arguments[0]) / name, schema_text(model))
     return 0
 

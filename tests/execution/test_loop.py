@@ -74,6 +74,10 @@ def test_what_was_moved_is_seen_before_the_next_motion_and_planned_anew(tmp_path
     moved = np.subtract(second.states["ball"].position, first.states["ball"].position)
     assert moved[1] == pytest.approx(0.1, abs=0.02)
     assert [item.text for item in trial.disturbances] == ["move ball by 0 0.1"]
+    unready = run(small_task(tmp_path, MOVED), Scripted([IN_TWO]))
+    assert unready.failure_class is FailureClass.PLANNING, (
+        "the ball is still there to be planned for"
+    )
 
 
 def test_without_disturbances_nothing_happens(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+import yaml
 
 from etot_cli.commands.plan import PlanOptions, run_plan
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
@@ -17,7 +18,7 @@ from etot_cli.planning.trials import CHOOSING_WORLDS
 from etot_cli.reporting.files import claim_folder, report_text, write_atomically, write_report
 from etot_cli.reporting.models import Report
 from etot_cli.reporting.plan_report import PlanReport
-from etot_cli.reporting.schemas import REPORTS, schema_text
+from etot_cli.reporting.schemas import INPUTS, REPORTS, schema_text
 from etot_cli.skills.action import Action
 from etot_cli.world.state import Cause, CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails, plan
@@ -42,10 +43,22 @@ def planned(
     return run_plan(options or PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
 
 
-@pytest.mark.parametrize("name", REPORTS)
+@pytest.mark.parametrize("name", REPORTS | INPUTS)
 def test_schema_files_are_up_to_date(name: str) -> None:
     """If this fails: python -m etot_cli.reporting.schemas docs/schemas."""
-    assert (SCHEMAS / name).read_text(encoding="utf-8") == schema_text(REPORTS[name])
+    assert (SCHEMAS / name).read_text(encoding="utf-8") == schema_text((REPORTS | INPUTS)[name])
+
+
+def test_suites_keep_to_their_schema_and_name_it() -> None:
+    schema = json.loads((SCHEMAS / "etot.suite-1.json").read_text(encoding="utf-8"))
+    for path in (SCHEMAS.parents[1] / "suites").glob("*.yaml"):
+        text = path.read_text(encoding="utf-8")
+        jsonschema.validate(yaml.safe_load(text), schema)
+        first = text.splitlines()[0]
+        assert first.startswith("# yaml-language-server: $schema=")
+        assert (path.parent / first.partition("=")[2]).resolve() == SCHEMAS / "etot.suite-1.json"
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate({**yaml.safe_load(text), "trails": 3}, schema)
 
 
 def test_schemas_are_schemas() -> None:
