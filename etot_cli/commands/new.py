@@ -14,6 +14,8 @@ from typing import Any
 import yaml
 
 from etot_cli.errors import EtotError, SpecError
+from etot_cli.reasoning.builtin.demands import demands
+from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.topview import top_view
@@ -115,9 +117,16 @@ def write_task(options: NewOptions) -> NewTask:
         )
     kept = options.file.exists()
     before = read_utf8(options.file, MAX_BYTES, "a task") if kept else None
-    write_atomically(options.file, _text(options.instruction, document))
+    success = [{"present": name} for name in document["objects"]]
+    write_atomically(options.file, _text(options.instruction, document, success))
     try:
-        return _look(options.file)
+        made = _look(options.file)
+        demanded = [] if made.problem else demands(goal_of(options.instruction, made.state))
+        if demanded:
+            text = _text(options.instruction, document, [*demanded, *success])
+            write_atomically(options.file, text)
+            load_task(options.file)
+        return made
     except EtotError as error:
         # Whoever mends an option and tries again must not find a file in the way.
         if before is None:
@@ -171,15 +180,16 @@ def _known(objects: dict[str, Any], name: str, source: Path) -> None:
         raise EtotError(f"{source} has no object {name!r}; it has {', '.join(objects) or 'none'}")
 
 
-def _text(instruction: str, scene: dict[str, Any]) -> str:
+def _text(instruction: str, scene: dict[str, Any], success: Sequence[dict[str, Any]]) -> str:
     head = (
         "# A task of your own. Metres, kilograms, degrees; x ahead of the robot, y to its left.\n"
-        "# 'success' is what the result is checked against; the planner never sees it.\n"
+        "# 'success' is what the result is checked against; the planner never sees it. It begins\n"
+        "# with what the instruction demands as it was understood: check that, and add to it.\n"
     )
     document = {
         "instruction": instruction,
         "scene": scene,
-        "success": [{"present": name} for name in scene["objects"]],
+        "success": [*success],
     }
     text = yaml.safe_dump(
         document, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100

@@ -16,10 +16,17 @@ import pytest
 from etot_cli.cli.app import run
 from etot_cli.commands.new import TEMPLATES, NewOptions, write_task
 from etot_cli.errors import EtotError
+from etot_cli.reasoning.builtin.demands import demands
+from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.specs.load import load_task
 from etot_cli.specs.shipped import find_shipped, shipped_files
+from tests.reasoning.scenes import ball, cup, drawers, item, scene
 
 ROOT = Path(__file__).parents[2]
+SEEN = scene(
+    ball("ball", (0.3, 0.1)), cup("cup", (0.3, -0.2)), item("block", at=(0.3, 0.3), label="box"),
+    drawers("chest", (0.5, 0.0), {"top": 0.0}),
+)  # fmt: skip
 
 
 def test_new_task_is_ready_to_plan(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -33,9 +40,28 @@ def test_new_task_is_ready_to_plan(tmp_path: Path, capsys: pytest.CaptureFixture
     task = load_task(file)
     assert task.scene.objects["black_holder"].at == (0.30, -0.2)
     assert "pen" not in task.scene.objects
+    assert task.success[0].inside == ("ball", "white_holder"), "what the instruction demands"
+    assert {item.present for item in task.success[1:]} == set(task.scene.objects)
     assert "[PICK UP, ball] [PUT INTO, white_holder]" in capsys.readouterr().out
     words = "".join(ElementTree.parse(tmp_path / "mine.svg").getroot().itertext())
     assert "ball" in words and "robot" in words
+
+
+@pytest.mark.parametrize(
+    ("instruction", "demanded"),
+    [
+        ("Open the drawer, then put the box in it and close it.",
+         [{"closed": "chest"}, {"inside": ["block", "chest"]}]),
+        ("Put the ball or the box into the cup.",
+         [{"any": [{"inside": ["ball", "cup"]}, {"inside": ["block", "cup"]}]}]),
+        ("Put the ball and the box on the desk.",
+         [{"on": ["ball", "desk"]}, {"on": ["block", "desk"]}]),
+        ("Pick up the ball.", [{"in_hand": "ball"}]),
+        ("Put the ball to the left of the cup.", []),
+    ],
+)  # fmt: skip
+def test_success_is_what_was_asked_for(instruction: str, demanded: list[dict[str, object]]) -> None:
+    assert demands(goal_of(instruction, SEEN)) == demanded
 
 
 @pytest.mark.parametrize("kind", sorted(TEMPLATES))
