@@ -240,3 +240,310 @@ def stationery() -> SceneState:
         item("red_tray", "box", (0.65, 0.10), size=(0.20, 0.16, 0.02), color="red"),
         item("green_tray", "box", (0.65, -0.15), size=(0.20, 0.16, 0.02), color="green"),
     )  # fmt: skip
+
+
+def galley() -> SceneState:
+    """Two mugs, a plate, bowls, food; a cabinet of three drawers, a shelf of two boards."""
+    return scene(
+        item("plate", "box", (0.42, 0.05), size=FLAT, color="white"),
+        item("bowl", "bowl", (0.40, -0.20), size=BOWL, color="blue"),
+        item("ramekin", "bowl", (0.28, -0.30), size=(0.08, 0.08, 0.04), color="white"),
+        cup("red_mug", (0.30, 0.30), color="red"),
+        cup("blue_mug", (0.30, 0.15), color="blue"),
+        ball("lemon", (0.55, 0.10), color="yellow"),
+        item("carrot", "capsule", (0.52, -0.05), size=(0.15, 0.03, 0.03), color="orange"),
+        item("spoon", "pen", (0.25, 0.0), size=(0.16, 0.03, 0.02), color="gray"),
+        drawers("cabinet", (0.62, 0.42), {"top": 0.0, "middle": 0.9, "bottom": 0.0}, color="brown"),
+        item("shelf", "shelf", (0.65, -0.40), size=(0.25, 0.30, 0.4), boards=("lower", "upper")),
+    )
+
+
+def bench() -> SceneState:
+    """Three bolts of growing size, bins, a wrench in a toolbox, a drill on a tray, a locker."""
+    return scene(
+        item(
+            "bolt_1", "cylinder", (0.30, 0.30), size=(0.02, 0.02, 0.04), label="bolt", color="gray"
+        ),
+        item(
+            "bolt_2", "cylinder", (0.30, 0.15), size=(0.03, 0.03, 0.06), label="bolt", color="gray"
+        ),
+        item(
+            "bolt_3", "cylinder", (0.30, 0.00), size=(0.04, 0.04, 0.08), label="bolt", color="gray"
+        ),
+        item("red_bin", "bowl", (0.45, 0.25), size=(0.12, 0.12, 0.06), color="red"),
+        item("green_bin", "bowl", (0.45, 0.00), size=(0.18, 0.18, 0.08), color="green"),
+        item("toolbox", "bowl", (0.45, -0.25), size=(0.25, 0.18, 0.10), color="blue"),
+        item(
+            "wrench",
+            "capsule",
+            (0.45, -0.25),
+            size=(0.15, 0.03, 0.02),
+            on="toolbox",
+            inside="toolbox",
+            color="gray",
+            z=0.17,
+        ),
+        item("tray", "box", (0.30, -0.35), size=(0.25, 0.18, 0.02), color="black"),
+        item(
+            "drill",
+            "box",
+            (0.30, -0.35),
+            size=(0.10, 0.05, 0.08),
+            on="tray",
+            color="yellow",
+            z=0.20,
+        ),
+        cabinet("locker", (0.65, 0.35), 0.0, color="gray"),
+    )
+
+
+def writing_desk() -> SceneState:
+    """Three books, an eraser on the middle one, pens, a cup, a drawer on either side."""
+    return scene(
+        item(
+            "blue_book",
+            "box",
+            (0.40, 0.25),
+            size=(0.20, 0.14, 0.03),
+            color="blue",
+            label="blue book",
+        ),
+        item(
+            "red_book", "box", (0.40, 0.00), size=(0.20, 0.14, 0.03), color="red", label="red book"
+        ),
+        item(
+            "green_book",
+            "box",
+            (0.40, -0.25),
+            size=(0.22, 0.16, 0.05),
+            color="green",
+            label="green book",
+        ),
+        cup("pen_cup", (0.25, 0.10), color="white"),
+        item("pen", "pen", (0.25, 0.30), size=(0.15, 0.01, 0.01), color="black"),
+        item("marker", "pen", (0.25, -0.10), size=(0.14, 0.02, 0.02), color="red"),
+        item(
+            "eraser",
+            "box",
+            (0.40, 0.00),
+            size=(0.04, 0.02, 0.015),
+            on="red_book",
+            color="pink",
+            z=0.17,
+        ),
+        drawers("left_drawer", (0.62, 0.35), {"main": 0.0}, label="left drawer", color="gray"),
+        drawers("right_drawer", (0.62, -0.35), {"main": 0.9}, label="right drawer", color="gray"),
+        item("stapler", "box", (0.55, 0.0), size=(0.12, 0.04, 0.05), color="black"),
+    )
+
+
+def laboratory() -> SceneState:
+    """Beakers and cubes in three colours, a marble in a beaker, a rack of three boards."""
+    return scene(
+        cup("red_beaker", (0.45, 0.25), color="red"),
+        cup("green_beaker", (0.45, 0.00), color="green"),
+        cup("blue_beaker", (0.45, -0.25), color="blue"),
+        item("red_cube", "box", (0.30, 0.20), size=CUBE, color="red"),
+        item("green_cube", "box", (0.30, 0.00), size=(0.05, 0.05, 0.05), color="green"),
+        item("blue_cube", "box", (0.30, -0.20), size=(0.06, 0.06, 0.06), color="blue"),
+        ball(
+            "marble", (0.45, 0.00), on="green_beaker", inside="green_beaker", color="white", z=0.16
+        ),
+        item(
+            "rack", "shelf", (0.65, 0.0), size=(0.25, 0.40, 0.4), boards=("bottom", "middle", "top")
+        ),
+        item(
+            "petri_dish",
+            "bowl",
+            (0.55, 0.40),
+            size=(0.10, 0.10, 0.03),
+            color="white",
+            label="petri dish",
+        ),
+    )
+
+
+def larder() -> SceneState:
+    """Two shelves, two red cans and a green one, a jar, two bottles, an egg in a crate."""
+    return scene(
+        item(
+            "left_shelf",
+            "shelf",
+            (0.65, 0.40),
+            size=(0.2, 0.25, 0.4),
+            boards=("lower", "upper"),
+            label="left shelf",
+        ),
+        item(
+            "right_shelf",
+            "shelf",
+            (0.65, -0.40),
+            size=(0.2, 0.25, 0.4),
+            boards=("lower", "upper"),
+            label="right shelf",
+        ),
+        item(
+            "can_1", "cylinder", (0.30, 0.25), size=(0.06, 0.06, 0.10), label="red can", color="red"
+        ),
+        item(
+            "can_2", "cylinder", (0.30, 0.10), size=(0.06, 0.06, 0.10), label="red can", color="red"
+        ),
+        item(
+            "can_3",
+            "cylinder",
+            (0.30, -0.05),
+            size=(0.06, 0.06, 0.10),
+            label="green can",
+            color="green",
+        ),
+        item("jar", "cylinder", (0.45, 0.20), size=(0.08, 0.08, 0.12), color="yellow"),
+        item(
+            "big_bottle",
+            "cylinder",
+            (0.45, 0.00),
+            size=(0.08, 0.08, 0.25),
+            label="big bottle",
+            color="green",
+        ),
+        item(
+            "small_bottle",
+            "cylinder",
+            (0.45, -0.15),
+            size=(0.05, 0.05, 0.15),
+            label="small bottle",
+            color="blue",
+        ),
+        item("basket", "bowl", (0.30, -0.30), size=(0.22, 0.22, 0.10), color="brown"),
+        item("crate", "bowl", (0.50, -0.30), size=(0.20, 0.20, 0.08), color="gray"),
+        ball("egg", (0.50, -0.30), on="crate", inside="crate", color="white", z=0.17),
+    )
+
+
+def repair_shop() -> SceneState:
+    """Two toolboxes, a chest of drawers, three screws, a hammer, tape on a mat, a cabinet."""
+    return scene(
+        item("red_toolbox", "bowl", (0.45, 0.30), size=(0.20, 0.16, 0.10), color="red"),
+        item("blue_toolbox", "bowl", (0.45, -0.30), size=(0.20, 0.16, 0.10), color="blue"),
+        drawers("chest", (0.65, 0.00), {"top": 0.9, "bottom": 0.0}, color="brown"),
+        item(
+            "screw_1",
+            "cylinder",
+            (0.25, 0.20),
+            size=(0.01, 0.01, 0.03),
+            label="screw",
+            color="gray",
+        ),
+        item(
+            "screw_2",
+            "cylinder",
+            (0.25, 0.00),
+            size=(0.01, 0.01, 0.03),
+            label="screw",
+            color="gray",
+        ),
+        item(
+            "screw_3",
+            "cylinder",
+            (0.25, -0.20),
+            size=(0.01, 0.01, 0.03),
+            label="screw",
+            color="gray",
+        ),
+        item("hammer", "capsule", (0.35, 0.10), size=(0.25, 0.04, 0.04), color="brown"),
+        item("mat", "box", (0.35, -0.10), size=(0.20, 0.20, 0.01), color="green"),
+        item(
+            "tape",
+            "cylinder",
+            (0.35, -0.10),
+            size=(0.08, 0.08, 0.03),
+            on="mat",
+            color="yellow",
+            z=0.15,
+        ),
+        cabinet("cabinet", (0.65, 0.45), 0.0, color="white"),
+    )
+
+
+def bureau() -> SceneState:
+    """A mug, a cup, a glass, two notebooks, a folder, a tray, a key, three drawers."""
+    return scene(
+        cup("mug", (0.30, 0.30), color="blue"),
+        cup("cup", (0.30, 0.10), color="white"),
+        item("glass", "cup", (0.30, -0.10), size=(0.06, 0.06, 0.12), color=None),
+        item(
+            "big_notebook",
+            "box",
+            (0.45, 0.20),
+            size=(0.25, 0.18, 0.02),
+            label="notebook",
+            color="blue",
+        ),
+        item(
+            "small_notebook",
+            "box",
+            (0.45, -0.10),
+            size=(0.15, 0.10, 0.02),
+            label="notebook",
+            color="blue",
+        ),
+        item("folder", "box", (0.45, -0.30), size=(0.22, 0.16, 0.01), color="red"),
+        item("tray", "box", (0.30, -0.35), size=(0.25, 0.18, 0.02), color="black"),
+        cup("organizer", (0.60, -0.10), color="black"),
+        item(
+            "pencil",
+            "pen",
+            (0.60, -0.10),
+            size=(0.15, 0.01, 0.01),
+            on="organizer",
+            inside="organizer",
+            color="yellow",
+            z=0.2,
+        ),
+        item("key", "box", (0.25, 0.0), size=(0.05, 0.02, 0.01), color="yellow"),
+        drawers("drawer", (0.65, 0.30), {"top": 0.0, "middle": 0.0, "bottom": 0.9}, color="gray"),
+    )
+
+
+def counter() -> SceneState:
+    """Three plates of growing size, a cup on a saucer, fruit, a fork, a fridge, two drawers."""
+    return scene(
+        item(
+            "small_plate",
+            "box",
+            (0.30, 0.35),
+            size=(0.12, 0.12, 0.015),
+            label="plate",
+            color="white",
+        ),
+        item(
+            "medium_plate",
+            "box",
+            (0.30, 0.10),
+            size=(0.16, 0.16, 0.015),
+            label="plate",
+            color="white",
+        ),
+        item(
+            "large_plate",
+            "box",
+            (0.30, -0.20),
+            size=(0.20, 0.20, 0.015),
+            label="plate",
+            color="white",
+        ),
+        item("saucer", "box", (0.45, -0.05), size=(0.12, 0.12, 0.01), color="blue"),
+        cup("red_cup", (0.45, -0.05), on="saucer", color="red", z=0.18),
+        cup("green_cup", (0.45, 0.15), color="green"),
+        ball("pear", (0.50, 0.30), color="green"),
+        ball("peach_1", (0.55, -0.20), label="peach", color="orange"),
+        ball("peach_2", (0.55, 0.05), label="peach", color="orange"),
+        item("fork", "pen", (0.25, -0.40), size=(0.16, 0.02, 0.02), color="gray"),
+        cabinet("fridge", (0.68, 0.45), 0.0, color="white"),
+        drawers(
+            "drawers",
+            (0.68, -0.35),
+            {"upper": 0.0, "lower": 0.0},
+            label="drawer unit",
+            color="brown",
+        ),
+    )

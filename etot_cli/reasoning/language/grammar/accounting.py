@@ -56,7 +56,8 @@ _ALIKE = {
 """Words that a tree may have one for the other."""
 _FIXED = """
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
-    (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back, right next,
+    (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
+    right (next|behind|beside|in|on|by),
     at the very, (first|last) of all, one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of, (to|at) the end, all the rest,
     (near|close|next|closer|nearer) to,

@@ -39,6 +39,7 @@ def _is_noun(given: Input, text: str) -> bool:
 
 NOUN_WORD = word(_is_noun)
 OPTIONAL_COMMA = optional(COMMA)
+EXACTLY = silent(optional(phrase(small_words.EXACTLY), None))
 
 
 def _alternatives(

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, OF, OR, alternatives
+from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, EXACTLY, OF, OR, alternatives
 from etot_cli.reasoning.language.grammar.noun_phrases import coordinated, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
@@ -44,7 +44,7 @@ _NEARBY = one_of(places.NEARBY)
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
 BESIDE = either(
-    sequence(_NEARBY, noun_phrase, build=_beside),
+    sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
     sequence(
         _ITS_SIDE,
         build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import EITHER, LIST, NOUN_WORD, OR, WITH
+from etot_cli.reasoning.language.grammar.common import EITHER, EXACTLY, LIST, NOUN_WORD, OR, WITH
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
@@ -55,7 +55,7 @@ def _with_prep(prep: Prep, np: NounPhrase) -> Modifier:
 
 
 _plain_modifier = either(
-    sequence(PREPOSITION, noun_phrase, build=_with_prep),
+    sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
         silent(phrase("[in] between")),
         noun_phrase,

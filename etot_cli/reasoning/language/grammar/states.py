@@ -85,6 +85,12 @@ ENSURE = either(
         NP_LIST,
         silent(optional(phrase("to be"), None)),
         PREDICATE,
-        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
+        some(
+            sequence(
+                LIST, NP_LIST, silent(optional(phrase("to be"), None)), PREDICATE, build=state_of
+            ),
+            most=4,
+        ),
+        build=lambda nps, predicate, more: EnsureClause((state_of(nps, predicate), *more)),
     ),
 )

@@ -113,6 +113,7 @@ EMPTY = either(
     sequence(
         silent(phrase(verbs.TIDY)),
         THINGS,
+        silent(optional(phrase("away, up"), None)),
         DESTINATIONS,
         build=lambda things, where: PutClause((PutGroup(things, where),)),
     ),

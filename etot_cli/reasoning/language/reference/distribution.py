@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, PutGroup
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -44,7 +45,8 @@ def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination,
 def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
     words = phrase.words
     if words[:1] == ("own",) and phrase.determiner in ("its", "their"):
-        return replace(phrase, determiner="any", words=words[1:]), Grouping.SEPARATELY
+        return replace(phrase, determiner="one", words=words[1:]), Grouping.SEPARATELY
     if words and words[0] in _DIFFERENT:
-        return replace(phrase, determiner="", words=words[1:]), Grouping.SEPARATELY
+        determiner = "one" if singular(words[-1]) == words[-1] else ""
+        return replace(phrase, determiner=determiner, words=words[1:]), Grouping.SEPARATELY
     return phrase, None

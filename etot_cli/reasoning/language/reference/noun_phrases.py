@@ -33,7 +33,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
 )
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import DESK, SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
@@ -327,6 +327,8 @@ class Resolver:
             if modifier.prep is Prep.BETWEEN and _means_the_others(modifier):
                 things = _between_the_others(things, phrase, self._scene)
                 continue
+            if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
+                raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
             ways = {
                 tuple(related(modifier, things, landmarks, quantity, count, self._scene))
                 for landmarks in self._landmark_sets(modifier, phrase, pronoun)

@@ -170,14 +170,15 @@ class Places:
         surfaces = [place for place in places if place.relation is Relation.ON]
         if not surfaces:
             raise ReferenceProblem(text, "there is no left or right inside a container", 2)
-        if all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside):
-            # "On the plate on the left" is the left one of several, not the left part of any.
-            targets = [item for item in destination.targets if not item.pronoun]
-            meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
-            things = [thing for options in meant for option in options for thing in option]
-            stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
-            if len(things) > 1 or (stacked and things[0].board is None):
-                raise ReferenceProblem(text, "say which one of them", 2)
+        # "On the plate on the left" is the left one of several, not the left part of any, and "on
+        # the plate next to the cup" the one of several that is there.
+        targets = [item for item in destination.targets if not item.pronoun]
+        meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
+        things = [thing for options in meant for option in options for thing in option]
+        stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
+        part = all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside)
+        if len(things) > 1 or (part and stacked and things[0].board is None):
+            raise ReferenceProblem(text, "say which one of them", 2)
         near = tuple(self._near(item, themes) for item in destination.beside)
         return [replace(place, beside=near) for place in surfaces]
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
-from etot_cli.reasoning.language.reference.antecedents import UNCLEAR
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.reference.usual_form import is_robot
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
+    ORDINALS,
     THING_NOUNS,
     is_descriptive,
     matches_any,
@@ -185,6 +186,7 @@ class Phrases:
         self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
     ) -> Resolved:
         if noun is not None and not is_descriptive(noun) and _leaves_noun_out(phrase):
+            self._check_count(phrase, noun)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other
         named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
@@ -198,6 +200,15 @@ class Phrases:
             parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
             pronoun=self._pronoun_things,
         )
+
+    def _check_count(self, phrase: NounPhrase, noun: str) -> None:
+        """After "two cups … the third" is the one that is left, not the third from the left."""
+        if not any(word in ORDINALS for word in phrase.words):
+            return
+        for mention in self.discourse.mentions:
+            referent = self.discourse.referents[mention.referent]
+            if same_noun(mention.noun, noun) and len(referent.options) > 1:
+                raise AmbiguousReference(phrase.text, [f"what {referent.text} leave", "a number"])
 
     def _spoken_part(self, resolved: Resolved) -> Resolved:
         """After "the lower drawer" "the drawer" is that one, not the whole chest."""

@@ -47,6 +47,8 @@ THEN_JOINTS = """
     [and|but] then, [and] after that, [and] afterwards, [and] next, [and] finally, after which,
     and later
 """
+EXACTLY = "right, directly, immediately, just, straight"
+"""Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you]"
 AFTER = "(once|after|when) [you have|having|you]"
 SO_THAT = "so that, such that, so, until, in such a way that"
