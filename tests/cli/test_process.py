@@ -95,6 +95,7 @@ def test_reader_that_goes_away(tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr and "BrokenPipe" not in done.stderr
 
 
+@pytest.mark.slow
 def test_real_rooms_refuse_a_missing_file(tmp_path: Path) -> None:
     done = call([*REAL, "plan", "none.yaml"], tmp_path)
     assert done.returncode == 2

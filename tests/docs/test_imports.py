@@ -132,6 +132,7 @@ def test_planning_and_builtin_reasoning_see_plain_data_only(room: str) -> None:
                     assert name in modules, f"{path.relative_to(ROOT)} imports {module}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("library", "without"), [("mujoco", WITHOUT_MUJOCO), ("httpx", WITHOUT_HTTP)]
 )

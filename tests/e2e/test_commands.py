@@ -166,6 +166,7 @@ def test_an_unknown_opengl_library_is_no_defect(
     assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_interrupt_leaves_a_valid_report(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [sys.executable, "-m", "etot_cli.cli.app", "plan", "tasks/task7.yaml", "--jobs", "2",

@@ -235,6 +235,7 @@ def test_realsense(tmp_path, monkeypatch):
     camera.close()
 
 
+@pytest.mark.slow
 @pytest.mark.render
 def test_rendered_pictures_have_noise_and_whole_millimetres():
     need_opengl()

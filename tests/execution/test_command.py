@@ -51,6 +51,7 @@ def without_clocks(trial: dict[str, Any]) -> dict[str, Any]:
     return trial
 
 
+@pytest.mark.slow
 def test_trials_side_by_side_give_the_same(tmp_path: Path) -> None:
     task = write(tmp_path)
     words = ["execute", task, "--trials", "2", "-q", "--no-html"]
@@ -104,6 +105,7 @@ def test_what_cannot_be(
     assert (tmp_path / "out" / "report.json").exists() == (code != 2)
 
 
+@pytest.mark.slow
 def test_a_signal_leaves_a_report(tmp_path: Path) -> None:
     task = write(tmp_path)
     process = subprocess.Popen(

@@ -42,6 +42,7 @@ def test_odds_that_come_true_are_reliable_and_constant_ones_resolve_nothing() ->
     assert same.resolution == pytest.approx(0.0)
 
 
+@pytest.mark.slow
 def test_perfect_odds_are_explained_by_their_draws_and_optimistic_ones_are_not() -> None:
     odds = np.linspace(0.02, 0.98, 60)
     honest = np.mean(

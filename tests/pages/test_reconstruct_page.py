@@ -36,6 +36,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.render
 def test_page_shows_twin_and_camera(browser: Browser, page: Path) -> None:
     browser.open(page)

@@ -77,6 +77,7 @@ def test_the_corpus_is_large_and_has_many_traps() -> None:
     assert len(cases("refused")) >= 350
 
 
+@pytest.mark.slow
 def test_reading_takes_little_time() -> None:
     """The bounds are ten times what an idle machine takes, so that a busy one passes, too."""
     taken = []

@@ -73,6 +73,7 @@ def test_a_strip_of_something_in_front_hides_the_object() -> None:
     assert (found.before ^ front).sum() < 0.05 * front.sum()
 
 
+@pytest.mark.slow
 def test_a_drawer_that_stands_open_a_little_is_seen_despite_noise() -> None:
     """A longer block explains most of it, but not the step at the drawer's front."""
     truth = np.array([0.40, 0.02, DESK, 2.0, 0.211, 0.178, 0.155, 0.026])

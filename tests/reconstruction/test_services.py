@@ -137,6 +137,7 @@ def test_a_pose_is_checked() -> None:
         services.ask_pose(url, {})
 
 
+@pytest.mark.slow
 def test_stages_are_taken_over(picture, folder: Path) -> None:
     """Masks and a mesh of unknown scale from servers, all the way through."""
     import trimesh

@@ -92,6 +92,7 @@ def test_masks(etot: Run, folder: Path, picture: Picture, tmp_path: Path) -> Non
     assert set(load_scene(tmp_path / "out" / "scene.yaml").objects) == {"red_ball", "mug"}
 
 
+@pytest.mark.slow
 def test_a_mesh_of_unknown_scale(etot: Run, folder: Path, picture: Picture, tmp_path: Path) -> None:
     """The first answer is that the server is busy."""
     with serving(saying({}, 503), saying(mesh_reply(ball_mesh()))) as (url, requests):
@@ -133,6 +134,7 @@ def true_pose(picture: Picture) -> np.ndarray:
     return np.asarray(np.linalg.inv(camera_to_base(picture.camera)) @ pose)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [0.0, 120.0])
 def test_a_pose(etot: Run, block: tuple[Path, Picture], turned: float) -> None:
     """A right pose is taken; a wrong one is noticed and put right."""

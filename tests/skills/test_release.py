@@ -29,6 +29,7 @@ def thing_of(kind: str, size: float) -> dict[str, object]:
     return {"kind": kind, **shape, "mass": 0.05, "at": [0.36, 0.15]}
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     kind=st.sampled_from(["sphere", "cylinder"]),

@@ -313,6 +313,7 @@ def test_the_cache_is_on_by_default(etot: Etot, monkeypatch: pytest.MonkeyPatch)
 # -- sight ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.render
 def test_a_model_that_does_not_see_is_found_out(
     etot: Etot, monkeypatch: pytest.MonkeyPatch

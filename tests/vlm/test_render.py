@@ -44,6 +44,7 @@ def trajectory() -> Trajectory:
     return Trajectory(times, rows, (0.8, 0.8, 1.9999))
 
 
+@pytest.mark.slow
 @pytest.mark.render
 def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> None:
     files = write_frames(SCENE, [Take(trajectory)] * 2, tmp_path / "frames")
@@ -76,6 +77,7 @@ def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
         write_video(SCENE, [Take(trajectory)], tmp_path / "file" / "run.mp4")
 
 
+@pytest.mark.slow
 @pytest.mark.render
 def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) -> None:
     bare = SCENE.model_copy(update={"cameras": {}})

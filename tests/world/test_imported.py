@@ -74,6 +74,7 @@ def test_hollow_mesh_is_a_container(tmp_path: Path, cache: Path) -> None:
     assert not mesh_world(tmp_path, "ring.stl").entries["thing"].info.container
 
 
+@pytest.mark.slow
 def test_second_build_takes_the_pieces_from_the_cache(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -93,6 +94,7 @@ def test_second_build_takes_the_pieces_from_the_cache(
     assert len(calls) == 2 and len(list(cache.iterdir())) == 2, "other content, other entry"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["garbage", "truncated", "empty"])
 def test_damaged_cache_entry_is_made_again(tmp_path: Path, cache: Path, damage: str) -> None:
     RING.export(tmp_path / "ring.stl")
