@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     MoveClause,
     NounPhrase,
     Order,
+    PickClause,
     PutClause,
     Spoken,
     State,
@@ -157,6 +158,8 @@ def _said(node: object) -> Iterator[str]:
             yield "same"
         case Destination(toward=Toward.HOME):
             yield "back"
+        case PickClause(poses=poses) if len(poses) > 1:
+            yield "either"
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
