@@ -199,7 +199,7 @@ def _out_of_bounds(found: object, shape: Shape, kind: str) -> str:
     bound, meaning = shape.bound(bound_type), shape.meaning
     if bound is None or meaning is None or not isinstance(found, int | float):
         return _found_expected(found, shape)
-    message = f"found {show(found)}, expected {meaning.text} of {words} {bound:g}"
+    message = f"found {show(found)}, expected {meaning.text} of {words} {bound:.10g}"
     hints = [
         f"{found:g} {unit} is {found / factor:g}"
         for unit, factor in meaning.confusions

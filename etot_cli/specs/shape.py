@@ -141,13 +141,13 @@ def _bounds(shape: Shape) -> str:
     high, below = shape.bound(Le), shape.bound(Lt)
     words = []
     if low is not None:
-        words.append(f"at least {low:g}")
+        words.append(f"at least {low:.10g}")
     if over is not None:
-        words.append(f"more than {over:g}")
+        words.append(f"more than {over:.10g}")
     if high is not None:
-        words.append(f"at most {high:g}")
+        words.append(f"at most {high:.10g}")
     if below is not None:
-        words.append(f"less than {below:g}")
+        words.append(f"less than {below:.10g}")
     return f" of {' and '.join(words)}" if words else ""
 
 

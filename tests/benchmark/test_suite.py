@@ -86,6 +86,7 @@ def test_suites_that_name_each_other_come_to_an_end(tmp_path: Path) -> None:
         ("tasks: [one.yaml]\nseeds: [1]\ntrials: 2\n", ":1", "either 'seeds'"),
         ("tasks:\n  - one.yaml\n  - gone.yaml\n", ":3", "no file or folder 'gone.yaml'"),
         ("tasks:\n  - /etc/passwd\n", ":2", "relative"),
+        ("tasks: [one.yaml]\nseed: -1\n", ":2", "and at most 4294967295"),
         ("tasks:\n  - random:0\n", ":2", "random:N"),
         ("tasks:\n  - random:many\n", ":2", "random:N"),
         ("tasks: [one.yaml]\nseeds: [3, 4, 3]\n", ":1", "has 3 twice"),
