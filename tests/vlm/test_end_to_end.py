@@ -70,6 +70,12 @@ def plan(
     return code, json.loads(Path("out/report.json").read_text(encoding="utf-8")), server.requests
 
 
+@pytest.fixture
+def small_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures that nobody looks at; drawing costs time."""
+    monkeypatch.setenv("ETOT_VLM_IMAGE_WIDTH", "160")
+
+
 def decode(image: bytes) -> NDArray[np.uint8]:
     pixels = cv2.imdecode(np.frombuffer(image, np.uint8), cv2.IMREAD_COLOR)
     assert pixels is not None
@@ -132,6 +138,7 @@ def test_frames_of_a_failure_show_what_happens() -> None:
     assert "touches tennis_ball" in text and "Before the action" in text
 
 
+@pytest.mark.usefixtures("small_frames")
 def test_a_recorded_run_is_replayed_to_the_same_tree() -> None:
     first = plan(4, "--record", "tape")
     again = plan(4, "--replay", "tape", rules=[])
@@ -173,6 +180,7 @@ def test_no_opengl_is_a_clear_message(
     assert "OpenGL is missing" in message and "libegl1" in message and message.count("\n") == 1
 
 
+@pytest.mark.usefixtures("small_frames")
 def test_several_worlds_and_jobs_change_no_answer() -> None:
     code, report, _ = plan(2, "--worlds", "2", "--jobs", "2", rules=TASKS[2])
     assert code == 0 and " ".join(report["plan"]) == PLANS[2]
@@ -181,6 +189,7 @@ def test_several_worlds_and_jobs_change_no_answer() -> None:
     assert len(compared) <= report["statistics"]["nodes_evaluated"]
 
 
+@pytest.mark.usefixtures("small_frames")
 def test_a_wrong_pick_is_named_in_the_repair() -> None:
     rules = [
         rule("branches", "1. [PICK UP, stapler]\n2. [PUT INTO, white holder]", turn=0),
