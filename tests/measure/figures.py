@@ -85,9 +85,9 @@ def strip(task: str, plan: str) -> list[np.ndarray]:
     assert simulation.scene is not None
     shots = [film[-1].shot(row) for row in _four_rows(film[-1])]
     # An action that is refused has no moments of its own: then how it came to that is shown.
-    earlier = [(part, row) for part in film[:-1] for row in (0, len(part.trajectory.times) - 1)]
-    wanted = earlier[max(0, len(earlier) - (PICTURES - len(shots))) :]
-    shots = [part.shot(row) for part, row in wanted[: PICTURES - len(shots)]] + shots
+    ends = [(part, len(part.trajectory.times) - 1) for part in film[:-1]]
+    wanted = [(film[0], 0), *ends][-(PICTURES - len(shots)) :] if len(shots) < PICTURES else []
+    shots = [part.shot(row) for part, row in wanted] + shots
     return _take(simulation.scene, film[0].trajectory.qpos[0], shots, SMALL)
 
 

@@ -32,7 +32,8 @@
     return { count, p: buffer(p), c: buffer(c), n: buffer(n) };
   };
   const points = upload(data.view.points, false), bodies = upload(data.view.bodies, true);
-  let azimuth = 0.6, elevation = 0.6, distance = 1.2;
+  // A narrow window sees less to the sides: as far away as shows the same.
+  let azimuth = 0.6, elevation = 0.6, distance = 1.2 * Math.max(1, 1.3 * canvas.clientHeight / canvas.clientWidth);
   const target = data.view.target;
   const multiply = (a, b) => { const o = new Float32Array(16); for (let i = 0; i < 4; i++) for (let j = 0; j < 4; j++) for (let k = 0; k < 4; k++) o[4 * j + i] += a[4 * k + i] * b[4 * j + k]; return o; };
   function draw() {
