@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
@@ -193,3 +194,21 @@ def test_two_before_a_door_are_named_until_none_is_left(hinge: str) -> None:
         assert record.cause is not None and record.cause.objects[0] in things, record.cause
         del things[record.cause.objects[0]]
     episode(oven=oven, **things).must("[OPEN, oven]")
+
+
+@pytest.mark.parametrize(("shift", "yaw"), [(0.0, -90), (0.008, -84)])
+def test_a_drawer_is_not_thrown_shut(shift: float, yaw: float) -> None:
+    """What stands in it would fall over. The hand turns on its way, so an even speed of the joints
+    is no even speed of the hand.
+    """
+    low = {"name": "low", "travel": 0.13, "handle": {"width": 0.09, "depth": 0.04}}
+    unit = UNIT | {"at": [0.45 + shift, 0.28], "yaw_deg": yaw, "size": [0.22, 0.2, 0.2]}
+    unit |= {"mass": 3.0, "drawers": [low | {"name": "high"}, low | {"open": 0.13}]}
+    run = episode(keep_frames=True, unit=unit)
+    run.must("[CLOSE, unit.low]")
+    trajectory = run.done[-1].trajectory
+    assert trajectory is not None
+    joint = run.simulated.world.parts["unit.low"].joint
+    index = int(run.simulated.world.model.joint(joint).qposadr[0])
+    opening = np.array(trajectory.qpos)[:, index]
+    assert np.abs(np.diff(opening) / np.diff(trajectory.times)).max() < 0.24
