@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from etot_cli.errors import SpecError
 from etot_cli.planning.conditions import holds
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import SceneState
@@ -73,8 +74,6 @@ def evaluate(success: Sequence[Condition], final: SceneState, watch: HarmWatch) 
 
 def _holds(condition: Condition, scene: SceneState) -> bool:
     """As :func:`etot_cli.planning.conditions.holds`; what has been taken away fulfils nothing."""
-    from etot_cli.errors import SpecError
-
     try:
         return holds(condition, scene)
     except SpecError:

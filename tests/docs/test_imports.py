@@ -115,6 +115,30 @@ def test_who_plans_a_motion_does_not_step_physics() -> None:
         assert not called & {"mj_step", "mj_step1", "mj_step2", "rollout"}, path
 
 
+def test_the_judge_of_trials_is_not_that_of_actions() -> None:
+    """They share the state alone; a formal goal is read as a task's conditions are."""
+    for module in ("execution/evaluation.py", "planning/conditions.py"):
+        used = {name for name in imports(PACKAGE / module) if name.startswith("etot_cli.")}
+        rooms_used = {".".join(name.split(".")[:3]) for name in used}
+        assert not {name for name in rooms_used if name.startswith("etot_cli.reasoning")}, module
+    judging = [path for room in ("reasoning", "skills", "control") for path in files(room)]
+    for path in [*judging, PACKAGE / "planning" / "search.py"]:
+        assert not any("conditions.holds" in name or "planning.conditions" in name
+                       for name in imports(path)), path  # fmt: skip
+
+
+def test_a_method_sees_nothing_of_the_world_that_it_acts_in() -> None:
+    seen = {
+        name
+        for path in files("benchmark/methods")
+        for name in imports(path)
+        if name.startswith("etot_cli.execution.")
+    }
+    assert {name.split(".")[3] for name in seen if name.count(".") == 3} == {
+        "FailureClass", "Planned", "Planner", "Trial", "why_not",
+    }  # fmt: skip
+
+
 def test_rules_have_no_circle() -> None:
     order: list[str] = []
     while len(order) < len(BELOW):
