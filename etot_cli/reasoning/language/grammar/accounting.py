@@ -58,7 +58,7 @@ _ALIKE = {
 _FIXED = """
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
-    right (next|behind|beside|in|on|by),
+    right (next|behind|beside|in front),
     at the very, (first|last) of all, one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of, (to|at) the end, all the rest,
     (near|close|next|closer|nearer) to,
@@ -152,6 +152,8 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
         case TowerClause():
             yield from (_ORDER, "top", "bottom")
+        case PickClause(poses=poses) if len(poses) > 1:
+            yield "either"
         case SwapClause():
             yield "other"
         case AgainClause():

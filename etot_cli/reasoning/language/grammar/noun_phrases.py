@@ -356,6 +356,10 @@ NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_bo
 
 
 def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
+    """One of several things; "what is in a cup or a bowl" is no choice between that and a bowl."""
+    landmarks = [any(item.phrases for item in np.modifiers) for np in nps]
+    if any(landmarks[:-1]) and not landmarks[-1]:
+        return None
     whole = coordinated(nps[0], nps[1:]) if len(nps) > 1 else None
     return None if whole is None else Things(whole, either=True)
 

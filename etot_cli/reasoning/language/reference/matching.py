@@ -51,6 +51,8 @@ class Match:
     notes: tuple[str, ...] = ()
     dropped: tuple[str, ...] = ()
     """Words of these notes that do not tell one thing from another."""
+    loose: bool = False
+    """The noun is but another word of their names."""
 
 
 def match_words(
@@ -199,7 +201,12 @@ def _match_in(
     if loose and any(_is_object(entry) for entry in entries):
         sifted.notes.append(f"read {head!r} as {_names(entries)}")
     return Match(
-        entries, tuple(sifted.selectors), plural, tuple(sifted.notes), tuple(sifted.dropped)
+        entries,
+        tuple(sifted.selectors),
+        plural,
+        tuple(sifted.notes),
+        tuple(sifted.dropped),
+        loose=best == PART_OF_NAME,
     )
 
 

@@ -182,6 +182,9 @@ class Resolver:
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"say which of {names}", 2)
+        if match.plural and match.loose and len(things) == 1 and not quantity.count:
+            why = f"only {things[0].name} is called so"
+            raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"it is not the only one: {names}", 2, word="only")
@@ -342,6 +345,10 @@ class Resolver:
                 raise ReferenceProblem(
                     phrase.text, f"this is true of none of what it could mean ({names})", 1
                 )
+            bare = modifier.denied and modifier.prep is Prep.WITH
+            if bare and found == things and len(things) == 1:
+                why = "there is no other one that this would tell it from"
+                raise ReferenceProblem(phrase.text, why, 2)
             things = found
         return things
 

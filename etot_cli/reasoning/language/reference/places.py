@@ -141,9 +141,10 @@ class Places:
         laid = [thing for theme in themes for thing in self.discourse.things(theme)]
         if toward is Toward.ON and fits_in:
             self._check_alike(laid, things, index)
+        on = (thing for thing in things if toward is not Toward.TO or self._is_support(thing))
         fits_on = any(
             can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
-            for thing in things
+            for thing in on
         )
         if fits_in and (toward is not Toward.ON or not fits_on):
             found.append(Place(Relation.INSIDE, index))
@@ -153,6 +154,12 @@ class Places:
             names = " or ".join(dict.fromkeys(thing.name for thing in things))
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found
+
+    def _is_support(self, thing: Thing) -> bool:
+        """Whether what is brought to a thing goes on top of it; a vessel takes things in."""
+        return (
+            thing.name == DESK or thing.board is not None or self._scene.infos[thing.name].surface
+        )
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""

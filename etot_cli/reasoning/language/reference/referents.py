@@ -154,6 +154,14 @@ class Phrases:
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
+        quantity = quantity_of(phrase.determiner)
+        if quantity.other and quantity.definite and (quantity.count or 1) > 1:
+            # "One cup … the other two": which they are depends on the one.
+            with suppress(ReferenceProblem):
+                rest = replace(phrase, determiner="all other")
+                others = self._others(self._with_noun(rest, role, noun_before))
+                if all(len(option) == quantity.count for option in others.options):
+                    return others
         resolved = self._with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
             return self._others(resolved)
