@@ -169,6 +169,7 @@ def test_interrupting_keeps_what_is_finished(tmp_path: Path) -> None:
         assert len(journal.results) == 3
 
 
+@pytest.mark.slow
 def test_killed_at_random_moments_and_gone_on_with(tmp_path: Path) -> None:
     root = Path(__file__).parents[2]
     rng = random.Random(5)

@@ -130,6 +130,7 @@ def test_existing_file_is_kept(tmp_path: Path) -> None:
     assert file.read_text() == "precious"
 
 
+@pytest.mark.slow
 def test_questions_are_asked_where_somebody_answers(tmp_path: Path) -> None:
     ours, theirs = pty.openpty()
     process = subprocess.Popen(

@@ -55,6 +55,7 @@ def test_help_imports_nothing_heavy(tmp_path: Path, arguments: str) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_a_valid_report(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [*TOY, "plan", "toy.yaml", "--out", "x", "--jobs", "1"], cwd=tmp_path, env=environment(),
@@ -72,6 +73,7 @@ def test_ctrl_c_leaves_a_valid_report(tmp_path: Path) -> None:
     assert "interrupted" in out
 
 
+@pytest.mark.slow
 def test_ctrl_c_reaches_background_jobs_of_a_shell(tmp_path: Path) -> None:
     """Shells start background jobs with SIGINT ignored."""
     command = " ".join(TOY) + " plan toy.yaml --out x -q > log & pid=$!; "
@@ -81,6 +83,7 @@ def test_ctrl_c_reaches_background_jobs_of_a_shell(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "x" / "report.json").read_text())["interrupted"] is True
 
 
+@pytest.mark.slow
 def test_ascii_terminals_are_no_obstacle(tmp_path: Path) -> None:
     done = call([*TOY, "plan", "toy.yaml", "--max-nodes", "2"], tmp_path, PYTHONIOENCODING="ascii")
     assert done.returncode == 1
@@ -88,6 +91,7 @@ def test_ascii_terminals_are_no_obstacle(tmp_path: Path) -> None:
     (done.stdout + done.stderr).encode("ascii")
 
 
+@pytest.mark.slow
 def test_reader_that_goes_away(tmp_path: Path) -> None:
     command = " ".join(TOY) + " plan toy.yaml --max-nodes 1 --json | head -c 10"
     done = call(["sh", "-c", command], tmp_path)

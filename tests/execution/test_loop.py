@@ -219,6 +219,7 @@ def test_the_world_and_the_twin_share_nothing(tmp_path: Path) -> None:
     assert not np.allclose(fresh.world.model.actuator_gainprm, model.actuator_gainprm)
 
 
+@pytest.mark.slow
 def test_trials_do_not_depend_on_those_before_them(tmp_path: Path) -> None:
     task = small_task(tmp_path)
     pick = Assignment("Pick up the ball.")

@@ -71,6 +71,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_bench_page(report, folder)
 
 
+@pytest.mark.slow
 def test_a_cell_leads_to_its_trials_and_their_pages(browser: Browser, page: Path) -> None:
     browser.open(page)
     assert browser.opened_in_s() < OPENS_IN_S

@@ -186,6 +186,7 @@ def test_only_useless_masks_are_an_error(folder: Path) -> None:
         reconstruct(Options(capture=folder))
 
 
+@pytest.mark.slow
 def test_overlapping_masks_are_a_warning(folder: Path) -> None:
     crate, marker = (cv2.imread(str(folder / "masks" / f"{name}.png"), cv2.IMREAD_GRAYSCALE)
                      for name in ("crate", "marker"))  # fmt: skip
@@ -195,6 +196,7 @@ def test_overlapping_masks_are_a_warning(folder: Path) -> None:
     assert twin.document["objects"]["marker"]["on"] == "crate"
 
 
+@pytest.mark.slow
 def test_things_without_depth_are_fitted_to_their_outlines(folder: Path) -> None:
     depth = cv2.imread(str(folder / "depth.png"), cv2.IMREAD_UNCHANGED)
     ball = cv2.imread(str(folder / "masks" / "ball.png"), cv2.IMREAD_GRAYSCALE)

@@ -163,6 +163,7 @@ def test_stages_are_taken_over(picture, folder: Path) -> None:
     assert np.linalg.norm(twin.solids[0].center - true["position"]) < 0.003
 
 
+@pytest.mark.slow
 def test_a_mesh_server_that_sends_no_mesh(folder: Path) -> None:
     from etot_cli.reconstruction.pipeline import Options, reconstruct
 

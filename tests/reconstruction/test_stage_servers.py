@@ -165,6 +165,7 @@ JOINTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", JOINTS)
 def test_a_joint(etot: Run, folder: Path, picture: Picture, case: str) -> None:
     said, kind, joint = JOINTS[case]
@@ -188,6 +189,7 @@ def test_a_joint(etot: Run, folder: Path, picture: Picture, case: str) -> None:
     assert found["axis"] == pytest.approx(axis, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_nothing_to_move(etot: Run, folder: Path) -> None:
     with serving(saying({"type": "none"})) as (url, _):
         code, report, _ = etot(only(folder, "crate", "marker"), "--articulation-url", url)

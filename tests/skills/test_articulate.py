@@ -167,6 +167,7 @@ GRIPPED = UNIT | {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -> None:
     vase, aside = VASE | {"at": [0.42, -0.015]}, VASE | {"at": [0.42, -0.35]}
     record = episode(unit=GRIPPED, vase=vase, other=aside).do("[OPEN, unit]").record
@@ -182,6 +183,7 @@ def test_what_lies_in_a_closed_drawer_is_not_in_the_way() -> None:
     assert run.must("[OPEN, unit]").states["ball"].inside == "unit"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hinge", ["left", "right"])
 def test_two_before_a_door_are_named_until_none_is_left(hinge: str) -> None:
     door = {"hinge": hinge, "handle": {}}

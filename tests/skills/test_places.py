@@ -203,6 +203,7 @@ def test_same_question_same_answer(hand: Hand) -> None:
     np.testing.assert_array_equal(hand.spots(), hand.spots())
 
 
+@pytest.mark.slow
 def test_a_lid_lies_on_the_rim_of_a_cup_and_a_small_block_does_not() -> None:
     cup = {"kind": "cup", "diameter": 0.09, "height": 0.08, "mass": 0.2, "at": [0.42, -0.1]}
     lid = {"kind": "box", "size": [0.11, 0.08, 0.015], "mass": 0.1}

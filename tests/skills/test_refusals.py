@@ -77,6 +77,7 @@ def test_no_room_names_who_fills_it(
     assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
 
 
+@pytest.mark.slow
 def test_the_arm_alone_is_to_blame_for_what_is_too_far() -> None:
     cause = refused("[PUT INTO, bowl]", bowl=BOWL | {"at": [0.85, 0.0]})
     assert cause.kind is CauseKind.UNREACHABLE

@@ -59,6 +59,7 @@ def test_progress_is_monotonic_and_on_a_straight_path(seed: int, speed: float) -
     assert timed == pytest.approx(path[0] + share[:, None] * direction, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(seeds, speeds)
 @settings(deadline=None, max_examples=50)
 def test_corners_are_cut_by_less_than_a_clearance(seed: int, speed: float) -> None:

@@ -112,6 +112,7 @@ def test_builtin_reports_no_model(etot: Etot) -> None:
     assert etot(GOOD, "--reasoner", "builtin").report["vlm"] is None
 
 
+@pytest.mark.slow
 def test_a_disagreement_is_in_the_report(etot: Etot) -> None:
     rules = [
         rule(

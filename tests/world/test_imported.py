@@ -32,6 +32,7 @@ def mesh_world(folder: Path, name: str, **more: Any) -> World:
 # -- meshes ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["stl", "obj", "glb"])
 def test_mesh_keeps_its_hole(tmp_path: Path, cache: Path, ending: str) -> None:
     """Convex pieces follow the ring: through its middle a line is free, through its wall not."""
@@ -64,6 +65,7 @@ def test_scale_and_offset(tmp_path: Path, cache: Path) -> None:
     assert stage.data.body("thing").xipos == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_hollow_mesh_is_a_container(tmp_path: Path, cache: Path) -> None:
     RING.export(tmp_path / "ring.stl")
     ball = BALL | {"diameter": 0.03, "inside": "thing", "mass": 0.01}
@@ -110,6 +112,7 @@ def test_damaged_cache_entry_is_made_again(tmp_path: Path, cache: Path, damage: 
         assert len(stored.files) > 3
 
 
+@pytest.mark.slow
 def test_cache_that_cannot_be_written_only_costs_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
