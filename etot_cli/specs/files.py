@@ -10,8 +10,9 @@ import os.path
 import re
 from pathlib import Path
 
+from etot_cli.specs.disturbance import Disturbance
 from etot_cli.specs.document import DataPath, Node
-from etot_cli.specs.objects import Mesh, Mjcf
+from etot_cli.specs.objects import Mesh, Mjcf, SceneObject
 from etot_cli.specs.scene import Scene
 
 MAX_FILE_BYTES = 50 * 1024 * 1024
@@ -19,6 +20,7 @@ MAX_FILE_BYTES = 50 * 1024 * 1024
 MESH_SUFFIXES = (".obj", ".stl", ".glb")
 MJCF_SUFFIXES = (".xml", ".mjcf")
 ROBOT_SUFFIXES = (".yaml", ".yml")
+Disturbances = Disturbance | tuple[Disturbance, ...] | None
 _BUILT_IN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,47}")
 
 
@@ -38,13 +40,10 @@ def resolve_files(scene: Scene, node: Node, directory: Path) -> Scene:
         SpecError: a file outside its folder tree, missing, too large or of another format.
     """
     home = directory.resolve()
-    objects = dict(scene.objects)
-    for name, item in scene.objects.items():
-        if isinstance(item, Mesh | Mjcf):
-            suffixes = MESH_SUFFIXES if isinstance(item, Mesh) else MJCF_SUFFIXES
-            found = _resolve(node, ("objects", name, "file"), item.file, suffixes)
-            relative = Path(os.path.relpath(found, home)).as_posix()
-            objects[name] = item.model_copy(update={"file": relative})
+    objects = {
+        name: _resolve_object(item, node, ("objects", name), home)
+        for name, item in scene.objects.items()
+    }
     update: dict[str, object] = {"objects": objects, "directory": str(home)}
     if is_robot_file(scene.robot):
         found = _resolve(node, ("robot",), scene.robot, ROBOT_SUFFIXES)
@@ -55,6 +54,40 @@ def resolve_files(scene: Scene, node: Node, directory: Path) -> Scene:
             f"found {scene.robot!r}, expected a built-in robot's name or a robot's YAML file",
         )
     return scene.model_copy(update=update)
+
+
+def resolve_added(given: Disturbances, node: Node, directory: Path) -> Disturbances:
+    """The same for objects that disturbances bring onto the scene.
+
+    Args:
+        given: a task's disturbances: one, several or none.
+        node: the task's document.
+        directory: the scene's own folder.
+
+    Raises:
+        SpecError: as for those of the scene.
+    """
+    home = directory.resolve()
+
+    def resolved(item: Disturbance, path: DataPath) -> Disturbance:
+        if item.object is None:
+            return item
+        found = _resolve_object(item.object, node, (*path, "object"), home)
+        return item.model_copy(update={"object": found})
+
+    if isinstance(given, Disturbance):
+        return resolved(given, ("disturbance",))
+    if given is None:
+        return None
+    return tuple(resolved(item, ("disturbance", rank)) for rank, item in enumerate(given))
+
+
+def _resolve_object(item: SceneObject, node: Node, path: DataPath, home: Path) -> SceneObject:
+    if not isinstance(item, Mesh | Mjcf):
+        return item
+    suffixes = MESH_SUFFIXES if isinstance(item, Mesh) else MJCF_SUFFIXES
+    found = _resolve(node, (*path, "file"), item.file, suffixes)
+    return item.model_copy(update={"file": Path(os.path.relpath(found, home)).as_posix()})
 
 
 def is_robot_file(robot: str) -> bool:

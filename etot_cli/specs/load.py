@@ -7,7 +7,7 @@ from pathlib import Path
 
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.document import Node, Place, read_document
-from etot_cli.specs.files import resolve_files
+from etot_cli.specs.files import resolve_added, resolve_files
 from etot_cli.specs.include import as_include, expand, merge, project_root
 from etot_cli.specs.inputs import input_digests
 from etot_cli.specs.problems import first_error, validate
@@ -61,7 +61,10 @@ def load_task(path: str | Path, *, reach: float | None = None) -> Task:
     scene_node = keys["scene"]
     scene = resolve_files(task.scene, scene_node, scene_file.parent)
     inputs = input_digests(node, scene, file)
-    task = task.model_copy(update={"scene": scene, "file": str(path), "inputs": inputs})
+    added = resolve_added(task.disturbance, node, scene_file.parent)
+    task = task.model_copy(
+        update={"scene": scene, "file": str(path), "inputs": inputs, "disturbance": added}
+    )
     check_scene(scene, scene_node, reach)
     problems = task_problems(task)
     if problems:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli.errors import SpecError
 from etot_cli.specs import files
 from etot_cli.specs.load import load_scene, load_task
 from etot_cli.specs.scene import Mesh, Scene
@@ -66,6 +67,19 @@ def test_refused(name: str, message: str, folder: Path) -> None:
     error = scene_error(folder, objects(duck=MESH.format(name)))
     assert error.startswith("scene.yaml:2: objects.duck.file: ")
     assert message in error
+
+
+@pytest.mark.parametrize("name", ["/etc/x.obj", "../outside.obj", "goose.obj", "scene.yaml"])
+@pytest.mark.parametrize("listed", [False, True])
+def test_what_is_added_later_is_looked_at_alike(name: str, listed: bool, folder: Path) -> None:
+    write(folder, "scene.yaml", objects(duck=MESH.format("duck.obj")))
+    text = "instruction: x\nscene: scene.yaml\nsuccess: [{present: duck}]\ndisturbance:"
+    deed = "{add: goose, object: {kind: mesh, file: %s, mass: 0.1, at: [0.4, 0.2]}}"
+    deed = f"[{deed}]" if listed else deed
+    with pytest.raises(SpecError, match=r"t\.yaml:4: disturbance(\[0\])?\.object\.file: "):
+        load_task(write(folder, "t.yaml", f"{text} {deed % name}"))
+    task = load_task(write(folder, "t.yaml", f"{text} {deed % 'duck.obj'}"))
+    assert task.disturbances[0].object is not None
 
 
 def test_too_large(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
