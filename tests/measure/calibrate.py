@@ -155,7 +155,8 @@ def report(pairs: list[Pair]) -> tuple[str, bool]:
         ["the same for perfect odds", f"{chance.covered:.0%}", "–"],
         ["perfect odds: intervals that hold the odds", f"{chance.covered_in_the_long_run:.0%}",
          "–"],
-        ["intervals that hold the odds", f"{long_run:.0%}", f"at least {LEAST_COVERED:.0%}"],
+        ["intervals that hold the odds, estimated", f"{long_run:.0%}",
+         f"at least {LEAST_COVERED:.0%}"],
         ["told minus observed, mean", f"{off:+.3f}", f"at most {MOST_BIAS}"],
     ]  # fmt: skip
     good = (
