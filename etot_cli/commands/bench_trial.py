@@ -21,8 +21,10 @@ from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import COSTS, ActionTaken, TrialResult, TrialStatus
 from etot_cli.control.simulator import ActionSimulator, open_simulator
 from etot_cli.errors import ServiceError
+from etot_cli.execution.cell import TrialOptions
 from etot_cli.execution.protocols import Planner
-from etot_cli.execution.trial import Trial, TrialOptions, run_trial
+from etot_cli.execution.records import Trial
+from etot_cli.execution.trial import run_trial
 from etot_cli.planning.options import Limits
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.files import report_text, write_atomically

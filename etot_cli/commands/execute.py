@@ -7,20 +7,18 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Literal
 
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.plan import task_model
 from etot_cli.errors import EtotError, ServiceError
+from etot_cli.execution.cell import TrialOptions
 from etot_cli.execution.devices import SIMULATED, DeviceRequest, check_names, open_cell
+from etot_cli.execution.observers import ExecutionObserver, Notes, NotesReader, TrialObserver
 from etot_cli.execution.planner import TreePlanners
-from etot_cli.execution.trial import (
-    ExecutionObserver,
-    Trial,
-    TrialObserver,
-    TrialOptions,
-    run_trial,
-)
+from etot_cli.execution.records import Trial
+from etot_cli.execution.trial import run_trial
 from etot_cli.planning.options import Limits
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.execute_report import (
@@ -33,6 +31,9 @@ from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.services.redact import public_url
 from etot_cli.specs.task import Task
 from etot_cli.world.workers import WorkerLostError, WorkerPool
+
+NOTES_EVERY_S = 0.3
+"""Between two readings of what the trials beside each other do [s]; a person reads no faster."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,7 +128,7 @@ def _trials(
     options: ExecuteOptions, task: Task, observer: ExecutionObserver | None
 ) -> Iterator[Trial]:
     if min(options.jobs, options.trials) > 1:
-        yield from _side_by_side(options, task)
+        yield from _side_by_side(options, task, observer)
         return
     with closing(Runner(options, task)) as runner:
         for number in range(options.trials):
@@ -136,23 +137,31 @@ def _trials(
             yield runner.run(number, observer)
 
 
-def _side_by_side(options: ExecuteOptions, task: Task) -> Iterator[Trial]:
+def _side_by_side(
+    options: ExecuteOptions, task: Task, observer: ExecutionObserver | None
+) -> Iterator[Trial]:
     """Trials in worker processes, as they end.
 
     Raises:
         ServiceError: a trial's process was lost twice.
     """
-    with closing(WorkerPool(options.jobs, _begin, (options, task))) as pool:
-        waiting: set[Future[Trial]] = {
-            pool.submit(_run_one, number) for number in range(options.trials)
-        }
-        while waiting:
-            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-            for future in done:
-                try:
-                    yield future.result()
-                except WorkerLostError as error:
-                    raise ServiceError(f"a trial was lost: {error}") from None
+    with TemporaryDirectory(prefix="etot-") as folder:
+        notes = Path(folder, "notes.jsonl")
+        reader = NotesReader(notes)
+        with closing(WorkerPool(options.jobs, _begin, (options, task, notes))) as pool:
+            waiting: set[Future[Trial]] = {
+                pool.submit(_run_one, number) for number in range(options.trials)
+            }
+            while waiting:
+                done, waiting = wait(waiting, NOTES_EVERY_S, return_when=FIRST_COMPLETED)
+                if observer is not None:
+                    for number, text in reader.new():
+                        observer.trial_doing(number, options.trials, text)
+                for future in done:
+                    try:
+                        yield future.result()
+                    except WorkerLostError as error:
+                        raise ServiceError(f"a trial was lost: {error}") from None
 
 
 class Runner:
@@ -184,16 +193,17 @@ class Runner:
         self._planners.close()
 
 
-_runners: list[Runner] = []
-"""Of a worker process: the one it was begun with."""
+_runners: list[tuple[Runner, Path]] = []
+"""Of a worker process: the one it was begun with, and where its trials write what they do."""
 
 
-def _begin(options: ExecuteOptions, task: Task) -> None:
-    _runners[:] = [Runner(options, task)]
+def _begin(options: ExecuteOptions, task: Task, notes: Path) -> None:
+    _runners[:] = [(Runner(options, task), notes)]
 
 
 def _run_one(number: int) -> Trial:
-    return _runners[0].run(number)
+    runner, notes = _runners[0]
+    return runner.run(number, Notes(notes, number))
 
 
 def _report(

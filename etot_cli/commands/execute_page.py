@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from etot_cli.commands.execute import Execution
 from etot_cli.commands.pages import PAGE_NAME, cores
 from etot_cli.errors import ServiceError
-from etot_cli.execution.trial import Trial
+from etot_cli.execution.records import Trial
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.execute_page import execute_page
 from etot_cli.reporting.provenance import add_phase

@@ -23,7 +23,8 @@ class RobotState:
 
     ``joints`` and ``targets``: (n,) measured and commanded joint values [rad]; ``opening``:
     distance between the pads [m]; ``time_s``: since the robot was handed the motion [s]; ``sent``:
-    the opening that the gripper was last sent to [m], None where that is not known.
+    the opening that the gripper was last sent to [m]; ``handled``: joint values (n,) at which the
+    fingers last closed, opened or lost what they held [rad]; None where that is not known.
     """
 
     joints: Vector
@@ -31,6 +32,7 @@ class RobotState:
     opening: float
     time_s: float
     sent: float | None = None
+    handled: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True)

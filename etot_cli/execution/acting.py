@@ -21,17 +21,27 @@ class FromNow:
     Args:
         robot: who moves.
         sent: the opening that its gripper was last sent to [m]; None where that is not known.
+        handled: joint values at which the fingers last took hold of or let go something [rad].
         clock: whether the clock begins anew.
     """
 
-    def __init__(self, robot: Robot, sent: float | None, *, clock: bool = True) -> None:
-        self._robot, self._sent = robot, sent
+    def __init__(
+        self,
+        robot: Robot,
+        sent: float | None,
+        handled: tuple[float, ...] | None = None,
+        *,
+        clock: bool = True,
+    ) -> None:
+        self._robot, self._sent, self._handled = robot, sent, handled
         self._begun = robot.state().time_s if clock else 0.0
 
     def state(self) -> RobotState:
         """What it senses now."""
         sensed = self._robot.state()
-        return replace(sensed, time_s=sensed.time_s - self._begun, sent=self._sent)
+        return replace(
+            sensed, time_s=sensed.time_s - self._begun, sent=self._sent, handled=self._handled
+        )
 
     def follow(self, targets: Vector, guards: Guards) -> PhaseEnd:
         """As the robot does."""
@@ -80,4 +90,30 @@ def last_command(traces: tuple[Trace, ...], before: float | None) -> float | Non
         for phase in reversed(trace.phases):
             if phase.command is not None:
                 return phase.command
+    return before
+
+
+def handled_at(
+    trace: Trace, sent: float | None, before: tuple[float, ...] | None
+) -> tuple[float, ...] | None:
+    """Where the arm was when the fingers last closed, opened, or lost what they held.
+
+    Args:
+        trace: of the motion that has just ended.
+        sent: the opening that the gripper was sent to before it [m].
+        before: the answer before it, where they did nothing.
+
+    Returns:
+        Joint values (n,) [rad].
+    """
+    opened = False
+    for phase in trace.phases:
+        if phase.command is not None and sent is not None:
+            opens = phase.command > sent
+            # Fingers that open further on the way back have let go before.
+            if phase.command < sent or (opens and not opened):
+                before, opened = phase.joints, opens
+        if phase.end is PhaseEnd.SLIPPED:
+            before, opened = phase.joints, True
+        sent = sent if phase.command is None else phase.command
     return before

@@ -23,8 +23,10 @@ from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import WorldError
 from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.observation import Observation, Sighting
-from etot_cli.execution.trial import FailureClass
+from etot_cli.execution.records import FailureClass
 from etot_cli.execution.world import ExecutionWorld
+from etot_cli.reasoning.builtin.constraints import cause_of_breach
+from etot_cli.reasoning.builtin.goal import Constraint
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.protocol import Outcome
 from etot_cli.skills.action import Action
@@ -60,6 +62,7 @@ def class_of(
     motion: Motion | None,
     error_m: Mapping[str, float],
     concerned: tuple[str, ...],
+    forbidden: tuple[Constraint, ...] = (),
 ) -> FailureClass:
     """The class of one failed action.
 
@@ -71,18 +74,24 @@ def class_of(
         motion: what was tried; None where there was none to try.
         error_m: how far objects were seen from where they were [m].
         concerned: objects that the action is about, the blamed ones included.
+        forbidden: what must not happen on the way.
     """
     bound = 2**0.5 * scene.perception.position_m + ROUNDING
     if any(error_m.get(name, 0.0) > bound for name in concerned):
         return FailureClass.PERCEPTION
     if motion is None:
         return FailureClass.WORLD_MODEL
-    predicted = _twin_succeeds(scene, truth, command, action, motion)
+    predicted = _twin_succeeds(scene, truth, command, action, motion, forbidden)
     return FailureClass.WORLD_MODEL if predicted else FailureClass.EXECUTION
 
 
 def _twin_succeeds(
-    scene: Scene, truth: Observation, command: float | None, action: Action, motion: Motion
+    scene: Scene,
+    truth: Observation,
+    command: float | None,
+    action: Action,
+    motion: Motion,
+    forbidden: tuple[Constraint, ...],
 ) -> bool:
     """Whether the motion works in a twin that starts from the truth."""
     twin = BelievedTwin(scene, 0)
@@ -98,4 +107,5 @@ def _twin_succeeds(
         return False
     outcome = outcome_of(belief, action, motion, trace, after)
     record = RolloutRecord(before, after, outcome.effect, outcome.cause)
-    return judge_action(action, record).outcome is Outcome.SUCCESS
+    good = judge_action(action, record).outcome is Outcome.SUCCESS
+    return good and cause_of_breach(record, forbidden) is None

@@ -16,6 +16,7 @@ from etot_cli.execution.cameras.files import FileCamera
 from etot_cli.execution.cameras.realsense import RealSense
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.cameras.watched import WatchedCamera
+from etot_cli.execution.cell import Cell, TrialOptions, simulated_world
 from etot_cli.execution.grasp_server import GraspServer
 from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.protocols import Camera, Eyes, RobotDevice
@@ -25,7 +26,6 @@ from etot_cli.execution.robots.worker_process import words_of
 from etot_cli.execution.robots.xarm6 import XArm6
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
-from etot_cli.execution.trial import Cell, TrialOptions, simulated_world
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.services.endpoint import check_address
 from etot_cli.specs.task import Task

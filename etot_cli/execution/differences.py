@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from etot_cli.execution.trial import Difference
+from etot_cli.execution.records import Difference
 from etot_cli.world.state import ObjectState, SceneState
 
 MOVED = 0.03
@@ -42,12 +42,12 @@ def _changed(was: ObjectState, now: ObjectState) -> str:
         return "is in the hand" if now.in_hand else "is no longer in the hand"
     if now.inside != was.inside and far > MOVED:
         return f"is inside {now.inside}" if now.inside else f"is no longer inside {was.inside}"
-    if now.toppled != was.toppled:
+    # In the hand nothing stands, and neither does it move of itself.
+    if now.toppled != was.toppled and not now.in_hand:
         return "has fallen over" if now.toppled else "stands again"
     for part, value in was.openness.items():
         if abs(now.openness.get(part, value) - value) > PART_MOVED:
             return f"has its {part} {now.openness[part]:.0%} open, not {value:.0%}"
-    # What is in the hand moves with it.
     return f"stands {far * 100:.0f} cm from where it was" if far > MOVED and not now.in_hand else ""
 
 

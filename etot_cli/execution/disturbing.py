@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -10,8 +12,13 @@ import numpy as np
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import WorldError
+from etot_cli.execution.acting import duration
+from etot_cli.execution.protocols import RobotDevice
+from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.motion.motion import Motion
+from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.specs.disturbance import Disturbance, Role
 from etot_cli.specs.objects import ObjectBase
 from etot_cli.world.placing import place_object, raise_clear
@@ -27,6 +34,8 @@ TIP_S = 3.0
 """Something that does not fall over in this time is left alone [s]."""
 TIPPED_COSINE = 0.5
 """What leans this far falls by itself, or lies against something."""
+UNMOVED = 0.01
+"""What a person's deed displaced further than this is not the robot's doing [m]."""
 TIP_GROWTH = 1.25
 """The push grows by this every tenth of a second ..."""
 TIP_START = 0.3
@@ -56,6 +65,88 @@ def roles_of(plan: tuple[Action, ...], chosen: str | None) -> Roles:
             return Roles(chosen or action.target, target)
     about = plan[0].target.split(".")[0] if plan else None
     return Roles(chosen, about)
+
+
+class Somebody:
+    """Does at their time what a task's disturbances say; with a real robot, a person does it.
+
+    Args:
+        pending: what is to happen.
+        world: where; None with a real robot.
+        happened: told of every deed: in words, and which objects it displaced.
+    """
+
+    def __init__(
+        self,
+        pending: Sequence[Disturbance],
+        world: ExecutionWorld | None,
+        happened: Callable[[str, frozenset[str]], None],
+    ) -> None:
+        self._pending, self._world, self._happened = list(pending), world, happened
+        self._chosen: str | None = None
+
+    def before(self, plan: tuple[Action, ...], done: int) -> None:
+        """Does what is due before a plan's next action, or at the end, with an empty plan.
+
+        Args:
+            plan: the actions that are left.
+            done: number of actions carried out so far.
+        """
+        for given in list(self._pending):
+            due = {
+                "planned": True,
+                "committed": bool(plan) and plan[0].verb is Verb.PICK_UP,
+                "after_action": done >= given.after_action,
+                "during_action": False,
+            }[given.when]
+            if due:
+                self._do(given, plan)
+
+    def acting(self, action: Action) -> None:
+        """Takes note of what is picked first."""
+        if action.verb is Verb.PICK_UP and self._chosen is None:
+            self._chosen = action.target
+
+    def during(
+        self,
+        motion: Motion,
+        plan: tuple[Action, ...],
+        index: int,
+        device: RobotDevice,
+        limits: JointLimits,
+    ) -> None:
+        """Has what is due during an action happen while the robot moves.
+
+        Args:
+            motion: about to be run.
+            plan: the actions that are left, this one first.
+            index: the action's place in the trial, from 0.
+            device: who moves; nothing happens unless it is simulated.
+            limits: of its joint targets.
+        """
+        if not isinstance(device, SimulatedDevice):
+            return
+        for given in list(self._pending):
+            if given.when == "during_action" and given.during_action == index + 1:
+                seconds = duration(motion, device.state().targets, limits)
+                at_s = device.world.time_s + given.share * seconds
+                device.at(at_s, lambda given=given: self._do(given, plan))  # type: ignore[misc]
+                return
+
+    def _do(self, given: Disturbance, plan: tuple[Action, ...]) -> None:
+        self._pending.remove(given)
+        if self._world is None:
+            return
+        before = self._world.read()
+        text = disturb(self._world, given, roles_of(plan, self._chosen))
+        after = self._world.read()
+        displaced = {
+            name
+            for name, was in before.states.items()
+            if name not in after.states
+            or math.dist(after.states[name].position, was.position) > UNMOVED
+        }
+        self._happened(text, frozenset(displaced))
 
 
 def disturb(world: ExecutionWorld, given: Disturbance, roles: Roles) -> str:

@@ -10,7 +10,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-from etot_cli.execution.trial import Carried, Happened, Look, PlanMade, Trial
+from etot_cli.execution.records import Carried, Happened, Look, PlanMade, Trial
 from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unicode, symbol
 from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.reading import visible
@@ -38,6 +38,10 @@ class ExecutionLog:
         """Says which, of several."""
         if total > 1 and self._detailed:
             self._say(f"trial {number + 1} of {total}")
+
+    def trial_doing(self, number: int, total: int, text: str) -> None:
+        """Says it."""
+        self._say(f"trial {number + 1} of {total}: {text}")
 
     def trial_ended(self, trial: Trial, total: int) -> None:
         """Says how it ended, of several."""
@@ -87,6 +91,7 @@ class ExecutionView:
         self._unicode = speaks_unicode(console.file)
         self._started = time.monotonic()
         self._trials: list[Text] = []
+        self._beside: dict[int, str] = {}
         self._trial = ""
         self._begin()
         self._live = Live(
@@ -120,8 +125,14 @@ class ExecutionView:
         self._begin()
         self._trial = f"trial {number + 1} of {total}" if total > 1 else ""
 
+    def trial_doing(self, number: int, total: int, text: str) -> None:
+        """Keeps its last word in sight while it runs."""
+        self._beside[number] = text
+        self._note = f"{counted(len(self._beside), 'trial')} running"
+
     def trial_ended(self, trial: Trial, total: int) -> None:
         """Keeps a line of it, of several."""
+        self._beside.pop(trial.number, None)
         if total > 1:
             line = badge("success" if trial.success else "failure", self._unicode)
             self._trials.append(line.append(f" trial {trial.number + 1}: {trial.reason}"))
@@ -163,6 +174,10 @@ class ExecutionView:
     def _render(self) -> Group:
         lines = [Text(f"{self._title}  {self._trial}".rstrip(), style="bold")]
         lines += self._trials[-TRIALS_KEPT:]
+        for number, words in sorted(self._beside.items()):
+            line = badge(RUNNING, self._unicode).append(f" trial {number + 1}: {words}")
+            line.no_wrap, line.overflow = True, "ellipsis"
+            lines.append(line)
         for carried in self._done:
             line = Text("  ").append_text(badge(carried.status, self._unicode))
             line.append(f" {carried.action}")

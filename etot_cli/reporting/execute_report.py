@@ -26,7 +26,7 @@ from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord
 
 if TYPE_CHECKING:  # every command's summary imports this module, and few execute
-    from etot_cli.execution.trial import Carried, Difference, Look, PlanMade, Trial
+    from etot_cli.execution.records import Carried, Difference, Look, PlanMade, Trial
 
 FailureClassName = Literal["execution", "perception", "world_model", "planning"]
 CLASSES: tuple[FailureClassName, ...] = ("execution", "perception", "world_model", "planning")

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from etot_cli.benchmark.methods.catalogue import Method
 from etot_cli.benchmark.trial import TrialResult
-from etot_cli.execution.trial import Trial
+from etot_cli.execution.records import Trial
 from etot_cli.reporting.execute_report import TrialModel, trial_model
 from etot_cli.reporting.models import Count, Model, Seconds, TaskModel, VersionsModel, seconds
 from etot_cli.reporting.provenance import versions

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from etot_cli.control.robot import Guards
+from etot_cli.execution.acting import handled_at
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.perception.camera_eyes import CameraEyes
@@ -19,13 +21,19 @@ from etot_cli.execution.perception.fitting import (
     rotation_by,
     support,
 )
+from etot_cli.execution.perception.scan import scan_of
+from etot_cli.execution.perception.twin import KnownScene
+from etot_cli.execution.perception.unseen import out_of_sight
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reconstruction.capture.view import View
+from etot_cli.skills.motion.motion import PhaseEnd, PhaseTrace, Trace
 from etot_cli.specs.load import load_task
 from tests.opengl import need_opengl
 
 ACCURATE = 0.005
+FASTENED = 0.015
+"""Furniture of which two faces are seen is free along both of them [m]."""
 LOOK_S = 2.0
 
 
@@ -48,7 +56,7 @@ class Desk:
         return self.last
 
     def error(self, name: str) -> float:
-        true = self.world.data.joint(name).qpos[:3]
+        true = self.world.data.body(self.world.world.entries[name].body).xpos
         return float(np.linalg.norm(true - self.last.objects[name].position))
 
 
@@ -70,10 +78,11 @@ def test_what_stands_on_the_desk_is_seen_where_it_is(desk):
     assert time.process_time() - begun < LOOK_S
     assert {item.mark for item in seen.objects.values()} == {Mark.SEEN}
     for name in seen.objects:
-        assert desk.error(name) < ACCURATE, name
+        free = desk.world.world.entries[name].free
+        assert desk.error(name) < (ACCURATE if free else FASTENED), name
     for address, value in seen.parts.items():
         true = float(desk.world.data.joint(desk.world.world.parts[address].joint).qpos[0])
-        assert value == pytest.approx(true, abs=0.01)
+        assert value == pytest.approx(true, abs=0.006)
 
 
 @pytest.mark.render
@@ -90,6 +99,47 @@ def test_what_moves_is_found_and_what_is_taken_away_is_lost(desk):
     assert desk.error(first) < ACCURATE
     assert seen.objects[second].mark is Mark.LOST
     assert seen.objects[second].position == pytest.approx(before.position)
+
+
+@pytest.mark.render
+@pytest.mark.slow
+@pytest.mark.parametrize("desk", [("task2", 0)], indirect=True)
+def test_a_pen_that_was_let_go_leans_in_the_holder_below_the_hand(desk):
+    world, holder = desk.world, "white_holder"
+    pen = world.data.joint("pen").qpos
+    pen[:3] = world.data.body(holder).xpos + np.array([0.0, 0.0, 0.08])
+    # It leans to the side: how far it leans towards the camera is hardly seen.
+    pen[3:] = (
+        np.sqrt(0.5)
+        * np.array([1.0, 1.0, -1.0, 1.0])
+        * np.array([np.cos(0.675), np.sin(0.675), np.sin(0.675), np.cos(0.675)])
+    )
+    world.robot().wait(1.5, Guards(), until_rest=True)
+    assert world.read().states["pen"].inside == holder
+    known = KnownScene(load_task("tasks/task2.yaml").scene)
+    for name in ("black_holder", holder):
+        known.put(name, Pose.of(*(world.data.joint(name).qpos[part] for part in np.s_[:3, 3:])))
+    above = Pose(np.eye(3), world.data.body(holder).xpos + np.array([0.03, 0.0, 0.15]))
+    held = Pose(np.eye(3), np.zeros(3))
+    scan = scan_of(desk.camera.frame(), known.scene.desk)
+    found = out_of_sight(known, "pen", known.nominal("pen"), held, above, scan)
+    assert found is not None
+    assert np.linalg.norm(found.position - world.data.body("pen").xpos) < 0.03
+    inside = found.place(known.surfaces["pen"].points) - world.data.body(holder).xpos
+    lowest = inside[np.argmin(inside[:, 2])]
+    assert np.hypot(*lowest[:2]) < 0.045
+
+
+def test_where_the_fingers_closed_and_opened_is_remembered():
+    def phase(name, joint, command=None, end=PhaseEnd.DONE):
+        return PhaseTrace(name, end, 0.0, 1.0, 0.02, (joint,), command)
+
+    pick = Trace((phase("transit", 1.0, 0.06), phase("close", 2.0, 0.0), phase("lift", 3.0)))
+    assert handled_at(pick, None, None) == (2.0,)
+    put = Trace((phase("lower", 4.0), phase("open", 5.0, 0.04), phase("retreat", 6.0, 0.085)))
+    assert handled_at(put, 0.0, (2.0,)) == (5.0,)
+    lost = Trace((phase("carry", 7.0, end=PhaseEnd.SLIPPED), phase("settle", 8.0)))
+    assert handled_at(lost, 0.0, (2.0,)) == (7.0,)
 
 
 def sphere() -> tuple[np.ndarray, np.ndarray]:

@@ -52,11 +52,17 @@ def without_clocks(trial: dict[str, Any]) -> dict[str, Any]:
 
 
 @pytest.mark.slow
-def test_trials_side_by_side_give_the_same(tmp_path: Path) -> None:
+def test_trials_side_by_side_say_what_they_do_and_give_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     task = write(tmp_path)
-    words = ["execute", task, "--trials", "2", "-q", "--no-html"]
-    assert run([*words, "--out", str(tmp_path / "one")]) == 0
+    words = ["execute", task, "--trials", "2", "--no-html"]
+    assert run([*words, "-q", "--out", str(tmp_path / "one")]) == 0
     assert run([*words, "--jobs", "2", "--out", str(tmp_path / "two")]) == 0
+    said = capsys.readouterr().err
+    for number in (1, 2):
+        acting = said.index(f"trial {number} of 2: [PICK UP, ball]")
+        assert acting < said.index(f"trial {number} of 2: success")
     one, two = checked(tmp_path / "one"), checked(tmp_path / "two")
     assert [trial["number"] for trial in one["trials"]] == [0, 1]
     assert [*map(without_clocks, one["trials"])] == [*map(without_clocks, two["trials"])]

@@ -10,11 +10,11 @@ import pytest
 
 from etot_cli.cli.app import run
 from etot_cli.control.robot import Guards
+from etot_cli.execution.cell import TrialOptions, simulated_world
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.robots.worker import Episode, WorkerEyes, WorkerRobot
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
-from etot_cli.execution.trial import TrialOptions, simulated_world
 from etot_cli.skills.motion.timing import JointLimits, time_path
 from etot_cli.specs.load import load_task
 

@@ -12,19 +12,14 @@ import pytest
 from etot_cli.control.robot import Robot
 from etot_cli.errors import RobotStoppedError, ServiceError
 from etot_cli.execution.believed import BelievedTwin
+from etot_cli.execution.cell import Cell, TrialOptions, simulated_cell
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.planner import TreePlanners
 from etot_cli.execution.protocols import Planned
+from etot_cli.execution.records import FailureClass, Trial
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
-from etot_cli.execution.trial import (
-    Cell,
-    FailureClass,
-    Trial,
-    TrialOptions,
-    run_trial,
-    simulated_cell,
-)
+from etot_cli.execution.trial import run_trial
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.specs.task import Task
 from tests.execution.scripted import IN_TWO, Scripted, small_task
@@ -100,6 +95,17 @@ def test_the_target_taken_away_ends_with_the_reason(tmp_path: Path) -> None:
     assert trial.looks[-1].observation.objects["ball"].mark is Mark.LOST
     stubborn = run(task, Scripted([IN_TWO]), replan=False)
     assert "ball is off the desk; replanning is switched off" in stubborn.reason
+
+
+def test_what_the_instruction_forbids_ends_the_trial_whoever_planned_it(tmp_path: Path) -> None:
+    task = small_task(tmp_path)
+    told = task.model_copy(update={"instruction": "Pick up the ball without moving the cup."})
+    trial = run(told, Scripted(["[PICK UP, cup] (vertical)", IN_TWO]))
+    assert trial.reason.endswith("cup was moved, which it must not be, and that cannot be undone")
+    (action,) = trial.actions
+    assert (action.status, trial.replans, trial.status) == ("failure", 0, "failure")
+    # The eyes err by millimetres at every look, and that is no breach.
+    assert run(told.model_copy(update={"success": ()}), Scripted(["[PICK UP, ball]"])).success
 
 
 def test_another_look_may_show_a_way(tmp_path: Path) -> None:

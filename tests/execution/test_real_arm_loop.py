@@ -6,20 +6,32 @@ import itertools
 import os
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
 from etot_cli.control.robot import Robot
-from etot_cli.execution.observation import Observation, Sighting
+from etot_cli.execution.cameras.rendered import RenderedCamera
+from etot_cli.execution.cameras.watched import WatchedCamera
+from etot_cli.execution.cell import Cell, TrialOptions
+from etot_cli.execution.observation import Mark, Observation, Sighting
+from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.robots.confirmation import NotConfirmedError, assumed
 from etot_cli.execution.robots.fake_controller import STOPPED, FakeController, Faults
 from etot_cli.execution.robots.xarm6 import XArm6
-from etot_cli.execution.trial import Cell, TrialOptions, run_trial
+from etot_cli.execution.trial import run_trial
+from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reporting.execute_report import trial_model
+from etot_cli.specs.task import Condition, Task
 from etot_cli.world.robot import load_robot
 from tests.execution.scripted import IN_TWO, Scripted, small_task
+from tests.opengl import need_opengl
 
 SPEC = load_robot("xarm6")
+PULSES = 850
+"""Of the open gripper."""
+BALL = 0.05
+"""Diameter of the ball [m]."""
 HOSTS = (f"127.{os.getpid() % 250 + 1}.1.{index}" for index in itertools.count(1))
 
 
@@ -60,6 +72,43 @@ def test_a_fault_ends_the_trial_with_a_stopped_arm(
     report = trial_model(trial, ())
     assert words in report.reason
     assert len(report.looks) >= 2  # what was seen before is in it
+
+
+class Watching:
+    """The small scene while the fake arm moves in it: closed fingers carry the ball along."""
+
+    def __init__(self, task: Task, fake: FakeController) -> None:
+        self.world, self.fake = ExecutionWorld(task.scene, 0), fake
+
+    def state(self) -> mujoco.MjData:
+        model, data, robot = self.world.world.model, self.world.data, self.world.world.robot
+        opening = self.fake.hand.position / PULSES * SPEC.gripper.opening
+        data.qpos[robot.qpos] = self.fake.joints[:6]
+        robot.set_opening(data, opening)
+        mujoco.mj_kinematics(model, data)
+        if opening < BALL + 0.003:
+            data.joint("ball").qpos[:3] = data.site_xpos[robot.tool_site]
+        data.time += 0.05
+        return data
+
+
+@pytest.mark.render
+@pytest.mark.slow
+def test_the_arm_picks_what_a_camera_sees(tmp_path: Path) -> None:
+    need_opengl()
+    task = small_task(tmp_path).model_copy(update={"success": (Condition(in_hand="ball"),)})
+    with controller(Faults()) as fake:
+        fake.hand.thing = BALL / SPEC.gripper.opening * PULSES
+        watching = Watching(task, fake)
+        noise = np.random.default_rng(0)
+        camera = RenderedCamera(watching.world.world.scene, watching.state, noise)
+        arm = XArm6(SPEC, f"{fake.host}:{fake.port}", assumed)
+        cell = Cell(arm, CameraEyes(WatchedCamera(camera), task.scene))
+        trial = run_trial(task, Scripted(["[PICK UP, ball]"]), TrialOptions(), cell=cell)
+        assert fake.state == STOPPED
+    assert trial.success, trial.reason
+    marks = [look.observation.objects["ball"].mark for look in trial.looks]
+    assert marks == [Mark.SEEN, Mark.SEEN, Mark.HELD, Mark.HELD]
 
 
 def test_without_the_word_nothing_moves(tmp_path: Path) -> None:

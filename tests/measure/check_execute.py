@@ -19,7 +19,7 @@ from typing import Any
 
 from etot_cli.commands.execute import ExecuteOptions, Runner
 from etot_cli.execution.devices import EYES
-from etot_cli.execution.trial import FailureClass, Trial
+from etot_cli.execution.records import FailureClass, Trial
 from etot_cli.specs.disturbance import Disturbance
 from etot_cli.specs.load import load_task
 from etot_cli.specs.task import Task

@@ -15,7 +15,7 @@ from etot_cli.commands.bench import BenchOptions, run_bench
 from etot_cli.commands.bench_page import write_bench_page
 from etot_cli.control.robot import RobotState
 from etot_cli.execution.observation import Observation
-from etot_cli.execution.trial import Carried, FailureClass, Look, Trial
+from etot_cli.execution.records import Carried, FailureClass, Look, Trial
 from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
 from etot_cli.reporting.trial_report import trial_report
 from etot_cli.skills.action import parse_plan

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.builtin.constraints import cause_of_breach
+from etot_cli.reasoning.builtin.goal import Constraint, Keep
 from etot_cli.reasoning.protocol import Outcome, Verdict
 from etot_cli.skills.action import parse_plan
 from etot_cli.world.state import CauseKind, RolloutRecord
@@ -290,6 +292,22 @@ def test_what_lies_in_the_picked_vessel_may_come_along() -> None:
         pea={"position": (0.4, 0.0, 0.3)},
     )
     assert judge("[PICK UP, mug]", record(start, lifted)).outcome is Outcome.SUCCESS
+
+
+def test_what_has_to_stay_closed_is_looked_at_after_every_action() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0, "low": 0.5}),
+        scenes.item("vase", at=(0.3, 0.0)),
+    )
+    ajar = changed(start, chest={"openness": {"top": 0.2, "low": 0.0}})
+    for name, broken in (("chest", True), ("chest.top", True), ("chest.low", False)):
+        forbidden = [Constraint(Keep.CLOSED, (name,))]
+        assert (cause_of_breach(record(start, ajar), forbidden) is not None) is broken, name
+    x, y, z = start.states["vase"].position
+    nudged = changed(start, vase={"position": (x + 0.012, y, z)})
+    still = [Constraint(Keep.UNMOVED, ("vase",))]
+    assert cause_of_breach(record(start, nudged), still) is not None
+    assert cause_of_breach(record(start, nudged), still, blur=0.014) is None
 
 
 def test_a_part_that_moved_unasked_is_not_said_to_be_pushed() -> None:

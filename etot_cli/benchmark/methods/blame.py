@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from etot_cli.execution.trial import FailureClass, Trial
+from etot_cli.execution.records import FailureClass, Trial
 
 
 class Foresight(StrEnum):

@@ -26,27 +26,49 @@ FEWEST = 20
 """A cluster of fewer readings is noise: 1 in 100 is lost or off anyway."""
 
 
+ENOUGH = 200
+"""Fewer readings of a thing are not enough for its pose at every other pixel."""
+
+
 @dataclass
 class Scan:
     """Readings of a picture above the desk.
 
     ``points`` (n, 3) base frame [m], ``colors`` (n, 3) of 255, ``view`` and ``depth`` (h, w) of the
-    whole picture; ``owner`` (n,): "" until something explains the reading.
+    whole picture; ``unexplained`` (n,): whether a reading belongs to nothing known so far.
     """
 
     view: View
     depth: Array
     points: Array
     colors: Array
-    owner: NDArray[np.object_] = field(init=False)
+    lowest: float
+    """Height from which readings are not the desk's [m]."""
+    unexplained: NDArray[np.bool_] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.owner = np.full(len(self.points), "", dtype=object)
+        self.unexplained = np.ones(len(self.points), dtype=bool)
 
-    @property
-    def unexplained(self) -> NDArray[np.bool_]:
-        """Which readings (n,) nothing explains yet."""
-        return np.asarray(self.owner == "")
+    def near(self, middle: Array, radius: float) -> Array:
+        """Readings (n, 3) around a point (3,) that nothing explains yet; where these are few, every
+        pixel there is read, whatever else may explain it.
+        """
+        around = np.linalg.norm(self.points - middle, axis=1) < radius
+        found = self.points[around & self.unexplained]
+        if len(found) >= ENOUGH or around.sum() > len(found):
+            return np.asarray(found)
+        view = self.view
+        reach = int(
+            max(view.fx, view.fy) * radius / max(float(view.depth_of(middle[None])[0]), 0.1)
+        )
+        u, v = np.round(view.project(middle[None])[0]).astype(int)
+        rows = slice(max(v - reach, 0), max(v + reach, 0))
+        columns = slice(max(u - reach, 0), max(u + reach, 0))
+        vs, us = np.nonzero(self.depth[rows, columns] > 0)
+        pixels = np.column_stack([us + columns.start, vs + rows.start])
+        points = view.lift(pixels.astype(np.float64), self.depth[pixels[:, 1], pixels[:, 0]])
+        inside = np.linalg.norm(points - middle, axis=1) < radius
+        return np.asarray(points[inside & (points[:, 2] > self.lowest)])
 
     def clusters(self) -> list[NDArray[np.intp]]:
         """Indices of unexplained readings that hang together, the largest group first."""
@@ -89,4 +111,4 @@ def scan_of(frame: Frame, desk: Desk) -> Scan:
         & (points[:, 2] < desk.top + HIGHEST)
     )
     colors = frame.color[v.ravel()[read], u.ravel()[read]][kept].astype(np.float64)
-    return Scan(view, np.nan_to_num(frame.depth), points[kept], colors)
+    return Scan(view, np.nan_to_num(frame.depth), points[kept], colors, desk.top + ABOVE)

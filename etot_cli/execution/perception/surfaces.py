@@ -57,6 +57,12 @@ class Surface:
         extents = np.ptp(centred @ axes.T, axis=0)
         return np.asarray(axes[0]) if extents[0] > LONG * extents[1:].max() else None
 
+    @cached_property
+    def length(self) -> float:
+        """Extent along the long axis; of things without one, along z [m]."""
+        axis = np.array([0.0, 0.0, 1.0]) if self.long_axis is None else self.long_axis
+        return float(np.ptp(self.points @ axis))
+
     def thinned(self, most: int) -> Surface:
         """The same with fewer points."""
         step = max(1, len(self.points) // most)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -34,8 +34,10 @@ class KnownScene:
         self.scene = scene
         self.world = build_world(scene)
         self.data = mujoco.MjData(self.world.model)
+        self._other = mujoco.MjData(self.world.model)
         place_objects(self.world, self.data)
         self._settle()
+        self._nominal = {name: self.body(entry.body) for name, entry in self.world.entries.items()}
         model = self.world.model
         moving = {part.body for entry in self.world.entries.values() for part in entry.parts}
         self._moving = {model.body(name).id for name in moving}
@@ -76,7 +78,18 @@ class KnownScene:
 
     def nominal(self, name: str) -> Pose:
         """Where the scene has an object."""
-        return self.body(self.world.entries[name].body)
+        return self._nominal[name]
+
+    def put(self, name: str, pose: Pose) -> None:
+        """Puts an object, or furniture, where it was seen."""
+        entry, quaternion = self.world.entries[name], pose.quaternion
+        if entry.free:
+            joint = self.data.joint(name).qpos
+            joint[:3], joint[3:] = pose.position, quaternion
+        else:
+            body = self.world.model.body(entry.body)
+            body.pos[:], body.quat[:] = pose.position, quaternion
+        mujoco.mj_kinematics(self.world.model, self.data)
 
     def body(self, name: str) -> Pose:
         """Where a body stands now."""
@@ -112,10 +125,17 @@ class KnownScene:
 
     def tool(self) -> Pose:
         """Where the tool point is."""
+        return self._tool_in(self.data)
+
+    def tool_at(self, joints: Sequence[float]) -> Pose:
+        """Where the tool point is with other joint values (n,) [rad]."""
+        self._other.qpos[self.world.robot.qpos] = joints
+        mujoco.mj_kinematics(self.world.model, self._other)
+        return self._tool_in(self._other)
+
+    def _tool_in(self, data: mujoco.MjData) -> Pose:
         site = self.world.robot.tool_site
-        return Pose(
-            self.data.site_xmat[site].reshape(3, 3).copy(), self.data.site_xpos[site].copy()
-        )
+        return Pose(data.site_xmat[site].reshape(3, 3).copy(), data.site_xpos[site].copy())
 
     def _add(self, into: dict[str, Surface], name: str, bodies: list[int], frame: int) -> None:
         found = surface_of(self.world, bodies, frame)

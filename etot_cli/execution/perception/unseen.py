@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from etot_cli.execution.perception.fitting import Pose, Support, outlined, rotation_by, support
+from etot_cli.execution.perception.fitting import Pose, outlined, rotation_by, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.search import start
 from etot_cli.execution.perception.surfaces import Surface
@@ -25,38 +25,26 @@ BELOW = 0.02
 [m], seen from above."""
 AT_HAND = 0.15
 """The hand that let something go into a container is this near to it [m], seen from above."""
+ROOM, LIFTED = 0.003, 0.008
+"""A rod in a container may be seen this far inside its walls, and this far above its floor [m]."""
 SOMETHING = 60
-"""Readings that hang together and belong to nothing, from which a missing object may be there."""
+"""Readings that hang together, belong to nothing, and are no farther than ``AT_HAND`` from where a
+missing object was or was let go, may be that object."""
 SLIDE, TURN = 0.012, 0.15
 """First steps in which a rod is moved and turned to fit its outline [m, rad]."""
 LEANS = tuple(
     (lean, heading)
-    for lean in (0.0, 0.15, 0.35, 0.55)
+    for lean in (0.0, 0.15, 0.35, 0.55, 0.75)
     for heading in np.arange(8) * np.pi / 4
     if lean > 0.0 or heading == 0.0
 )
 """How a rod may lean in a container: angles from upright and their directions [rad]."""
 
 
-def contradicted(borne: Support) -> bool:
+def contradicted(surface: Surface, pose: Pose, scan: Scan) -> bool:
     """Whether other things are seen where an object would have to be seen."""
+    borne = support(surface, pose, scan.view, scan.depth)
     return borne.covered < HIDDEN and borne.share < GONE and borne.visible > 0
-
-
-def in_the_fingers(known: KnownScene, surface: Surface, before: Pose, scan: Scan) -> Pose:
-    """An object that must be in the hand, though nothing is read of it: its middle between the
-    pads, a rod across them.
-    """
-    tool, axis, turn = known.tool(), surface.long_axis, np.eye(3)
-    if axis is not None:
-        along = before.rotation @ axis
-        across = tool.rotation[:, 1]
-        wanted = along - across * (along @ across)
-        wanted /= max(float(np.linalg.norm(wanted)), 1e-9)
-        turn = _turn_between(along, wanted)
-    rotation = turn @ before.rotation
-    pose = Pose(rotation, tool.position - rotation @ surface.middle)
-    return pose if axis is None else slid(known, surface, pose, scan)
 
 
 def slid(known: KnownScene, surface: Surface, pose: Pose, scan: Scan) -> Pose:
@@ -67,9 +55,11 @@ def slid(known: KnownScene, surface: Surface, pose: Pose, scan: Scan) -> Pose:
     return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
 
 
-def carried(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
+def with_its_part(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
     """Where an unseen object is when the drawer that it lay in has moved."""
-    surface = known.surfaces[name]
+    surface = known.surfaces.get(name)
+    if surface is None:
+        return pose
     middle = pose.place(surface.middle[None])[0]
     for region in known.regions:
         if region.body in moved:
@@ -82,7 +72,7 @@ def carried(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) ->
 
 
 def out_of_sight(
-    known: KnownScene, name: str, before: Pose, held: Pose | None, scan: Scan
+    known: KnownScene, name: str, before: Pose, held: Pose | None, tool: Pose, scan: Scan
 ) -> Pose | None:
     """Where an object may be that is nowhere seen; None where it is lost.
 
@@ -92,9 +82,10 @@ def out_of_sight(
         before: its pose at the last look.
         held: how it lay in the hand then, if it did: it was let go in a container, or on the desk
             below the hand; what is nearest to the hand comes first.
+        tool: where the hand was when it let go.
         scan: what is seen.
     """
-    surface, tool = known.surfaces[name], known.tool()
+    surface = known.surfaces[name]
     options: list[tuple[float, Pose]] = []
     leaning: list[tuple[float, Pose]] = []
     for region in known.regions if held is not None else ():
@@ -113,12 +104,15 @@ def out_of_sight(
         drop = np.array([0.0, 0.0, lowest - known.scene.desk.top])
         options.append((BELOW, Pose(let_go.rotation, let_go.position - drop)))
     for _, pose in sorted(options, key=lambda item: item[0]):
-        if not contradicted(support(surface, pose, scan.view, scan.depth)):
+        if not contradicted(surface, pose, scan):
             return pose
-    clusters = scan.clusters()
-    if clusters and len(clusters[0]) >= SOMETHING:
-        # Something lies there that nothing else explains, if in no way that was recognized.
-        return start(surface, before.rotation, scan.points[clusters[0]], scan.view)
+    places = [before.place(surface.middle[None])[0], *([] if held is None else [tool.position])]
+    for cluster in scan.clusters():
+        middle = scan.points[cluster].mean(axis=0)
+        aside = min(float(np.linalg.norm(middle - place)) for place in places)
+        if len(cluster) >= SOMETHING and aside < AT_HAND:
+            # Something lies there that nothing else explains, if in no way that was recognized.
+            return start(surface, before.rotation, scan.points[cluster], scan.view)
     return None
 
 
@@ -129,6 +123,7 @@ def _standing_in(
     there is none.
     """
     assert surface.long_axis is not None
+    axis = surface.middle + np.outer((-1.0, 1.0), surface.long_axis * surface.length / 2)
     body = known.body(region.body)
     room = np.array(region.center) - np.array([0.0, 0.0, region.half[2]])
     floor = body.place(room[None])[0]
@@ -149,11 +144,44 @@ def _standing_in(
                 best = (worth, pose)
     assert best is not None
     moves = [np.eye(6)[axis] * (0.008 if axis < 3 else TURN) for axis in (0, 1, 2, 3, 4)]
-    pose, borne = outlined(surface, best[1], scan.view, scan.depth, moves)
+    pose, borne = outlined(
+        surface,
+        best[1],
+        scan.view,
+        scan.depth,
+        moves,
+        lambda tried: _stands(tried, axis, body, region),
+    )
     shown = borne.agree + borne.unread
     if borne.outlined < GONE or shown < LEAST_AGREE:
         return None
     return borne.worth, pose
+
+
+def _stands(pose: Pose, axis: Array, body: Pose, region: Region) -> bool:
+    """Whether a rod stands on a container's floor and leaves it through its mouth.
+
+    Args:
+        pose: of the rod.
+        axis: its ends (2, 3), in its own frame.
+        body: where the container is.
+        region: its inside.
+    """
+    ends = body.local(pose.place(axis)) - region.center
+    foot, head = ends[np.argsort(ends[:, 2])]
+    half = np.array(region.half)
+    if not -half[2] - ROOM < foot[2] < -half[2] + LIFTED:
+        return False
+    mouth = foot + (head - foot) * min((half[2] - foot[2]) / max(head[2] - foot[2], 1e-6), 1.0)
+    for point in (foot, mouth):
+        inside = (
+            np.hypot(*point[:2]) < half[0] + ROOM
+            if region.round
+            else (np.abs(point[:2]) < half[:2] + ROOM).all()
+        )
+        if not inside:
+            return False
+    return True
 
 
 def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose) -> Pose:
@@ -169,8 +197,11 @@ def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose
 
 
 def level_moves(surface: Surface, pose: Pose) -> list[Array]:
-    """Ways in which a lying rod may be elsewhere: along and across itself, and turned."""
-    assert surface.long_axis is not None
+    """Ways in which a thing may be elsewhere on its level: a lying rod along and across itself, and
+    turned; others along x and y.
+    """
+    if surface.long_axis is None:
+        return [SLIDE * axis for axis in np.eye(6)[:2]]
     along = pose.rotation @ surface.long_axis
     along[2] = 0.0
     along /= max(float(np.linalg.norm(along)), 1e-9)

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from etot_cli.execution.cameras.rendered import RenderedCamera
+from etot_cli.execution.cell import TrialOptions, simulated_world
 from etot_cli.execution.robots.worker_server import Served, serve
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
-from etot_cli.execution.trial import TrialOptions, simulated_world
 from etot_cli.specs.load import load_task
 
 

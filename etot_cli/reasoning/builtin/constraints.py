@@ -6,7 +6,13 @@ from collections.abc import Iterable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
 from etot_cli.reasoning.builtin.harm import CHANGED, displacement
-from etot_cli.reasoning.builtin.relations import is_inside, is_on, owner_of
+from etot_cli.reasoning.builtin.relations import (
+    is_closed,
+    is_inside,
+    is_on,
+    is_open,
+    owner_of,
+)
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState
 
@@ -30,11 +36,19 @@ def broken_constraint(
     return None
 
 
-def cause_of_breach(record: RolloutRecord, constraints: Iterable[Constraint]) -> Cause | None:
-    """What an action did that it must not have done; None for nothing."""
+def cause_of_breach(
+    record: RolloutRecord, constraints: Iterable[Constraint], blur: float = 0.0
+) -> Cause | None:
+    """What an action did that it must not have done; None for nothing.
+
+    Args:
+        record: what happened.
+        constraints: what must not.
+        blur: by how much two looks at something that stands still may differ [m].
+    """
     for constraint in constraints:
         for name in constraint.names:
-            text = _breach(name, constraint, record)
+            text = _breach(name, constraint, record, CHANGED + blur)
             if text is not None:
                 return Cause(CauseKind.COLLISION, (owner_of(name),), text)
     return None
@@ -61,7 +75,7 @@ def _does(action: Action, held: str | None, constraint: Constraint, scene: Scene
             )
 
 
-def _breach(name: str, constraint: Constraint, record: RolloutRecord) -> str | None:
+def _breach(name: str, constraint: Constraint, record: RolloutRecord, far: float) -> str | None:
     before, after = record.before, record.after
     owner = owner_of(name)
     if owner not in before.states:
@@ -72,10 +86,10 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord) -> str | N
                 pair = (owner_of(contact.first), owner_of(contact.second))
                 if owner in pair and (set(pair) & {*ROBOT, before.holding, after.holding}):
                     return f"{owner} was touched, which it must not be"
-            if displacement(owner, record) > CHANGED:
+            if displacement(owner, record) > far:
                 return f"{owner} was moved, and it must stay untouched"
         case Keep.UNMOVED:
-            if displacement(owner, record) > CHANGED:
+            if displacement(owner, record) > far:
                 return f"{owner} was moved, which it must not be"
         case Keep.AWAY:
             for relation, place in constraint.places:
@@ -83,7 +97,11 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord) -> str | N
                 if holds(after, owner, place) and not holds(before, owner, place):
                     return f"{owner} came to be {relation.value} {place}, where it must not be"
         case Keep.CLOSED | Keep.OPEN:
-            return None  # a part moves only by an action, and that is never planned
+            kept = is_closed if constraint.keep is Keep.CLOSED else is_open
+            for part in before.infos[owner].parts:
+                meant = name in (owner, part.address)
+                if meant and kept(before, part) and not kept(after, part):
+                    return f"{part.address} did not stay {constraint.keep.value}"
     return None
 
 

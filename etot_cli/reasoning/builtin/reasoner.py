@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
 from etot_cli.reasoning.builtin.conditions import goals_of
@@ -42,13 +43,7 @@ class BuiltinReasoner:
             InstructionError: the assignment cannot be understood against this scene.
             ReasonerStopped: there are more choices than are looked at; raised behind the last one.
         """
-        if assignment.goal is not None:
-            self._goals = goals_of(assignment.goal, scene)
-        else:
-            # The grammar needs the parser, which only this role should pay for.
-            from etot_cli.reasoning.language.instructions import goal_of
-
-            self._goals = (goal_of(assignment.instruction, scene),)
+        self._goals = _goals(assignment, scene)
         return branches_of(self._goals, scene)
 
     @property
@@ -81,4 +76,30 @@ class BuiltinReasoner:
     @property
     def _constraints(self) -> tuple[Constraint, ...]:
         """What must not happen on the way, whichever of the alternative goals is followed."""
-        return tuple(constraint for goal in self._goals for constraint in goal.constraints)
+        return _constraints(self._goals)
+
+
+def forbidden_by(assignment: Assignment, scene: SceneState) -> tuple[Constraint, ...]:
+    """What must not happen on the way, whoever plans; nothing where the words are not understood.
+
+    Args:
+        assignment: what is asked for.
+        scene: the scene that its words speak of.
+    """
+    try:
+        return _constraints(_goals(assignment, scene))
+    except InstructionError:
+        return ()
+
+
+def _goals(assignment: Assignment, scene: SceneState) -> tuple[Goal, ...]:
+    if assignment.goal is not None:
+        return goals_of(assignment.goal, scene)
+    # The grammar needs the parser, which only those who read should pay for.
+    from etot_cli.reasoning.language.instructions import goal_of
+
+    return (goal_of(assignment.instruction, scene),)
+
+
+def _constraints(goals: Iterable[Goal]) -> tuple[Constraint, ...]:
+    return tuple(constraint for goal in goals for constraint in goal.constraints)

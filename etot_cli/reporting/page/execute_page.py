@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 
-from etot_cli.execution.trial import Trial
+from etot_cli.execution.records import Trial
 from etot_cli.reporting.execute_report import CLASSES, ExecuteReport
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Picture

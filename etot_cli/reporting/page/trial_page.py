@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 
-from etot_cli.execution.trial import Trial
+from etot_cli.execution.records import Trial
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Picture
 from etot_cli.reporting.page.trial_rows import shown_trial

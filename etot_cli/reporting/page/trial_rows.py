@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.execution.trial import Trial
+from etot_cli.execution.records import Trial
 from etot_cli.reporting.evidence import moved_text
 from etot_cli.reporting.execute_report import LookModel, TrialModel
 from etot_cli.reporting.page.pictures import Picture

@@ -1,0 +1,183 @@
+"""What is fastened, and its doors and drawers: where it stands and how far they are open.
+
+A front seen a little before its cabinet may be an open drawer or a cabinet that stands nearer; body
+and parts are therefore fitted as one surface, and what has been seen before hardly moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from etot_cli.execution.perception.fitting import (
+    Freedom,
+    Pose,
+    improved,
+    support,
+)
+from etot_cli.execution.perception.scan import Scan
+from etot_cli.execution.perception.surfaces import Surface
+from etot_cli.execution.perception.twin import KnownScene
+from etot_cli.execution.perception.unseen import GONE
+
+PART_STEPS, PART_ROUNDS = 15, 3
+"""Values of a part's joint that are compared, and how often between the two best ones."""
+PART_POINTS = 2500
+FIT_ROUNDS = 3
+"""Body and parts are fitted in turn, so often at most: the second time mostly changes nothing."""
+SETTLED = 0.04
+"""Share of a part's travel by which its value may change without the body being fitted anew."""
+MARGIN = 0.03
+"""Readings this far outside of the bounding sphere may be furniture that stands elsewhere [m]."""
+OWN = 0.005
+"""Readings this near to furniture are its own [m]; what lies flat on it begins there."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A piece of furniture: its pose, and whether the picture bears it out."""
+
+    pose: Pose
+    seen: bool
+
+
+class Furniture:
+    """Follows all furniture of a scene from look to look.
+
+    Args:
+        known: its surfaces and parts.
+    """
+
+    def __init__(self, known: KnownScene) -> None:
+        self._known = known
+        self._names = [
+            name
+            for name, entry in known.world.entries.items()
+            if not entry.free and name in known.surfaces
+        ]
+        self.standing: dict[str, Standing] = {}
+        self.values = {address: known.joint_value(address) for address in known.parts}
+
+    def look(self, scan: Scan, last: Mapping[str, float]) -> dict[str, Pose]:
+        """Finds it all, and explains its readings.
+
+        Args:
+            scan: the picture.
+            last: joint values ``object.part`` at the last look [m or rad].
+
+        Returns:
+            How each part's body has moved since then.
+        """
+        self.values.update(last)
+        moved: dict[str, Pose] = {}
+        for name in self._names:
+            parts = [
+                address
+                for address in self._known.part_surfaces
+                if address.partition(".")[0] == name
+            ]
+            before = {address: self._body_of(address) for address in parts}
+            self._fit(name, parts, scan)
+            self._explain(scan, self._known.surfaces[name], self.standing[name].pose)
+            for address in parts:
+                now = self._body_of(address)
+                self._explain(scan, self._known.part_surfaces[address], now)
+                moved[self._known.parts[address].body] = now @ before[address].inverse()
+        return moved
+
+    def _fit(self, name: str, parts: list[str], scan: Scan) -> None:
+        """Where it stands and how far its parts are open. What is fastened stays where the first
+        look found it as long as the picture bears that out: anew at each look, body and parts would
+        drift against each other.
+        """
+        was = self.standing.get(name)
+        if was is not None and was.seen:
+            self._set_values(parts, scan)
+            if self._borne_out(name, parts, was.pose, scan):
+                return
+        surface = self._known.surfaces[name]
+        start = self._known.nominal(name) if was is None else was.pose
+        middle = start.place(surface.middle[None])[0]
+        reach = surface.radius + MARGIN
+        near = scan.unexplained & (np.linalg.norm(scan.points - middle, axis=1) < reach)
+        for _ in range(FIT_ROUNDS):
+            whole = self._whole(name, parts)
+            pose = improved(whole, start, scan.points[near], scan.view, freedom=Freedom.ON_LEVEL)
+            self._known.put(name, pose)
+            seen = self._borne_out(name, parts, pose, scan)
+            self.standing[name] = Standing(pose, seen)
+            before = [self.values[address] for address in parts]
+            self._set_values(parts, scan)
+            spans = (self._span(address) for address in parts)
+            if all(
+                abs(self.values[address] - value) <= SETTLED * (high - low)
+                for address, value, (low, high) in zip(parts, before, spans, strict=True)
+            ):
+                break
+
+    def _set_values(self, parts: list[str], scan: Scan) -> None:
+        for address in parts:
+            self.values[address] = self._value(address, scan)
+
+    def _borne_out(self, name: str, parts: list[str], pose: Pose, scan: Scan) -> bool:
+        return support(self._whole(name, parts), pose, scan.view, scan.depth).share >= GONE
+
+    def _whole(self, name: str, parts: list[str]) -> Surface:
+        """The body's surface and its parts', in the body's frame."""
+        body = self._known.surfaces[name]
+        if not parts:
+            return body
+        stands = self._known.body(self._known.world.entries[name].body)
+        points, normals = [body.points], [body.normals]
+        for address in parts:
+            here = stands.inverse() @ self._body_of(address)
+            surface = self._known.part_surfaces[address]
+            points.append(here.place(surface.points))
+            normals.append(surface.normals @ here.rotation.T)
+        return Surface(np.vstack(points), np.vstack(normals))
+
+    def _body_of(self, address: str) -> Pose:
+        """Where a part's body is with its last joint value."""
+        return self._known.set_part(address, self.values[address])
+
+    def _span(self, address: str) -> tuple[float, float]:
+        part = self._known.parts[address]
+        return min(part.lower, part.upper), max(part.lower, part.upper)
+
+    def _value(self, address: str, scan: Scan) -> float:
+        """The joint value that is borne out best; the last one where nothing is to be seen."""
+        surface = self._known.part_surfaces[address].thinned(PART_POINTS)
+        was, (low, high) = self.values[address], self._span(address)
+
+        def worth(value: float) -> float:
+            pose = self._known.set_part(address, value)
+            borne = support(surface, pose, scan.view, scan.depth)
+            return borne.agree - 2.0 * borne.through
+
+        values = np.unique(np.append(np.linspace(low, high, PART_STEPS), np.clip(was, low, high)))
+        worths = np.array([worth(value) for value in values])
+        best = int(worths.argmax())
+        least = worth(float(np.clip(was, low, high)))
+        if worths[best] <= max(least, 0.0) and least > 0:
+            best = int(np.abs(values - was).argmin())
+        if worths[best] <= 0:
+            return was
+        value, step = float(values[best]), (high - low) / (PART_STEPS - 1)
+        top = worths[best]
+        for _ in range(PART_ROUNDS):
+            step /= 2.0
+            for tried in (value - step, value + step):
+                if low <= tried <= high and (found := worth(tried)) > top:
+                    value, top = tried, found
+        return value
+
+    def _explain(self, scan: Scan, surface: Surface, pose: Pose) -> None:
+        """Takes the readings of a surface."""
+        rest = np.flatnonzero(scan.unexplained)
+        apart, _ = surface.tree.query(pose.local(scan.points[rest]), distance_upper_bound=OWN)
+        scan.unexplained[rest[np.isfinite(apart)]] = False
+
+
+__all__ = ["Furniture", "Standing"]
