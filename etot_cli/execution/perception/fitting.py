@@ -246,7 +246,7 @@ def outlined(
     pose: Pose,
     view: View,
     depth: Array,
-    moves: Sequence[Array],
+    moves: Sequence[Array] | Array,
     may: Callable[[Pose], bool] = lambda _: True,
 ) -> tuple[Pose, Support]:
     """The pose nearby that is worth most, for what is too thin to have readings of its own.

@@ -15,6 +15,7 @@ from etot_cli.execution.perception.fitting import (
     Freedom,
     Pose,
     improved,
+    outlined,
     support,
 )
 from etot_cli.execution.perception.scan import Scan
@@ -29,6 +30,10 @@ FIT_ROUNDS = 3
 """Body and parts are fitted in turn, so often at most: the second time mostly changes nothing."""
 SETTLED = 0.04
 """Share of a part's travel by which its value may change without the body being fitted anew."""
+MOVES = np.diag((0.012, 0.012, 0.0, 0.0, 0.0, 0.05))[[0, 1, 5]]
+"""First steps in which it is shifted and turned on its level to fit where it ends [m, rad]."""
+SEEN_THROUGH = 0.01
+"""Share of what is visible that may be seen through before the fit is doubted: noise is less."""
 MARGIN = 0.03
 """Readings this far outside of the bounding sphere may be furniture that stands elsewhere [m]."""
 OWN = 0.005
@@ -105,6 +110,10 @@ class Furniture:
         for _ in range(FIT_ROUNDS):
             whole = self._whole(name, parts)
             pose = improved(whole, start, scan.points[near], scan.view, freedom=Freedom.ON_LEVEL)
+            borne = support(whole, pose, scan.view, scan.depth)
+            if borne.through > SEEN_THROUGH * borne.visible:
+                # Two faces leave it free along both; where they end, it would be seen through.
+                pose, _ = outlined(whole, pose, scan.view, scan.depth, MOVES)
             self._known.put(name, pose)
             seen = self._borne_out(name, parts, pose, scan)
             self.standing[name] = Standing(pose, seen)
