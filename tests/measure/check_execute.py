@@ -234,9 +234,10 @@ def main() -> int:
         good &= fine
         sections[f"Executed with {perception} perception"] = text
         sections[f"Whose failures, {perception} perception"] = check_attribution(done, perception)
-    text, fine = check_cases(done)
-    good &= fine
-    sections["Other disturbances"] = text
+    if any(job.case is not None for job, _ in done):
+        text, fine = check_cases(done)
+        good &= fine
+        sections["Other disturbances"] = text
     for title, text in sections.items():
         print(f"\n## {title}\n\n{text}")
         if not given.no_write:
