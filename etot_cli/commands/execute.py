@@ -10,7 +10,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Literal
 
-from etot_cli.commands import rooms as doors
 from etot_cli.commands.plan import task_model
 from etot_cli.errors import EtotError, ServiceError
 from etot_cli.execution.cell import TrialOptions
@@ -29,6 +28,7 @@ from etot_cli.reporting.execute_report import (
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.services.redact import public_url
+from etot_cli.specs.load import load_task
 from etot_cli.specs.task import Task
 from etot_cli.world.workers import WorkerLostError, WorkerPool
 
@@ -82,11 +82,7 @@ class Execution:
         return any(trial.status == "lost" for trial in self.trials)
 
 
-def run_execute(
-    options: ExecuteOptions,
-    observer: ExecutionObserver | None = None,
-    rooms: doors.Rooms | None = None,
-) -> Execution:
+def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = None) -> Execution:
     """Carries a task out.
 
     Ctrl-C (KeyboardInterrupt) does not escape: the robot is stopped and the report says
@@ -95,7 +91,6 @@ def run_execute(
     Args:
         options: the task, the robot and how often.
         observer: told of everything.
-        rooms: the rooms below; this package's own when None.
 
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
@@ -105,12 +100,11 @@ def run_execute(
     trials: list[Trial] = []
     interrupted = False
     try:
-        rooms = rooms or doors.default_rooms()
         check_names(options.robot, options.perception)
         if options.jobs > 1 and options.robot.partition(":")[0] != SIMULATED:
             raise EtotError(f"--jobs {options.jobs}: there is one robot {options.robot}")
         with watch.phase("load"):
-            task = rooms.load_task(options.task)
+            task = load_task(options.task)
         with watch.phase("execute"):
             for trial in _trials(options, task, observer):
                 trials.append(trial)

@@ -65,16 +65,13 @@ class _Plan:
     culprits: tuple[str, ...]
 
 
-def write_plan_page(
-    planning: Planning, folder: Path, progress: Progress | None = None, *, jobs: int | None = None
-) -> Path:
+def write_plan_page(planning: Planning, folder: Path, progress: Progress | None = None) -> Path:
     """Renders what the search tried and writes the page into ``folder``.
 
     Args:
         planning: report, scene and what every node did.
         folder: of the report.
         progress: told of every picture.
-        jobs: processes to render with; None for one per core.
 
     Raises:
         EtotError: the page cannot be written.
@@ -90,7 +87,7 @@ def write_plan_page(
         frames[number] = _frames_of(number, outcome, culprits, cause.time_s if cause else None,
                                     parents[number], planning, wanted)  # fmt: skip
     begun = time.monotonic()
-    pictures, notice = _take(planning.scene, wanted, progress, jobs)
+    pictures, notice = _take(planning.scene, wanted, progress)
     add_phase(report.timing, "render", time.monotonic() - begun)
     path = folder / PAGE_NAME
     write_atomically(path, plan_page(report, frames, pictures, notice))
@@ -98,11 +95,7 @@ def write_plan_page(
 
 
 def write_simulate_page(
-    simulation: Simulation,
-    folder: Path,
-    progress: Progress | None = None,
-    *,
-    jobs: int | None = None,
+    simulation: Simulation, folder: Path, progress: Progress | None = None
 ) -> Path:
     """Renders a simulation as single frames and writes the page into ``folder``.
 
@@ -136,7 +129,7 @@ def write_simulate_page(
             frames.append((start + float(time_s), key))
         start += duration
     begun = time.monotonic()
-    pictures, notice = _take(simulation.scene, _coarse_first(wanted), progress, jobs)
+    pictures, notice = _take(simulation.scene, _coarse_first(wanted), progress)
     add_phase(report.timing, "render", time.monotonic() - begun)
     track = Track("The simulation", frames)
     path = folder / PAGE_NAME
@@ -209,7 +202,7 @@ def _key_moment(trajectory: Trajectory, failed_s: float | None, duration: float)
 
 
 def _take(
-    scene: Scene | None, wanted: Sequence[_Plan], progress: Progress | None, jobs: int | None
+    scene: Scene | None, wanted: Sequence[_Plan], progress: Progress | None
 ) -> tuple[dict[str, Picture], str]:
     """The pictures by key, rendered where that can be done, and a line on why where it cannot."""
     pictures: dict[str, Picture] = {}
@@ -221,7 +214,7 @@ def _take(
         try:
             taken = take(
                 studio, [plan.shot for plan in shots if plan.shot is not None],
-                jobs=jobs or cores(), seconds=RENDER_SECONDS, progress=progress,
+                jobs=cores(), seconds=RENDER_SECONDS, progress=progress,
             )  # fmt: skip
             for plan, content in zip(shots, taken, strict=True):
                 if isinstance(content, bytes):

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.control.simulator import ActionSimulator, open_simulator
 from etot_cli.execution.protocols import Planned
-from etot_cli.planning.options import Ablation, Limits
-from etot_cli.planning.result import SearchObserver, SearchResult, SearchStatus
+from etot_cli.planning.options import Limits
+from etot_cli.planning.result import SearchResult, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.reasoning.builtin import BuiltinReasoner
-from etot_cli.reasoning.protocol import Assignment, Reasoner
+from etot_cli.reasoning.protocol import Assignment
 from etot_cli.skills.action import Action
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.scene import Scene
@@ -34,37 +34,22 @@ class TreePlanner:
         scene: what the twin is built from; the twin is built when it is first needed.
         seed: of the motions' random choices.
         limits: of each search.
-        without: mechanisms that the searches go without.
-        jobs: nodes simulated at the same time.
-        reasoner: makes the one that proposes, judges and reflects.
-        observer: told of every step of every search.
     """
 
     assignment: Assignment
     scene: Scene
     seed: int = 0
     limits: Limits = field(default_factory=Limits)
-    without: frozenset[Ablation] = frozenset()
-    jobs: int = 1
-    reasoner: Callable[[], Reasoner] = BuiltinReasoner
-    observer: SearchObserver | None = None
     _simulator: ActionSimulator | None = None
 
     def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
         """Searches for a plan from the believed state; nothing is assumed about what was done."""
         if self._simulator is None:
             self._simulator = open_simulator(
-                self.scene, seed=self.seed, jobs=self.jobs, worlds=1, record=False
+                self.scene, seed=self.seed, jobs=1, worlds=1, record=False
             )
         self._simulator.begin_from(start, scene)
-        result = search(
-            self.assignment,
-            self._simulator,
-            self.reasoner(),
-            limits=self.limits,
-            without=self.without,
-            observer=self.observer,
-        )
+        result = search(self.assignment, self._simulator, BuiltinReasoner(), limits=self.limits)
         if result.status is SearchStatus.INTERRUPTED:
             raise KeyboardInterrupt
         path = () if result.leaf is None else result.leaf.path
@@ -109,19 +94,12 @@ class TreePlanners:
         assignment: what is asked for.
         seed: of the motions' random choices.
         limits: of each search.
-        without: mechanisms that the searches go without.
     """
 
     def __init__(
-        self,
-        assignment: Assignment,
-        *,
-        seed: int = 0,
-        limits: Limits | None = None,
-        without: frozenset[Ablation] = frozenset(),
+        self, assignment: Assignment, *, seed: int = 0, limits: Limits | None = None
     ) -> None:
-        self._assignment, self._seed = assignment, seed
-        self._limits, self._without = limits or Limits(), without
+        self._assignment, self._seed, self._limits = assignment, seed, limits or Limits()
         self._made: list[TreePlanner] = []
 
     def __call__(self, scene: Scene) -> TreePlanner:
@@ -129,9 +107,7 @@ class TreePlanners:
         known = next((planner for planner in self._made if planner.scene == scene), None)
         if known is not None:
             return known
-        made = TreePlanner(
-            self._assignment, scene, seed=self._seed, limits=self._limits, without=self._without
-        )
+        made = TreePlanner(self._assignment, scene, seed=self._seed, limits=self._limits)
         self._made.append(made)
         for old in self._made[:-KEPT]:
             old.close()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from textwrap import wrap
-from types import TracebackType
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -58,12 +57,7 @@ class LiveView:
         self._live.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._ended = True
         self._live.stop()
 

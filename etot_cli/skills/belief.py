@@ -111,7 +111,6 @@ class Belief:
         goal: Vector,
         attached: Attached | None = None,
         *,
-        start: Vector | None = None,
         opening: float | None = None,
     ) -> Vector | None:
         """A collision-free joint path (k, n), or None.
@@ -119,12 +118,10 @@ class Belief:
         Args:
             goal: joint values (n,).
             attached: the object in the hand.
-            start: where the path begins; the present targets when None.
             opening: distance between the pads on the way [m]; as it is when None.
         """
         self.checker.freeze(self.data)
         if opening is not None:
             # The fingers get there long before the arm does.
             self.checker.set_fingers(opening)
-        begin = self.commanded if start is None else start
-        return plan_transit(self.arm, self.checker, begin, goal, attached, self.rng)
+        return plan_transit(self.arm, self.checker, self.commanded, goal, attached, self.rng)

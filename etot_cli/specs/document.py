@@ -101,18 +101,16 @@ def path_text(path: DataPath) -> str:
     return text
 
 
-def read_document(path: Path, shown: str | None = None) -> Node:
+def read_document(path: Path) -> Node:
     """Reads a YAML file.
 
     Args:
-        path: the file.
-        shown: what messages call it; default: the path as given.
+        path: the file, which messages call as it is given.
 
     Raises:
         SpecError: unreadable, not YAML, or beyond what documents may contain.
     """
-    file = str(path) if shown is None else shown
-    return parse_document(read_text(path, file), file)
+    return parse_document(read_text(path, str(path)), str(path))
 
 
 def parse_document(text: str, file: str) -> Node:

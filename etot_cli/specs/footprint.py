@@ -87,14 +87,14 @@ def overlap(first: Footprint, second: Footprint) -> float:
     return depth
 
 
-def contains(shape: Footprint, point: Vector, margin: float = 0.0) -> bool:
-    """Whether a point lies at least ``margin`` [m] inside an outline."""
+def contains(shape: Footprint, point: Vector) -> bool:
+    """Whether a point lies inside an outline or on it."""
     if isinstance(shape, Disc):
-        return math.hypot(point[0] - shape.x, point[1] - shape.y) <= shape.radius - margin
+        return math.hypot(point[0] - shape.x, point[1] - shape.y) <= shape.radius
     for axis in _normals(shape):
         low, high = _span(shape, axis)
         position = point[0] * axis[0] + point[1] * axis[1]
-        if not low + margin <= position <= high - margin:
+        if not low <= position <= high:
             return False
     return True
 

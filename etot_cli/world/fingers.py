@@ -138,7 +138,7 @@ def measure_fingers(spec: RobotSpec, changed_ns: int) -> Fingers:
         postures.append(data.qpos[addresses].copy())
         if share == 0.0:
             _check_tips(model, data, spec, (first, second))
-    _check_openings(spec, openings, model, data, (first, second))
+    _check_openings(spec, openings, data, (first, second))
     return Fingers(names, np.maximum.accumulate(openings), np.array(postures))
 
 
@@ -150,7 +150,6 @@ def fingers_of(spec: RobotSpec) -> Fingers:
 def _check_openings(
     spec: RobotSpec,
     openings: list[float],
-    model: mujoco.MjModel,
     data: mujoco.MjData,
     pads: tuple[int, int],
 ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,11 +108,3 @@ class ObjectEntry:
     """Falling over changes what it is good for (not so for balls and lying rods)."""
     axis: tuple[float, float, float] | None = None
     """Long axis of a rod pointing at its point, body frame."""
-
-
-@dataclass
-class Built:
-    """What a builder of one object hands back, before compilation."""
-
-    entry: ObjectEntry
-    geoms: list[str] = field(default_factory=list)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import mujoco
 import numpy as np
@@ -100,28 +99,16 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
     return scene, Memory(memory.up, frozenset(toppled), inside, frozenset(opened))
 
 
-def held_object(world: World, data: mujoco.MjData) -> str | None:
-    """The movable object that both fingers touch, if any."""
-    touched: dict[str, set[int]] = {}
-    for hand, other in _robot_contacts(world, data):
-        side = world.robot.finger_side.get(int(world.model.geom_bodyid[hand]))
-        if side is not None and world.entries[other].info.movable:
-            touched.setdefault(other, set()).add(side)
-    return next((name for name, bodies in touched.items() if len(bodies) == 2), None)
-
-
 def touched_by_robot(world: World, data: mujoco.MjData) -> list[str]:
     """Objects in contact with the robot, the desk left out."""
-    return list(dict.fromkeys(other for _, other in _robot_contacts(world, data)))
-
-
-def _robot_contacts(world: World, data: mujoco.MjData) -> Iterator[tuple[int, str]]:
-    """Geoms of the robot and the objects that they touch."""
-    for one, two in data.contact.geom:
-        for first, second in ((int(one), int(two)), (int(two), int(one))):
-            other = world.geom_object[second]
-            if world.geom_object[first] in ("robot", "gripper") and other in world.entries:
-                yield first, other
+    pairs = ([world.geom_object[int(geom)] for geom in pair] for pair in data.contact.geom)
+    touched = (
+        other
+        for one, two in pairs
+        for hand, other in ((one, two), (two, one))
+        if hand in ("robot", "gripper") and other in world.entries
+    )
+    return list(dict.fromkeys(touched))
 
 
 def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], list[str]]:
@@ -251,7 +238,6 @@ def _quadruple(values: NDArray[np.float64]) -> tuple[float, float, float, float]
 __all__ = [
     "CLOSED_AT",
     "OPEN_AT",
-    "held_object",
     "initial_memory",
     "read_scene",
     "to_region",

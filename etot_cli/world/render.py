@@ -7,8 +7,6 @@ Pictures are made afterwards, from stored configurations; nothing here steps phy
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from types import TracebackType
 from typing import Any
 
 import mujoco
@@ -17,7 +15,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.specs.scene import Scene
-from etot_cli.world.model import World, build_world
+from etot_cli.world.model import World
 from etot_cli.world.offscreen import Image, OffscreenRenderer, Vector
 
 DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
@@ -77,12 +75,7 @@ class WorldRenderer:
     def __enter__(self) -> WorldRenderer:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def frame(self, qpos: NDArray[Any]) -> Image:
@@ -143,29 +136,3 @@ class WorldRenderer:
         view.distance = max(desk.size[1] / 2 / (vertical * self.width / self.height),
                             desk.size[0] / 2 / narrower) + desk.size[0] / 2  # fmt: skip
         return view
-
-
-def render_frames(
-    scene: Scene | World,
-    qpos: Iterable[NDArray[Any]],
-    camera: str | None = None,
-    width: int = DEFAULT_WIDTH,
-    height: int = DEFAULT_HEIGHT,
-) -> list[Image]:
-    """Pictures of configurations.
-
-    Args:
-        scene: what is seen; a scene is compiled first.
-        qpos: rows (nq,) such as those of a trajectory.
-        camera: a camera of the scene; None for its first, or for a view of the whole desk.
-        width: largest width [px]; pictures keep the camera's proportions.
-        height: largest height [px].
-
-    Raises:
-        ServiceError: there is no OpenGL.
-        WorldError: the scene cannot be built, or has no such camera.
-    """
-    world = build_world(scene) if isinstance(scene, Scene) else scene
-    camera = camera or first_camera(world.scene)
-    with WorldRenderer(world, camera, width, height) as renderer:
-        return [renderer.frame(row) for row in qpos]

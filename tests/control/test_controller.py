@@ -22,7 +22,7 @@ from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits
 from etot_cli.skills.motions import plan_motions
 from etot_cli.specs.scene import Actuation
-from etot_cli.world.relations import held_object
+from etot_cli.world.relations import touched_by_robot
 from etot_cli.world.snapshot import Snapshot, restore
 from tests.skills.helpers import BALL, UNIT, drawers
 from tests.world.helpers import make_scene
@@ -116,7 +116,7 @@ def test_the_simulated_robot_lifts_the_ball(
     trace = run_motion(grasp, SimulatedRobot(world.world, world.data), LIMITS)
     assert names(trace) == ["transit", "approach", "grip", "lift", "hold"]
     assert trace.stopped is None
-    assert held_object(world.world, world.data) == "ball"
+    assert touched_by_robot(world.world, world.data) == ["ball"]
     assert trace.phases[-1].opening == pytest.approx(BALL["diameter"], abs=0.006)
 
 

@@ -14,7 +14,7 @@ from etot_cli.control.simulator import known_targets, open_simulator
 from etot_cli.skills.action import parse_plan
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
-from etot_cli.world.relations import held_object
+from etot_cli.world.relations import touched_by_robot
 from etot_cli.world.snapshot import Snapshot
 from tests.skills.helpers import BALL, CUP, PEN, UNIT, drawers, episode, robot_at
 from tests.world.helpers import make_scene
@@ -176,7 +176,7 @@ def test_held_object_falls_when_the_fingers_let_go() -> None:
     robot.set_opening(simulated.world.robot.spec.gripper.opening)
     robot.wait(0.5, Guards())
     assert simulated.data.body("ball").xpos[2] < height - 0.05
-    assert held_object(simulated.world, simulated.data) is None
+    assert not touched_by_robot(simulated.world, simulated.data)
 
 
 def test_record_counts_its_physics(scene: Scene) -> None:

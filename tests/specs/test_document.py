@@ -102,7 +102,7 @@ def test_refused_with_place(text: str, parts: list[str], tmp_path: Path) -> None
         file = tmp_path / "f.yaml"
         file.write_text(text)
         with pytest.raises(SpecError) as caught:
-            read_document(file, "f.yaml")
+            read_document(file)
         message = str(caught.value)
     else:
         message = refused(text)

@@ -14,8 +14,9 @@ from etot_cli.errors import ServiceError, WorldError
 from etot_cli.reasoning.vlm.frames import draw_marks, moments
 from etot_cli.specs.scene import Scene
 from etot_cli.world.film import Take, key_moments, write_frames, write_video
+from etot_cli.world.model import build_world
 from etot_cli.world.recorder import Trajectory
-from etot_cli.world.render import WorldRenderer, fit_size, render_frames
+from etot_cli.world.render import WorldRenderer, fit_size
 from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
 from tests.vlm.scenes import kitchen
 
@@ -81,13 +82,11 @@ def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
 @pytest.mark.render
 def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) -> None:
     bare = SCENE.model_copy(update={"cameras": {}})
-    for scene, size in ((SCENE, (180, 320)), (bare, (180, 320))):
-        (image,) = render_frames(
-            scene, trajectory.qpos[:1], width=320, height=200 if scene is SCENE else 180
-        )
-        assert image.shape == (*size, 3) and image.std() > 15
+    for scene in (SCENE, bare):
         simulated = SimulatedWorld(scene)
         with WorldRenderer(simulated.world, next(iter(scene.cameras), None), 320, 180) as renderer:
+            image = renderer.frame(trajectory.qpos[0])
+            assert image.shape == (180, 320, 3) and image.std() > 15
             masks = renderer.visible_pixels(trajectory.qpos[0])
             # From the front, towards the robot, its left is on the right of the picture.
             columns = {name: np.nonzero(mask)[1].mean() for name, mask in masks.items()}
@@ -95,9 +94,9 @@ def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) 
 
 
 @pytest.mark.render
-def test_an_unknown_camera_is_named(trajectory: Trajectory) -> None:
+def test_an_unknown_camera_is_named() -> None:
     with pytest.raises(WorldError, match="no camera 'rear'; it has front"):
-        render_frames(SCENE, trajectory.qpos[:1], "rear")
+        WorldRenderer(build_world(SCENE), "rear", 320, 180)
 
 
 def test_pictures_keep_the_proportions_of_their_camera() -> None:

@@ -21,7 +21,6 @@ from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.specs.load import load_task
 from etot_cli.specs.vary import vary
 from etot_cli.world.recorder import Recorder
-from etot_cli.world.relations import held_object
 from etot_cli.world.snapshot import restore, save
 from tests.skills.helpers import BALL, BOX, CUP, PEN, robot_at
 from tests.world.helpers import make_scene
@@ -74,10 +73,10 @@ def _hold(name: str, seed: int, change: Change) -> float | None:
             return None
         before = simulated.believe(done.end).attach("thing").in_tool.position
         robot_at(simulated, done.end).wait(3.0, Guards())
-        if held_object(simulated.world, simulated.data) != "thing":
-            return None
         memory = done.end.memory
         after = simulated.believe(save(simulated.world, simulated.data, memory))
+        if after.held() != "thing":
+            return None
         return float(np.linalg.norm(after.attach("thing").in_tool.position - before))
     except WorldError:
         return None

@@ -53,7 +53,6 @@ class Keypoint:
     """A point on an object: ``position`` in the base frame [m]."""
 
     address: str
-    feature: Feature
     position: tuple[float, float, float]
 
 
@@ -77,11 +76,11 @@ def keypoint(scene: SceneState, address: str, feature: Feature) -> Keypoint:
     owner = owner_of(address)
     if owner not in scene.states:  # the desk
         x0, x1, y0, y1 = scene.desk_bounds
-        return Keypoint(address, feature, ((x0 + x1) / 2, (y0 + y1) / 2, scene.desk_top))
+        return Keypoint(address, ((x0 + x1) / 2, (y0 + y1) / 2, scene.desk_top))
     x, y, z = scene.states[owner].position
     if feature in (Feature.MOUTH, Feature.TOP):
         z += scene.infos[owner].size[2] / 2
-    return Keypoint(address, feature, (x, y, z))
+    return Keypoint(address, (x, y, z))
 
 
 def stages(actions: Iterable[Action], scene: SceneState) -> tuple[Stage, ...]:

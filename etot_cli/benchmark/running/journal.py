@@ -10,7 +10,6 @@ import json
 import os
 import stat
 from pathlib import Path
-from types import TracebackType
 
 from pydantic_core import from_json
 
@@ -47,12 +46,7 @@ class Journal:
     def __enter__(self) -> Journal:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         os.close(self._handle)
 
     @property

@@ -55,7 +55,6 @@ class RenderedCamera:
         state: that world's data at the time of the picture; only read.
         rng: draws the noise.
         noise: errors of depth and colour; None for a perfect camera.
-        camera: where it stands; the scene's own when None.
     """
 
     def __init__(
@@ -64,9 +63,8 @@ class RenderedCamera:
         state: Callable[[], mujoco.MjData],
         rng: np.random.Generator,
         noise: Noise | None = Noise(),  # noqa: B008 - frozen
-        camera: Camera | None = None,
     ) -> None:
-        self._camera = camera or camera_of(scene)
+        self._camera = camera_of(scene)
         self._state, self._rng, self._noise = state, rng, noise
         self._world = build_world(scene.model_copy(update={"cameras": {CAMERA_NAME: self._camera}}))
         self._data = mujoco.MjData(self._world.model)

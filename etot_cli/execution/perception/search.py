@@ -37,7 +37,6 @@ class Match:
 
     name: str
     pose: Pose
-    cluster: int
     score: float
     support: Support
 
@@ -61,10 +60,10 @@ def find(
         color: what it looks like, as :func:`chroma`; None where that is not known yet.
     """
     found: list[Match] = []
-    for number, cluster in enumerate(clusters[:MOST_CLUSTERS]):
-        best = _best(name, surface, [last.rotation], scan, number, cluster, color)
+    for cluster in clusters[:MOST_CLUSTERS]:
+        best = _best(name, surface, [last.rotation], scan, cluster, color)
         if (best is None or best.score < GOOD) and not _ball(surface):
-            other = _best(name, surface, list(_attitudes(last)), scan, number, cluster, color)
+            other = _best(name, surface, list(_attitudes(last)), scan, cluster, color)
             if other is not None and (best is None or other.score > best.score):
                 best = other
         if best is not None:
@@ -103,7 +102,6 @@ def _best(
     surface: Surface,
     attitudes: list[Array],
     scan: Scan,
-    number: int,
     cluster: NDArray[np.intp],
     color: Array | None,
 ) -> Match | None:
@@ -137,7 +135,7 @@ def _best(
             unlike = float(np.linalg.norm(chroma(scan.colors[cluster[own]]) - color))
             score /= 1.0 + (unlike / UNLIKE) ** 2
         if best is None or score > best.score:
-            best = Match(name, pose, number, score, borne)
+            best = Match(name, pose, score, borne)
     return best
 
 

@@ -176,7 +176,7 @@ def _from_library(
 ) -> Solid:
     """The solid as a known thing of known size; as it was, with a warning, where that misfits."""
     if entry.mesh is None:
-        known = fit_known_kind(seen, solid, entry.spec)
+        known = fit_known_kind(solid, entry.spec)
         if known.fit.explained > POOR:
             return _with_keys(_compared(known, solid), entry)
         return solid.warned(
@@ -257,7 +257,7 @@ def _matching(
 ) -> Solid | None:
     """The solid as a known thing, if it fits about as well as the shape that was found."""
     if entry.mesh is None:
-        known = fit_known_kind(seen, solid, entry.spec)
+        known = fit_known_kind(solid, entry.spec)
         if known.fit.explained < max(POOR, 0.9 * solid.fit.explained):
             return None
         return _with_keys(known, entry)

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import Fit, fit_shape, judge
 from etot_cli.reconstruction.objects import Solid
@@ -40,11 +39,10 @@ def extra_keys(spec: SceneObject) -> dict[str, Any]:
     return {key: value for key, value in data.items() if key not in shape}
 
 
-def fit_known_kind(seen: Calibrated, solid: Solid, spec: SceneObject) -> Solid:
+def fit_known_kind(solid: Solid, spec: SceneObject) -> Solid:
     """The solid as a thing of known size.
 
     Args:
-        seen: the calibrated capture.
         solid: what was found.
         spec: the known thing, any kind but meshes, shelves and MJCF models.
     """

@@ -155,7 +155,7 @@ def _from_above(
         for interval, rim in _choices(line, below):
             middle = origin + closing * (interval.start + interval.end) / 2
             middle[2] = high[2] - tool_depth
-            score = _score(center, middle, axis, interval, rim=rim, depth=depth, offset=offset)
+            score = _score(center, middle, axis, interval, rim=rim, offset=offset)
             if rim and interval.squareness < SQUARE:
                 slanted.append(Slanted(middle, closing, score))
             _add(
@@ -196,7 +196,6 @@ def _score(
     interval: Interval,
     *,
     rim: bool,
-    depth: float,
     offset: float,
 ) -> float:
     """Prefers grasps whose line passes near the centre of mass, and thin walls over wide spans."""

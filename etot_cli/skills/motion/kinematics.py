@@ -71,7 +71,6 @@ class IkResult:
     reached: bool
     joints: Vector
     position_error: float
-    angle_error: float
 
 
 class Arm:
@@ -175,7 +174,7 @@ class Arm:
             position_error = math.sqrt(float(error[:3] @ error[:3]))
             angle_error = math.sqrt(float(turn @ turn))
             if position_error < POSITION_TOLERANCE and angle_error < ANGLE_TOLERANCE:
-                return IkResult(True, joints, position_error, angle_error)
+                return IkResult(True, joints, position_error)
             total = position_error + 0.2 * angle_error
             stalled = stalled + 1 if total > 0.97 * best else 0
             best = min(best, total)
@@ -186,7 +185,7 @@ class Arm:
             joints = _within(
                 joints + step * min(1.0, MAX_STEP / max(largest, 1e-9)), self.lower, self.upper
             )
-        return IkResult(False, joints, position_error, angle_error)
+        return IkResult(False, joints, position_error)
 
     def _newton_step(self, task: mink.FrameTask, error: Vector) -> Vector:
         """One damped Gauss-Newton step of the arm's joints (n,) [rad].

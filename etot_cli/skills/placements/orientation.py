@@ -40,7 +40,7 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
             level = level if np.linalg.norm(level) > 0.3 else np.array([1.0, 0.0, 0.0])
         return _align(axis, level / np.linalg.norm(level)) @ pose.rotation
     if not entry.upright_matters:
-        return _level_tool(belief, attached) @ attached.in_tool.rotation
+        return _level_tool(belief) @ attached.in_tool.rotation
     columns = pose.rotation.T @ UP
     nearest = int(np.argmax(np.abs(columns)))
     up = pose.rotation[:, nearest] * np.sign(columns[nearest])
@@ -113,7 +113,7 @@ def _turned(
 ) -> list[Orientations]:
     if support.from_front:
         inward = np.array([*-support.axes[0], 0.0])
-        return [Orientations(inward_rotations(belief, attached, base, inward), laid)]
+        return [Orientations(inward_rotations(attached, base, inward), laid)]
     rotations = [turn_about(UP, turn) @ base for turn in TURNS]
     # The desk is everywhere; what matters is how the arm stands now.
     near = belief.object_pose(attached.name).position if support.owner is None else support.center
@@ -174,16 +174,13 @@ def discomfort(belief: Belief, attached: Attached, rotation: Vector, places: Vec
     return np.asarray(1.0 - np.cos(np.arctan2(tool[1, 1], tool[0, 1]) - natural))
 
 
-def inward_rotations(
-    belief: Belief, attached: Attached, base: Vector, inward: Vector
-) -> list[Vector]:
+def inward_rotations(attached: Attached, base: Vector, inward: Vector) -> list[Vector]:
     """Turns of the object about the vertical with which a hand gets in through a front, the
     straight ones first: a level hand points inwards, one that points down has its fingers to the
     left and right of the way.
 
     Args:
-        belief: holds the object.
-        attached: the object.
+        attached: the object in the hand.
         base: its orientation (3, 3) as it will rest.
         inward: level unit vector (3,), base frame.
     """
@@ -196,7 +193,7 @@ def inward_rotations(
     return [turn_about(UP, turn) @ base for turn in turns]
 
 
-def _level_tool(belief: Belief, attached: Attached) -> Vector:
+def _level_tool(belief: Belief) -> Vector:
     """The present tool orientation turned to point straight down or level, whichever is nearer."""
     rotation = belief.tool().rotation
     approach = rotation[:, 2]

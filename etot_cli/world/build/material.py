@@ -79,17 +79,10 @@ def add_geom(
 def add_visual(
     body: Any,
     rgba: Sequence[float],
-    kind: mujoco.mjtGeom,
-    size: Sequence[float],
-    *,
-    pos: Sequence[float] = (0.0, 0.0, 0.0),
-    quat: Sequence[float] = (1.0, 0.0, 0.0, 0.0),
-    mesh: str | None = None,
+    mesh: str,
 ) -> Any:
-    """Adds a geom that is only seen: no contact, no mass."""
-    geom = body.add_geom(type=kind, size=list(size), pos=list(pos), quat=list(quat))
-    if mesh is not None:
-        geom.meshname = mesh
+    """Adds a mesh that is only seen: no contact, no mass."""
+    geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh)
     geom.rgba = list(rgba)
     geom.contype = 0
     geom.conaffinity = 0

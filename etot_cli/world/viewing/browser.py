@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from contextlib import redirect_stdout
 from io import StringIO
-from types import TracebackType
 from typing import Any
 
 import mujoco
@@ -58,12 +57,7 @@ class BrowserReplay:
     def __enter__(self) -> BrowserReplay:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         with redirect_stdout(StringIO()):
             self._server.stop()
 
