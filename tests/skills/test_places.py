@@ -15,7 +15,8 @@ from etot_cli.skills.action import Keepout
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import Pose
-from etot_cli.skills.placements.places import DESK_GAP, Place, PlaceFinder, Quality, Request
+from etot_cli.skills.placements.judging import DESK_GAP, Quality, Request
+from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.relief import swept_shapes
 from etot_cli.skills.placements.support import (
     DESK_EDGE,

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.placements.places import Place, PlaceFinder, Quality, Request, Stamps
+from etot_cli.skills.placements.judging import Quality, Request
+from etot_cli.skills.placements.places import Place, PlaceFinder
+from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.model import World
 
 Vector = NDArray[np.float64]

@@ -7,8 +7,10 @@ from dataclasses import replace
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
+from etot_cli.skills.placements.judging import Request
 from etot_cli.skills.placements.placement import Tally, placements
-from etot_cli.skills.placements.places import PlaceFinder, Request, Stamps
+from etot_cli.skills.placements.relief import relief
+from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.state import CauseKind
 
 MAX_SUSPECTS = 5
@@ -73,7 +75,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
 def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:
     """Movable objects that may be in the way, and fastened ones; what stands there first."""
     name = request.attached.name
-    there = PlaceFinder(belief, request).relief.occupants()
+    there = relief(belief, request.support, {name, *request.absent}).occupants()
     met = tally.blockers.evidence().most(excluding=[name])
     own = (name, request.support.owner)
     found = [one for one in dict.fromkeys([*there, *met]) if one not in own]

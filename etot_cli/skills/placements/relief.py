@@ -27,7 +27,7 @@ Cells = NDArray[np.int64]
 
 FINEST, COARSEST = 0.0015, 0.005
 """Cell sizes [m]: in a cup, half of the gap that an object keeps to its wall; on the desk, less
-than half of the gap that objects keep there (``places.py``)."""
+than half of the gap that objects keep there (``judging.py``)."""
 CELLS = 40
 """Cells on half the length of a floor, between these bounds."""
 AROUND = 0.07

@@ -1,0 +1,300 @@
+"""How good the places of a floor are for an object as it is held.
+
+All places and turns are judged at once on height maps: how far down the object gets, how far down
+the opened hand gets, what is beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import IntEnum
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from etot_cli.skills.action import Keepout
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.skills.placements.orientation import discomfort
+from etot_cli.skills.placements.relief import (
+    Relief,
+    Stamp,
+    free_distance,
+    least,
+    relief,
+    resting_heights,
+)
+from etot_cli.skills.placements.support import Support
+from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Undersides
+
+Vector = NDArray[np.float64]
+Cells = NDArray[np.int64]
+Preference = Callable[[Vector], Vector]
+"""Extra cost (m,) [m] of places (m, 2) in the base frame; infinite where none may be."""
+
+DESK_GRID, GRID = 0.025, 0.0075
+"""Spacing of the places looked at on the desk, and on other floors [m]."""
+MAX_PLACES = 900
+"""Places looked at on one floor; larger floors get a wider spacing."""
+DESK_GAP, GAP = 0.012, 0.002
+"""Distance kept from what stands there [m]: on the desk a hand has to get at both afterwards,
+elsewhere only what the object strays by on its way."""
+DESK_COMFORT, COMFORT = 0.08, 0.03
+"""Free distance around an object beyond which more is no better [m]: hand and arm pass on the
+desk; elsewhere a finger and its way to open."""
+HAND_ABOVE = 0.05
+"""Height of a hand's tool point over the desk at which its comfort is judged [m]."""
+FLAT = 0.003
+"""An object that rests this little above the floor stands on it [m]."""
+FRONT_MARGIN = 0.015
+"""Distance kept from an open front and from the walls beside it [m]: the hand withdraws along
+them."""
+DEEP = 0.4
+"""What sticks out of a container is inside while its bottom is no higher than this share of the
+container's depth, a little less than what counts as inside (``world/relations.py``)."""
+SHORT_DROP = 0.02
+"""Something let go this far above its place still comes to rest there [m]."""
+NEARLY_SWEPT = 4.0
+"""Cost of places by how much a door or drawer may come nearer than seen [m per m], as of room
+around them: what is pushed by a door is worse off than what a hand has little room at."""
+
+
+class Quality(IntEnum):
+    """Kinds of places, the best first."""
+
+    GOOD = 0
+    """On the floor, let go right there."""
+    DROPPED = 1
+    """On the floor, but the hand has to open higher up."""
+    SWEPT = 2
+    """On the desk, where a door or a drawer passes."""
+    PILED = 3
+    """On top of something else or over an edge, and stable there."""
+    STICKS_OUT = 4
+    """On the floor of a container that is too low for it."""
+    LOOSE = 5
+    """Above whatever fills the container: physics will tell."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be put down where.
+
+    Attributes:
+        attached: the object in the hand.
+        support: the floor.
+        keepout: discs to stay clear of.
+        strict: also stay clear of all that doors and drawers pass over.
+        preference: extra cost of places.
+        at: places x, y that are looked at besides those of a grid, base frame [m].
+        absent: objects taken for not being there.
+        rehearsed: where it was let go in a scene much like this one; looked at first.
+    """
+
+    attached: Attached
+    support: Support
+    keepout: tuple[Keepout, ...] = ()
+    strict: bool = False
+    preference: Preference | None = None
+    at: tuple[tuple[float, float], ...] = ()
+    absent: frozenset[str] = field(default_factory=frozenset)
+    rehearsed: Pose | None = None
+
+
+@dataclass(frozen=True)
+class Turned:
+    """Places of a floor for one orientation of the object; arrays are (m,).
+
+    Attributes:
+        cells: (m, 2) of the places.
+        points: (m, 2) of the places, base frame [m].
+        rotation: (3, 3) of the body.
+        object: its underside.
+        height: from its lowest to its highest point [m].
+        rest: height of the body's origin at rest [m].
+        lift: height of its lowest point over the floor then [m].
+        drop: how far above that the hand must open [m].
+        gap: distance from what stands there [m].
+    """
+
+    cells: Cells
+    points: Vector
+    rotation: Vector
+    object: Stamp
+    height: float
+    rest: Vector
+    lift: Vector
+    drop: Vector
+    gap: Vector
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What places are worth; arrays are (m,).
+
+    Attributes:
+        turned: the places.
+        kind: quality as far as it is known; -1 where there is no place.
+        cost: lower is better [m].
+    """
+
+    turned: Turned
+    kind: Cells
+    cost: Vector
+
+
+class Judge:
+    """Judges places on one floor as the scene stands now."""
+
+    def __init__(self, belief: Belief, request: Request, stamps: Stamps) -> None:
+        self._belief, self._request = belief, request
+        self._support, attached = request.support, request.attached
+        self.relief: Relief = relief(belief, self._support, {attached.name, *request.absent})
+        axes, cell = self._support.axes, self.relief.cell
+        self._undersides = Undersides(belief, attached, axes, cell, stamps)
+        self._on_desk = self._support.owner is None
+
+    def grid(self) -> Cells:
+        """Cells (m, 2) of the floor that are looked at, the middle among them."""
+        support, relief = self._support, self.relief
+        area = 4 * float(np.prod(support.half))
+        spacing = max(DESK_GRID if self._on_desk else GRID, np.sqrt(area / MAX_PLACES))
+        stride = max(int(spacing / relief.cell), 1)
+        steps = [np.arange(-(count // stride), count // stride + 1) * stride
+                 for count in (support.half / relief.cell).astype(np.int64)]  # fmt: skip
+        offsets = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 2)
+        offsets = offsets[support.inside(offsets * relief.cell)]
+        if self._on_desk:
+            distance = np.hypot(*relief.points(offsets + relief.middle).T)
+            offsets = offsets[distance <= self._belief.world.robot.spec.reach]
+        if self._request.at:
+            # Whether the arm gets to a place that was asked for, kinematics tells.
+            asked = support.local(np.array(self._request.at)) / relief.cell
+            asked = asked[support.inside(asked * relief.cell)]
+            offsets = np.concatenate([offsets, np.round(asked).astype(np.int64)])
+        return np.asarray(offsets + relief.middle)
+
+    def judge(self, rotation: Vector, cells: Cells) -> Judged:
+        """Judges cells (m, 2) for an orientation (3, 3) of the object's body."""
+        relief = self.relief
+        low, high = self._belief.checker.extent(self._request.attached.name, rotation)
+        underside, whole_hand = self._undersides.at(rotation)
+        rest = resting_heights(relief, underside, cells)
+        highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
+        open_hand = whole_hand.below(highest)
+        drop = resting_heights(relief, open_hand, cells) - rest
+        turned = Turned(
+            cells, relief.points(cells), rotation, underside, float(high[2] - low[2]), rest,
+            lift=rest + low[2] - relief.floor,
+            drop=np.where(drop < 2 * HAND_MARGIN, 0.0, drop),
+            gap=least(self._free, 1.0, underside, cells) - relief.cell,
+        )  # fmt: skip
+        kind = self._kinds(turned)
+        cost = self._costs(turned, kind)
+        return Judged(turned, self._forbid(turned, kind, cost), cost)
+
+    def _kinds(self, turned: Turned) -> Cells:
+        support, relief = self._support, self.relief
+        rest, lift, drop = turned.rest, turned.lift, turned.drop
+        stands = np.abs(lift) <= FLAT
+        if support.from_front or not support.is_container:
+            margin = FRONT_MARGIN if support.from_front else 0.0
+            stands &= least(self._to_edge, 0.0, turned.object, turned.cells) > margin
+        clear = turned.gap >= (DESK_GAP if self._on_desk else GAP)
+        kind = np.full(len(rest), -1)
+        if support.is_container and not support.from_front and not self._is_drawer:
+            kind[:] = Quality.LOOSE
+        # As relations read it: with its middle, or so deep that it stands in it.
+        within = (rest - relief.floor <= support.room) | (lift <= DEEP * support.room)
+        bearable = (drop <= SHORT_DROP) | support.is_container
+        if not self._on_desk:
+            # Over an edge there is nothing beside it that the floor's free cells would show.
+            # On a surface what rests higher up rests on something else than was asked for.
+            highest = np.inf if support.is_container else FLAT
+            kind[within & bearable & (lift > -FLAT) & (lift <= highest)] = Quality.PILED
+        usable = stands & clear & bearable
+        if not support.is_even:
+            return kind
+        kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
+        too_tall = ~within if not self._has_lid else lift + turned.height > support.room
+        kind[usable & too_tall] = -1 if support.from_front else Quality.STICKS_OUT
+        if support.from_front:
+            kind[lift + turned.height > support.room] = -1
+        return kind
+
+    def _costs(self, turned: Turned, kind: Cells) -> Vector:
+        belief, support, points = self._belief, self._support, turned.points
+        away = np.linalg.norm(points - support.center[:2], axis=1)
+        if self._on_desk:
+            near = belief.object_pose(self._request.attached.name).position[:2]
+            cost = -4 * np.minimum(turned.gap, DESK_COMFORT)
+            cost += np.abs(
+                np.hypot(*points.T) - belief.arm.comfortable_radius(support.center[2] + HAND_ABOVE)
+            )
+            cost += 0.3 * np.linalg.norm(points - near, axis=1)
+            cost += NEARLY_SWEPT * self._too_near_sweeps(turned)
+        else:
+            cost = -4 * np.minimum(turned.gap, COMFORT) + 0.5 * away + 2 * turned.drop
+            if support.from_front:
+                # A hand goes in no further than it has to.
+                cost -= ((turned.cells - self.relief.middle) * self.relief.cell)[:, 0]
+        piled = kind >= Quality.PILED
+        cost = np.where(piled, away + turned.lift, cost)
+        preference = self._request.preference
+        if preference is not None:
+            cost = cost + preference(points)
+        if not support.from_front:
+            # The turns that a hand goes through a front with come in order.
+            attached = self._request.attached
+            cost = cost + 0.03 * discomfort(belief, attached, turned.rotation, points)
+        return np.asarray(cost)
+
+    def _too_near_sweeps(self, turned: Turned) -> Vector | float:
+        """By how much a door or drawer may get at places if it is not where it is seen [m] (m,)."""
+        if not self.relief.reserved.any():
+            return 0.0
+        error = self._belief.world.scene.perception
+        levers = [np.hypot(*entry.info.size[:2]) for entry in self._belief.world.entries.values()
+                  if entry.parts]  # fmt: skip
+        margin = error.position_m + np.radians(error.yaw_deg) * max(levers)
+        away = least(self._to_sweep, 1.0, turned.object, turned.cells) - self.relief.cell
+        return np.asarray(np.maximum(margin - away, 0.0))
+
+    def _forbid(self, turned: Turned, kind: Cells, cost: Vector) -> Cells:
+        """The kinds, with regard to keepouts, sweeps and preferences."""
+        request, relief = self._request, self.relief
+        radius = float(np.hypot(*turned.object.cells.T).max()) * relief.cell
+        for disc in request.keepout:
+            distance = np.hypot(turned.points[:, 0] - disc.x, turned.points[:, 1] - disc.y)
+            kind = np.where(distance < disc.radius + radius + DESK_GAP, -1, kind)
+        if relief.reserved.any():
+            swept = least(self._to_sweep, 1.0, turned.object, turned.cells) - relief.cell < DESK_GAP
+            kind = np.where(swept & (kind >= 0), -1 if request.strict else Quality.SWEPT, kind)
+        return np.where(np.isfinite(cost), kind, -1)
+
+    @cached_property
+    def _free(self) -> Vector:
+        """Distance of each cell from what stands on the floor [m]."""
+        return free_distance(self.relief.occupied, self.relief.cell)
+
+    @cached_property
+    def _to_edge(self) -> Vector:
+        """Distance of each cell of the floor from its edge [m]; 0 beyond."""
+        return free_distance(~self.relief.on_floor, self.relief.cell)
+
+    @cached_property
+    def _to_sweep(self) -> Vector:
+        """Distance of each cell from where doors and drawers pass [m]."""
+        return free_distance(self.relief.reserved, self.relief.cell)
+
+    @cached_property
+    def _is_drawer(self) -> bool:
+        return self._support.address in self._belief.world.parts
+
+    @cached_property
+    def _has_lid(self) -> bool:
+        """Whether something has to pass above what is in it: a roof, or the case of a drawer."""
+        return self._support.from_front or self._is_drawer
