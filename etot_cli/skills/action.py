@@ -51,7 +51,8 @@ class Action:
         pose: grasp pose asked for, None when any will do.
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
         keepout: the discs that such a place avoids, from the failed rollout; base frame.
-        where: of a PUT ON, where on that surface; all of it must hold afterwards.
+        where: of a PUT ON, where on that surface; of a PUT, that it is to stand upright there. All
+            of it must hold afterwards.
     """
 
     verb: Verb
@@ -137,15 +138,19 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             safe = True
         elif plain:
             place = read_whereabouts(plain)
-            if place is None or verb is not Verb.PUT_ON:
+            if place is None or not _says_where(verb, place):
                 raise PlanSyntaxError(
                     f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
                     "(horizontal), (vertical), (safe place) or, after PUT ON, a place such as "
-                    "(left of plate), (between cup and box) or (at edge)"
+                    "(left of plate), (between cup and box) or (at edge), after any PUT (upright)"
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
     return Action(verb, target, pose, safe, where=tuple(where))
+
+
+def _says_where(verb: Verb, place: Whereabouts) -> bool:
+    return verb is Verb.PUT_ON or (verb is Verb.PUT_INTO and place.relation is Nearby.UPRIGHT)
 
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"

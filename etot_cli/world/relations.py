@@ -17,6 +17,11 @@ from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does."""
+LIES = 0.5
+"""What is made to stand lies at the start where its axis rises by less than this (sine, 30°): more
+than half way to the side."""
+HOLLOW_KINDS = frozenset({"cup", "bowl"})
+"""Kinds whose mouth is known to be along their z axis."""
 INSIDE_MARGIN = 0.010
 """How far an object that was inside may stick out and still be inside [m]."""
 END_DEPTH = 0.5
@@ -35,9 +40,25 @@ def initial_memory(world: World, data: mujoco.MjData) -> Memory:
     """Memory at the start of an episode."""
     up = {}
     for name, entry in world.entries.items():
-        x, y, z = (float(value) for value in data.body(entry.body).xmat.reshape(3, 3)[:, 2])
-        up[name] = (x, y, z)
+        up[name] = standing_axis(entry, data.body(entry.body).xmat.reshape(3, 3))
     return Memory(up=up)
+
+
+def standing_axis(entry: ObjectEntry, rotation: NDArray[np.float64]) -> tuple[float, float, float]:
+    """The direction of an object's own frame that is up when it stands.
+
+    As it stands now; but what is made to stand along its z axis, being longest that way or hollow,
+    and has that axis level lies now.
+
+    Args:
+        entry: the object.
+        rotation: its orientation (3, 3) in the base frame.
+    """
+    size, kind = entry.info.size, entry.info.kind
+    is_made_to = size[2] > max(size[:2]) or (entry.info.container and kind in HOLLOW_KINDS)
+    if is_made_to and abs(rotation[2, 2]) < LIES:
+        return (0.0, 0.0, 1.0)
+    return _triple(rotation[2])
 
 
 def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[SceneState, Memory]:
@@ -77,7 +98,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
             toppled=has_toppled,
             tilt_deg=tilt,
             lost=_is_lost(world, center),
-            reachable=math.hypot(center[0], center[1]) <= world.robot.spec.reach,
+            reachable=math.hypot(center[0], center[1]) <= reach_for(world, entry, rotation),
             openness=openness,
             opened=is_open,
         )
@@ -97,6 +118,22 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         forward=forward_of(world.scene),
     )
     return scene, Memory(memory.up, frozenset(toppled), inside, frozenset(opened))
+
+
+def reach_for(world: World, entry: ObjectEntry, rotation: NDArray[np.float64]) -> float:
+    """How far from the base axis the arm can pick an object up again [m]: farther with a leaning
+    hand, where the object rises high enough and is narrow enough for one.
+
+    Args:
+        world: tells of the robot.
+        entry: the object.
+        rotation: its orientation (3, 3) there, base frame.
+    """
+    spec, size = world.robot.spec, np.array(entry.info.size)
+    rise = np.abs(rotation[2])
+    width = float(np.delete(size, int(np.argmax(rise))).min())
+    leaning = float(rise @ size) >= spec.leaning_height and width <= spec.gripper.opening
+    return max(spec.reach, spec.leaning_reach) if leaning else spec.reach
 
 
 def touched_by_robot(world: World, data: mujoco.MjData) -> list[str]:
@@ -145,7 +182,7 @@ def _contacts(world: World, data: mujoco.MjData) -> tuple[dict[str, set[str]], l
 
 
 def _tilt_deg(rotation: NDArray[np.float64], up: tuple[float, float, float]) -> float:
-    cosine = float(np.clip(np.dot(rotation[:, 2], up), -1.0, 1.0))
+    cosine = float(np.clip(np.dot(rotation[2], up), -1.0, 1.0))
     return math.degrees(math.acos(cosine))
 
 

@@ -78,7 +78,8 @@ class RobotSpec(Spec):
 
     ``tool_site``: z axis is the approach direction, the fingers close along its y axis.
     ``speed``: joint speed of transits [rad/s]; ``reach``: how far from the base axis the hand can
-    still pick something off the desk [m].
+    still pick something off the desk [m]; ``leaning_reach``: how far with a leaning hand, of what
+    rises at least ``leaning_height`` above what it stands on [m].
     """
 
     name: str
@@ -89,6 +90,8 @@ class RobotSpec(Spec):
     home: tuple[Finite, ...]
     speed: Annotated[float, Field(gt=0.05, le=10.0)] = 1.2
     reach: Annotated[float, Field(gt=0.1, le=5.0)] = 0.7
+    leaning_reach: Annotated[float, Field(ge=0.0, le=5.0)] = 0.0
+    leaning_height: Annotated[float, Field(ge=0.0, le=1.0)] = 0.03
     limits: JointLimitsSpec = JointLimitsSpec()
     gripper: GripperSpec
     driver: DriverSpec = DriverSpec()

@@ -19,7 +19,8 @@ STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 class Memory:
     """What relations remember between moments (hysteresis) and from the episode's start.
 
-    ``up``: each object's own z axis in the base frame at the start, (3,) tuples; ``toppled``,
+    ``up``: the direction of each object's own frame that is up when it stands, (3,) tuples;
+    ``toppled``,
     ``inside``, ``opened``: last decided values, by object, object and ``object.part``.
     """
 

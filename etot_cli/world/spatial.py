@@ -63,13 +63,15 @@ class Nearby(StrEnum):
     AT_EDGE = "at edge"
     AT_CORNER = "at corner"
     AT_POINT = "at"
+    UPRIGHT = "upright"
+    """Says nothing of the place but of how it stands there."""
 
     @property
     def landmarks(self) -> int:
         """How many things it relates to."""
         if self is Nearby.BETWEEN:
             return 2
-        return 0 if self.value.startswith("at") else 1
+        return 0 if self is Nearby.UPRIGHT or self.value.startswith("at") else 1
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -160,6 +162,8 @@ def fits(
         case Nearby.AT_POINT:
             point = np.array(where.point or area.center)
             return np.asarray(np.linalg.norm(points - point, axis=1) <= AT)
+        case Nearby.UPRIGHT:
+            return np.ones(len(points), dtype=np.bool_)
         case Nearby.AT_EDGE:
             return np.asarray((area.border(points) - radius <= EDGE).any(axis=1))
         case Nearby.AT_CORNER:
@@ -174,6 +178,8 @@ def holds(where: Whereabouts, name: str, scene: SceneState) -> bool:
     A landmark that is held, lost or stands elsewhere still has its place on the plane.
     """
     state = scene.states[name]
+    if where.relation is Nearby.UPRIGHT:
+        return not (state.toppled or state.lost)
     outlines = [outline_of(landmark, scene) for landmark in where.landmarks]
     surface = state.on[0].partition(".")[0] if state.on else DESK
     area = outline_of(surface if surface in scene.states else DESK, scene)

@@ -68,6 +68,18 @@ def test_denied_place() -> None:
     assert plans(state, {"not": {"inside": ["toy", "drawer"]}}) == ["[PICK UP, toy] [PUT ON, desk]"]
 
 
+def test_what_lies_is_stood_up_before_it_takes_something_in() -> None:
+    name, mug = scenes.cup("mug", (0.4, 0.2))
+    state = scenes.scene((name, replace(mug, toppled=True)), scenes.ball("nut", (0.4, -0.2)))
+    assert plans(state, {"upright": "mug"}) == ["[PICK UP, mug] [PUT ON, desk] (upright)"]
+    assert plans(state, {"inside": ["nut", "mug"]}, {"upright": "mug"}) == [
+        "[PICK UP, mug] [PUT ON, desk] (upright) [PICK UP, nut] [PUT INTO, mug]"
+    ]
+    assert plans(state, {"upright": "mug"}, {"left_of": ["mug", "nut"]}) == [
+        "[PICK UP, mug] [PUT ON, desk] (left of nut, upright)"
+    ]
+
+
 @pytest.mark.parametrize(
     ("condition", "named"),
     [

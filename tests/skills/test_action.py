@@ -95,6 +95,10 @@ def test_landmarks_must_exist() -> None:
         ("[PICK UP, cup] (Horizontally)", Action(Verb.PICK_UP, "cup", GraspPose.HORIZONTAL)),
         ("[PICK UP, cup](vertical)", Action(Verb.PICK_UP, "cup", GraspPose.VERTICAL)),
         ("[PUT ON, desk] (safe place)", Action(Verb.PUT_ON, "desk", safe=True)),
+        (
+            "[PUT INTO, bin] (Upright)",
+            Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.UPRIGHT),)),
+        ),
     ],
 )
 def test_spellings(text: str, action: Action) -> None:

@@ -37,6 +37,15 @@ def test_put_on_the_desk(thing: dict[str, object], seed: int) -> None:
     assert not after.in_hand and not after.toppled and not after.lost and after.reachable
 
 
+def test_what_lies_is_stood_up_where_that_is_asked_for() -> None:
+    lying = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15}
+    lying |= {"at": [0.4, -0.15, 0.155], "quaternion": [0.7071068, 0, 0.7071068, 0]}
+    run = episode(0, thing=lying)
+    assert run.must("[PICK UP, thing]", "[PUT ON, desk]").states["thing"].toppled
+    after = run.must("[PICK UP, thing]", "[PUT ON, desk] (upright)").states["thing"]
+    assert after.on == ("desk",) and not after.toppled
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("thing", [BOX, PEN, CUP], ids=lambda item: str(item["kind"]))
 def test_put_on_furniture(thing: dict[str, object], seed: int) -> None:

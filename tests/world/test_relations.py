@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 import pytest
@@ -252,11 +254,24 @@ def test_toppled_has_hysteresis() -> None:
     assert not toppled(between)
 
 
-def test_object_that_lay_from_the_start_has_not_toppled() -> None:
-    stage = set_up_stage(make_scene(cup=CUP | {"at": [0.4, 0.0], "quaternion": about_y(90)}))
-    assert not stage.see("cup").toppled
-    stage.move("cup", [0.4, 0.0, 0.4], [1, 0, 0, 0])
-    assert stage.see("cup").toppled, "it no longer lies as it did"
+@pytest.mark.parametrize("made_to_stand", [CUP, BOX | {"size": [0.05, 0.06, 0.15]}])
+def test_what_is_made_to_stand_lies_from_the_start(made_to_stand: dict[str, object]) -> None:
+    lying = {"at": [0.4, 0.0], "quaternion": about_y(90)}
+    stage = set_up_stage(make_scene(thing=made_to_stand | lying))
+    assert stage.see("thing").toppled
+    stage.move("thing", [0.4, 0.0, 0.4], [1, 0, 0, 0])
+    assert not stage.see("thing").toppled
+
+
+def test_what_has_no_side_of_its_own_stands_as_it_stood_however_it_is_turned() -> None:
+    cube = BOX | {"size": [0.05, 0.05, 0.05]}
+    stage = set_up_stage(make_scene(cube=cube | {"at": [0.4, 0.0], "quaternion": about_y(90)}))
+    assert not stage.see("cube").toppled
+    half = math.sqrt(0.5)
+    stage.move("cube", [0.4, 0.0, 0.4], [0.5, -0.5, 0.5, 0.5])
+    assert not stage.see("cube").toppled, "turned about the vertical"
+    stage.move("cube", [0.4, 0.0, 0.4], [half, half, 0, 0])
+    assert stage.see("cube").toppled, "another side is up"
 
 
 @pytest.mark.parametrize("kind", [BALL, PEN])
@@ -285,12 +300,24 @@ def test_lost_is_below_the_desk_top() -> None:
     assert stage.see("ball").lost, "on the floor"
 
 
-def test_reachable_ends_with_the_arm() -> None:
-    stage = set_up_stage(make_scene(ball=BALL | {"at": [0.4, 0.0]}))
-    reach = stage.world.robot.spec.reach
+@pytest.mark.parametrize(
+    ("thing", "leaning"),
+    [
+        (BALL, True),
+        (BOX | {"size": [0.04, 0.04, 0.02]}, False),
+        (BOX | {"size": [0.1, 0.1, 0.06]}, False),
+    ],
+    ids=["narrow", "flat", "wide"],
+)
+def test_reachable_ends_with_the_arm(thing: dict[str, object], leaning: bool) -> None:
+    """A hand that leans outwards gets farther, where there is something for it to grasp."""
+    stage = set_up_stage(make_scene(thing=thing | {"at": [0.4, 0.0]}))
+    spec = stage.world.robot.spec
+    reach = spec.leaning_reach if leaning else spec.reach
+    assert spec.leaning_reach > spec.reach
     for share, expected in ((0.98, True), (1.02, False)):
-        stage.move("ball", [reach * share * 0.8, reach * share * 0.6, stage.top + 0.03])
-        assert stage.see("ball").reachable is expected
+        stage.move("thing", [reach * share * 0.8, reach * share * 0.6, stage.top + 0.03])
+        assert stage.see("thing").reachable is expected
 
 
 def test_scene_state_knows_desk_and_infos() -> None:

@@ -20,16 +20,17 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import is_inside, is_on
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_inside, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world import spatial
-from etot_cli.world.spatial import Whereabouts, whereabouts
+from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
 from etot_cli.world.state import DESK, SceneState
 
 BESIDE = "beside"
 """Stands for all keys on where an object is with respect to others."""
+_LAST = {BESIDE: 1, "upright": 2}
 MAX_ALTERNATIVES = 256
 """Alternatives that nested ``any`` conditions may multiply into."""
 
@@ -60,8 +61,8 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     for atoms in alternatives:
         draft = _Draft(scene)
         try:
-            # What says where on a surface comes after what says on which.
-            for atom in sorted(atoms, key=lambda item: item.key == BESIDE):
+            # What says where on a surface, and how it stands there, comes after what says on which.
+            for atom in sorted(atoms, key=lambda item: _LAST.get(item.key, 0)):
                 draft.add(atom)
             goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps)), scene))
         except ReferenceProblem as error:
@@ -125,7 +126,7 @@ class _Draft:
             "in_hand": self._in_hand,
             "open": self._open,
             "closed": self._open,
-            "upright": self._state,
+            "upright": self._upright,
             "present": self._state,
             BESIDE: self._beside,
         }
@@ -156,13 +157,33 @@ class _Draft:
             return
         landmarks = tuple(self._refer(landmark, Role.ANY) for landmark in where.landmarks)
         near = Near(where.relation, landmarks, where.point)
+        if not self._add_to_put(theme, near):
+            surface = None if landmarks else self._refer(DESK, Role.SURFACE)
+            self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
+
+    def _upright(self, atom: _Atom) -> None:
+        """Standing where it is put; on the desk where it lies now and is put nowhere else."""
+        name = atom.names[0]
+        state = self.scene.states.get(name)
+        if atom.denied or state is None or state.lost:
+            self._state(atom)
+            return
+        if self.scene.infos[name].kind in ROLLING_KINDS or not self.scene.infos[name].movable:
+            self._state(atom)
+            return
+        theme, near = self._refer(name, Role.THEME), Near(Nearby.UPRIGHT)
+        if not self._add_to_put(theme, near) and state.toppled:
+            desk = self._refer(DESK, Role.SURFACE)
+            self.steps.append(Put((theme,), (Place(Relation.ON, desk, (near,)),)))
+
+    def _add_to_put(self, theme: int, near: Near) -> bool:
+        """Says more of the place where something is put; False where it is put nowhere."""
         for index, step in enumerate(self.steps):
             if isinstance(step, Put) and step.what == (theme,):
                 places = tuple(replace(p, beside=(*p.beside, near)) for p in step.places)
                 self.steps[index] = replace(step, places=places)
-                return
-        surface = None if landmarks else self._refer(DESK, Role.SURFACE)
-        self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
+                return True
+        return False
 
     def _in_hand(self, atom: _Atom) -> None:
         name = atom.names[0]

@@ -56,7 +56,8 @@ def effect_holds(action: Action, record: RolloutRecord) -> bool:
             if container is None or state.in_hand or state.lost:
                 return False
             vessel = after.states[owner_of(container)]
-            return is_inside(after, name, container) and not vessel.toppled
+            stands = all(spatial.holds(where, name, after) for where in action.where)
+            return stands and is_inside(after, name, container) and not vessel.toppled
         case Verb.OPEN | Verb.CLOSE:
             part = after.part(action.target)
             if part is None:

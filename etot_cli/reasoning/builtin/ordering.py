@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import owner_of
-from etot_cli.world.spatial import Whereabouts
+from etot_cli.world.spatial import Nearby, Whereabouts
 
 
 class Placement(NamedTuple):
@@ -26,7 +26,8 @@ class Placement(NamedTuple):
 def supports_first(placements: Sequence[Placement]) -> list[int]:
     """The places of the placements in an order in which they can be carried out.
 
-    A vessel's own placement is not brought before its contents: a filled cup can be carried.
+    A vessel's own placement is not brought before its contents, as a filled cup can be carried,
+    unless it is to be stood up.
 
     Args:
         placements: each object's final place, in the order given.
@@ -55,7 +56,9 @@ def supports_first(placements: Sequence[Placement]) -> list[int]:
 def _comes_before(first: Placement, second: Placement) -> bool:
     """Whether ``second`` cannot be done, or would be undone, unless ``first`` is done."""
     if second.relation is not Relation.ON:
-        return False
+        # What lies takes nothing in.
+        is_raised = any(item.relation is Nearby.UPRIGHT for item in first.where)
+        return is_raised and first.name == owner_of(second.target)
     supports = {
         owner_of(second.target),
         *(mark for item in second.where for mark in item.landmarks),

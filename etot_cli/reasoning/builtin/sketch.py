@@ -93,7 +93,7 @@ class Sketch:
             self.put_down()
             self.do(Action(Verb.OPEN, part.address))
         self.pick_up(name, pose)
-        self.do(Action(Verb.PUT_INTO, part.address))
+        self.do(Action(Verb.PUT_INTO, part.address, where=where))
         if part.address not in left_open:
             self.do(Action(Verb.CLOSE, part.address))
         for other in stood_open:
@@ -153,7 +153,8 @@ class Sketch:
             landmarks = {landmark for item in where for landmark in item.landmarks}
             still = not landmarks & set(self._moved)
             at_place = all(spatial.holds(item, name, self._scene) for item in where)
-            return still and at_place and is_on(self._scene, name, target)
+            if not (still and at_place):
+                return False
         if relation is Relation.ON:
             if name in self._moved:
                 return self._moved[name] == (relation, target)

@@ -92,6 +92,7 @@ class Request:
         at: places x, y that are looked at besides those of a grid, base frame [m].
         absent: objects taken for not being there.
         rehearsed: where it was let go in a scene much like this one; looked at first.
+        upright: it has to stand.
     """
 
     attached: Attached
@@ -102,6 +103,7 @@ class Request:
     at: tuple[tuple[float, float], ...] = ()
     absent: frozenset[str] = field(default_factory=frozenset)
     rehearsed: Pose | None = None
+    upright: bool = False
 
 
 @dataclass(frozen=True)

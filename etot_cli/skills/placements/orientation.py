@@ -11,6 +11,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import turn_about
 from etot_cli.skills.placements.support import Support
+from etot_cli.world.relations import standing_axis
 
 Vector = NDArray[np.float64]
 
@@ -82,13 +83,25 @@ class Orientations:
     laid: bool
 
 
-def orientations(belief: Belief, attached: Attached, support: Support) -> list[Orientations]:
+def orientations(
+    belief: Belief, attached: Attached, support: Support, *, upright: bool = False
+) -> list[Orientations]:
     """Orientations to put an object down with, a few turns at a time, the best first: as it is
     held, then laid down where falling over does it no harm.
 
     A rod that is too long for a vessel stands in it; so may other long things.
+
+    Args:
+        belief: holds the object.
+        attached: the object.
+        support: what it is put on or into.
+        upright: it has to stand, even where it lies in the hand.
     """
     entry = belief.world.entries[attached.name]
+    if upright and entry.upright_matters:
+        now = belief.object_pose(attached.name).rotation
+        base = _align(now @ np.array(standing_axis(entry, now)), UP) @ now
+        return _turned(belief, attached, support, base, laid=False)
     if (
         entry.axis is not None
         and support.is_container

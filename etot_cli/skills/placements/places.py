@@ -79,7 +79,10 @@ class PlaceFinder:
         rehearsed = self._request.rehearsed
         if rehearsed is not None and not as_held:
             yield from self._again(rehearsed)
-        groups = orientations(self._belief, self._request.attached, self._support)
+        request = self._request
+        groups = orientations(
+            self._belief, request.attached, self._support, upright=request.upright
+        )
         if as_held:
             groups = [group for group in groups if not group.laid]
         grid = self._judge.grid()

@@ -16,6 +16,7 @@ from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.refusal import why_no_place
 from etot_cli.skills.placements.support import container_support, surface_support
 from etot_cli.skills.placements.wanted import wanted_spots
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import CauseKind
 
 Placements = Iterator[Placement | SkillOutcome]
@@ -41,6 +42,7 @@ def placements_on(
         preference=_preference(belief, action, name),
         at=tuple(where.point for where in action.where if where.point is not None),
         rehearsed=rehearsed,
+        upright=_is_upright(action),
     )
     yield from _placements(belief, request)
 
@@ -53,7 +55,14 @@ def placements_into(
     if support is None:
         yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
         return
-    yield from _placements(belief, Request(belief.attach(name), support, rehearsed=rehearsed))
+    attached = belief.attach(name)
+    yield from _placements(
+        belief, Request(attached, support, rehearsed=rehearsed, upright=_is_upright(action))
+    )
+
+
+def _is_upright(action: Action) -> bool:
+    return any(where.relation is Nearby.UPRIGHT for where in action.where)
 
 
 def _placements(belief: Belief, request: Request) -> Placements:
