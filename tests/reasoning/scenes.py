@@ -53,7 +53,7 @@ def item(
     state = ObjectState(
         position=(*at, TOP + size[2] / 2 if z is None else z),
         quaternion=UPRIGHT,
-        on=(on,),
+        on=(on,) if on else (),
         inside=inside,
         openness=opening,
         opened={part: value >= 0.75 for part, value in opening.items()},

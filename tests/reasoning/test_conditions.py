@@ -68,6 +68,30 @@ def test_denied_place() -> None:
     assert plans(state, {"not": {"inside": ["toy", "drawer"]}}) == ["[PICK UP, toy] [PUT ON, desk]"]
 
 
+@pytest.mark.parametrize(
+    ("condition", "wanted"),
+    [
+        ({"not": {"near": ["nut", "mug"]}}, ["[PICK UP, nut] [PUT ON, desk] (away from mug)"]),
+        ({"left_of": ["nut", "unit"]}, ["[PICK UP, nut] [PUT ON, desk] (left of unit)"]),
+        ({"not": {"at": ["nut", "left"]}}, ["[PICK UP, nut] [PUT ON, desk] (at right)"]),
+        ({"left_of": ["unit", "nut"]}, ["[PICK UP, nut] [PUT ON, desk] (right of unit)"]),
+        (
+            {"not": {"on": ["nut", "desk"]}},
+            ["[PICK UP, nut] [PUT ON, unit]", "[PICK UP, nut] [PUT INTO, mug]"],
+        ),
+    ],
+)
+def test_what_is_not_to_be_there_goes_elsewhere(
+    condition: dict[str, Any], wanted: list[str]
+) -> None:
+    state = scenes.scene(
+        scenes.drawers("unit", (0.4, 0.0), {}, on=""),
+        scenes.cup("mug", (0.4, 0.3)),
+        scenes.ball("nut", (0.4, 0.4)),
+    )
+    assert plans(state, condition) == wanted
+
+
 def test_what_lies_is_stood_up_before_it_takes_something_in() -> None:
     name, mug = scenes.cup("mug", (0.4, 0.2))
     state = scenes.scene((name, replace(mug, toppled=True)), scenes.ball("nut", (0.4, -0.2)))

@@ -212,6 +212,9 @@ def _resting(
         name: (state.on[0] if state.on and state.inside is None else None)
         for name, state in scene.states.items()
     }
+    # What is fixed touches nothing that it stands on.
+    fixed = (name for name, info in scene.infos.items() if not info.movable)
+    surfaces |= {name: DESK for name in fixed if not scene.states[name].on}
     resting = []
     for placements in placed:
         row = []

@@ -31,6 +31,33 @@ from etot_cli.world.state import DESK, SceneState
 BESIDE = "beside"
 """Stands for all keys on where an object is with respect to others."""
 _LAST = {BESIDE: 1, "upright": 2}
+_CONVERSE = {
+    Nearby.LEFT: Nearby.RIGHT,
+    Nearby.RIGHT: Nearby.LEFT,
+    Nearby.FRONT: Nearby.BEHIND,
+    Nearby.BEHIND: Nearby.FRONT,
+    Nearby.NEXT_TO: Nearby.NEXT_TO,
+    Nearby.NEAR: Nearby.NEAR,
+    Nearby.AWAY: Nearby.AWAY,
+}
+"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
+_INSTEAD = {
+    Nearby.LEFT: Nearby.RIGHT,
+    Nearby.RIGHT: Nearby.LEFT,
+    Nearby.FRONT: Nearby.BEHIND,
+    Nearby.BEHIND: Nearby.FRONT,
+    Nearby.NEXT_TO: Nearby.AWAY,
+    Nearby.NEAR: Nearby.AWAY,
+    Nearby.AWAY: Nearby.NEAR,
+    Nearby.AT_LEFT: Nearby.AT_RIGHT,
+    Nearby.AT_RIGHT: Nearby.AT_LEFT,
+    Nearby.AT_FRONT: Nearby.AT_BACK,
+    Nearby.AT_BACK: Nearby.AT_FRONT,
+    Nearby.AT_CENTRE: Nearby.AT_EDGE,
+    Nearby.AT_EDGE: Nearby.AT_CENTRE,
+    Nearby.AT_CORNER: Nearby.AT_CENTRE,
+}
+"""Where something goes that is not to be where the key says: there the key does not hold."""
 MAX_ALTERNATIVES = 256
 """Alternatives that nested ``any`` conditions may multiply into."""
 
@@ -43,6 +70,8 @@ class _Atom:
     names: tuple[str, ...]
     denied: bool = False
     where: Whereabouts | None = None
+    instead_of: Whereabouts | None = None
+    """Where the object is not to be, which is why it is to be at ``where``."""
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
@@ -55,10 +84,12 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     Raises:
         InstructionError: a name is unknown, or no skill can make the conditions true.
     """
-    alternatives = _conjunctions([_alternatives(item, denied=False) for item in conditions])
+    alternatives = _conjunctions([_alternatives(item, scene, denied=False) for item in conditions])
     goals: list[Goal] = []
     objection: InstructionError | None = None
     for atoms in alternatives:
+        if any(_is_idle(atom, atoms, scene) for atom in atoms):
+            continue
         draft = _Draft(scene)
         try:
             # What says where on a surface, and how it stands there, comes after what says on which.
@@ -72,13 +103,15 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     return tuple(goals)
 
 
-def _alternatives(condition: Condition, *, denied: bool) -> list[tuple[_Atom, ...]]:
+def _alternatives(
+    condition: Condition, scene: SceneState, *, denied: bool
+) -> list[tuple[_Atom, ...]]:
     """Lists of statements, any of which makes a condition true."""
     if condition.not_ is not None:
-        return _alternatives(condition.not_, denied=not denied)
+        return _alternatives(condition.not_, scene, denied=not denied)
     nested = condition.any if condition.any is not None else condition.all
     if nested is not None:
-        options = [_alternatives(item, denied=denied) for item in nested]
+        options = [_alternatives(item, scene, denied=denied) for item in nested]
         # De Morgan: denying "any of" means that none holds.
         if (condition.any is not None) != denied:
             return [atoms for option in options for atoms in option]
@@ -86,7 +119,9 @@ def _alternatives(condition: Condition, *, denied: bool) -> list[tuple[_Atom, ..
     for key in ("on", "inside"):
         pair: tuple[str, str] | None = getattr(condition, key)
         if pair is not None:
-            return [(_Atom(key, pair, denied),)]
+            atom = _Atom(key, pair, denied)
+            elsewhere = _off_the_desk(pair[0], scene) if denied and pair[1] == DESK else []
+            return [(atom,), *((item,) for item in elsewhere)]
     for key in ("in_hand", "open", "closed", "upright", "present"):
         name: str | None = getattr(condition, key)
         if name is not None:
@@ -94,11 +129,49 @@ def _alternatives(condition: Condition, *, denied: bool) -> list[tuple[_Atom, ..
     for key in BESIDE_KEYS:
         names: tuple[str, ...] | None = getattr(condition, key)
         if names is not None:
-            return [(_Atom(BESIDE, names[:1], denied, whereabouts(key, names[1:])),)]
+            return _beside(names[0], whereabouts(key, names[1:]), scene, denied=denied)
     if condition.at is not None:
         name, region = condition.at
-        return [(_Atom(BESIDE, (name,), denied, whereabouts("at", (), region)),)]
+        return _beside(name, whereabouts("at", (), region), scene, denied=denied)
     return [()]
+
+
+def _is_idle(atom: _Atom, others: Sequence[_Atom], scene: SceneState) -> bool:
+    """Whether an object would be moved away from where it neither is nor is brought."""
+    name = atom.names[0]
+    if atom.instead_of is None or name not in scene.states:
+        return False
+    moved = any(item.key in ("on", "inside") and item.names[0] == name for item in others)
+    return not (moved or spatial.holds(atom.instead_of, name, scene))
+
+
+def _beside(
+    name: str, where: Whereabouts, scene: SceneState, *, denied: bool
+) -> list[tuple[_Atom, ...]]:
+    """Ways to have an object somewhere or not there: the landmark of what stays is moved, and what
+    is not to be there may be elsewhere.
+    """
+    found = [_Atom(BESIDE, (name,), denied, where)]
+    other = _INSTEAD.get(where.relation) if denied else where.relation
+    if denied and other is not None:
+        there = replace(where, relation=other)
+        found.append(_Atom(BESIDE, (name,), where=there, instead_of=where))
+    info = scene.infos.get(name)
+    if other in _CONVERSE and info is not None and not info.movable:
+        turned = Whereabouts(_CONVERSE[other], (name,))
+        found.append(_Atom(BESIDE, where.landmarks, where=turned))
+    return [(atom,) for atom in found]
+
+
+def _off_the_desk(name: str, scene: SceneState) -> list[_Atom]:
+    """Everywhere that an object may be instead of on the desk: on and in all that there is."""
+    return [
+        _Atom("on" if role is Role.SURFACE else "inside", (name, other))
+        for role in (Role.SURFACE, Role.CONTAINER)
+        for other, info in scene.infos.items()
+        if other != name and can_be(Thing(other), role, scene)
+        if role is Role.CONTAINER or not info.container
+    ]
 
 
 def _conjunctions(options: Iterable[list[tuple[_Atom, ...]]]) -> list[tuple[_Atom, ...]]:
