@@ -72,7 +72,7 @@ def test_denied_place() -> None:
     ("condition", "wanted"),
     [
         ({"not": {"near": ["nut", "mug"]}}, ["[PICK UP, nut] [PUT ON, desk] (away from mug)"]),
-        ({"left_of": ["nut", "unit"]}, ["[PICK UP, nut] [PUT ON, desk] (left of unit)"]),
+        ({"behind": ["nut", "unit"]}, ["[PICK UP, nut] [PUT ON, desk] (behind unit)"]),
         ({"not": {"at": ["nut", "left"]}}, ["[PICK UP, nut] [PUT ON, desk] (at right)"]),
         ({"left_of": ["unit", "nut"]}, ["[PICK UP, nut] [PUT ON, desk] (right of unit)"]),
         (
