@@ -130,11 +130,6 @@ class PlanTree:
         self._roots: list[PlanNode] = []
         self._nodes: list[PlanNode] = []
 
-    @property
-    def roots(self) -> tuple[PlanNode, ...]:
-        """The first actions that are neither failed nor removed."""
-        return tuple(node for node in self._roots if node.status in LIVE)
-
     def __iter__(self) -> Iterator[PlanNode]:
         """All nodes ever created, failed and removed ones included, in order of creation."""
         return iter(self._nodes)

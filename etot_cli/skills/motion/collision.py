@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.deadline import Deadline
+from etot_cli.skills.motion.frozen import MAX_KNOWN, FrozenScene
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
-from etot_cli.world.placing import object_bounds
-from etot_cli.world.snapshot import copy_configuration
 
 Vector = NDArray[np.float64]
 
@@ -26,8 +24,6 @@ SELF_CLEARANCE = 0.004
 milliradians late must not get stuck on itself."""
 _MARGIN = 0.02
 """Distances are known up to this [m]."""
-MAX_KNOWN = 8192
-"""Answers that are kept: a few megabytes, and more than the longest search for a hold asks for."""
 
 
 @dataclass(frozen=True)
@@ -38,16 +34,12 @@ class Attached:
     in_tool: Pose
 
 
-class CollisionChecker:
-    """Answers "is this arm configuration free?" for the scene as it stood at :meth:`freeze`."""
+class CollisionChecker(FrozenScene):
+    """Answers "is this arm configuration free?" for a frozen scene."""
 
     def __init__(self, world: World, deadline: Deadline | None = None) -> None:
-        self.world = world
+        super().__init__(world)
         self._deadline = deadline or Deadline()
-        self._model = copy.copy(world.model)
-        # With sleep, kinematics leave what is fastened where it was when the data were made.
-        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-        self._data = mujoco.MjData(self._model)
         self._object_names = list(world.entries)
         self._owner = np.array(
             [
@@ -66,25 +58,12 @@ class CollisionChecker:
         self._solid = (world.model.geom_contype | world.model.geom_conaffinity) != 0
         self._carried: int | None = None
         self._select_pairs(None)
-        self._tool = world.robot.tool_site
         self._hand = np.nonzero(self._owner == -2)[0]
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
-        self._postures: dict[float, Vector] = {}
-        self._live = mujoco.MjData(world.model)
-        self._riders: dict[str, list[str]] = {}
-
-    def freeze(self, data: mujoco.MjData) -> None:
-        """Takes the scene's configuration from ``data``."""
-        copy_configuration(data, self._data)
-        # Where furniture stands is a constant of the world's model, but not for ever.
-        self._model.body_pos[:] = self.world.model.body_pos
-        self._model.body_quat[:] = self.world.model.body_quat
-        self._live = data
-        self._riders.clear()
 
     def _select_pairs(self, carried: int | None) -> None:
         """Makes MuJoCo look only at pairs with the robot or the carried object (its number) in
@@ -109,36 +88,6 @@ class CollisionChecker:
             yield
         finally:
             self._ignored = before
-
-    def place(self, name: str, pose: Pose) -> None:
-        """Puts a free object of the frozen scene at a pose of its body, base frame."""
-        address = self._data.joint(name).qpos
-        address[:3] = pose.position
-        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(pose.rotation).ravel())
-
-    def set_joint(self, joint: str, value: float) -> None:
-        """Moves a door or drawer of the frozen scene, with what rides in or on a drawer."""
-        live = self._live
-        if joint not in self._riders:
-            self._riders[joint] = _riders(self.world, live, joint)
-        self._data.joint(joint).qpos[0] = value
-        moved = value - float(live.joint(joint).qpos[0])
-        for name in self._riders[joint]:
-            shift = live.joint(joint).xaxis * moved
-            self._data.joint(name).qpos[:3] = live.joint(name).qpos[:3] + shift
-
-    @property
-    def configuration(self) -> Vector:
-        """All joint values (nq,) of the frozen scene, with what was moved in it."""
-        return np.asarray(self._data.qpos.copy())
-
-    def set_fingers(self, opening: float) -> None:
-        """Sets the distance between the pads [m] of the frozen scene's hand."""
-        if opening not in self._postures:
-            if len(self._postures) >= MAX_KNOWN:
-                self._postures.clear()
-            self._postures[opening] = self.world.robot.fingers.posture(opening)
-        self._data.qpos[self.world.robot.finger_qpos] = self._postures[opening]
 
     def hits(
         self,
@@ -272,9 +221,7 @@ class CollisionChecker:
         tool: Pose,
         *,
         clearance: float,
-        fingers_only: bool = False,
-        allow: Iterable[str] = (),
-        worked: tuple[str, float] | None = None,
+        fingers_only: bool,
     ) -> list[str]:
         """Addresses of what the hand alone would come too close to, wherever the arm might be.
 
@@ -284,24 +231,14 @@ class CollisionChecker:
             tool: tool pose, base frame.
             clearance: required distance [m].
             fingers_only: look at the fingers alone, which are much the same from all sides.
-            allow: objects that may be touched.
-            worked: as in :meth:`hits`.
         """
         pose = (tool.position.tobytes(), tool.rotation.tobytes())
-        asked = (clearance, fingers_only, tuple(allow), worked)
-        key = (self._data.qpos.tobytes(), self._carried, *pose, *asked)
+        key = (self._data.qpos.tobytes(), self._carried, *pose, clearance, fingers_only)
         if key not in self._known:
-            self._remember(key, self._hand_hits(tool, *asked))
+            self._remember(key, self._hand_hits(tool, clearance, fingers_only))
         return self._not_ignored(self._known[key])
 
-    def _hand_hits(
-        self,
-        tool: Pose,
-        clearance: float,
-        fingers_only: bool,
-        allow: tuple[str, ...],
-        worked: tuple[str, float] | None,
-    ) -> list[str]:
+    def _hand_hits(self, tool: Pose, clearance: float, fingers_only: bool) -> list[str]:
         model, data = self._model, self._data
         mujoco.mj_kinematics(model, data)
         move = tool @ self.tool_pose().inverse()
@@ -315,64 +252,10 @@ class CollisionChecker:
             return []
         pairs = data.contact.geom
         owners = self._owner[pairs]
-        near = data.contact.dist < self._required(pairs, clearance, worked)
+        near = data.contact.dist < clearance
         hand = owners == -2
         if fingers_only:
             hand &= self._finger[pairs]
         near &= hand.any(axis=1) & (owners > -2).any(axis=1)
-        allowed = set(allow)
-        found: dict[str, None] = {}
-        for index in np.nonzero(near)[0]:
-            other = int(pairs[index][int(owners[index][0] == -2)])
-            if self.world.geom_object[other] not in allowed:
-                found[self.world.geom_address[other]] = None
-        return list(found)
-
-    def extent(self, name: str, rotation: Vector) -> tuple[Vector, Vector]:
-        """Bounds (3,), (3,) of an object turned to ``rotation`` (3, 3), relative to its origin."""
-        address = self._data.joint(name).qpos
-        kept = address.copy()
-        address[:3] = 0.0
-        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(rotation).ravel())
-        mujoco.mj_kinematics(self._model, self._data)
-        low, high = object_bounds(self.world, self._data, name)
-        address[:] = kept
-        return low, high
-
-    def bounds(self, name: str) -> tuple[Vector, Vector]:
-        """World-aligned bounds (3,), (3,) of an object of the frozen scene."""
-        mujoco.mj_kinematics(self._model, self._data)
-        return object_bounds(self.world, self._data, name)
-
-    def tool_pose(self) -> Pose:
-        """Tool pose of the configuration that was set last."""
-        data = self._data
-        return Pose(
-            data.site_xpos[self._tool].copy(), data.site_xmat[self._tool].reshape(3, 3).copy()
-        )
-
-
-def _riders(world: World, data: mujoco.MjData, joint: str) -> list[str]:
-    """Free objects that touch the sliding part of a joint, and those that touch only these."""
-    part = next((part for part in world.parts.values() if part.joint == joint), None)
-    if part is None or part.info.joint_type != "slide":
-        return []
-    riding = {f"{part.info.owner}.{part.info.name}"}
-    pairs = [
-        (world.geom_address[int(one)], world.geom_address[int(two)])
-        for one, two in data.contact.geom
-    ]
-    found: list[str] = []
-    for _ in world.entries:
-        new = [
-            other
-            for pair in pairs
-            for rider, other in (pair, pair[::-1])
-            if rider in riding and other not in riding
-            and other in world.entries and world.entries[other].free
-        ]  # fmt: skip
-        if not new:
-            break
-        found += dict.fromkeys(new)
-        riding.update(new)
-    return found
+        others = (pairs[index][int(owners[index][0] == -2)] for index in np.nonzero(near)[0])
+        return list(dict.fromkeys(self.world.geom_address[int(other)] for other in others))
