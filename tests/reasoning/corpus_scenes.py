@@ -547,3 +547,97 @@ def counter() -> SceneState:
             color="brown",
         ),
     )
+
+
+def scullery() -> SceneState:
+    """A cup and a lime on a tray, more cups, two onions and boxes, three drawers and boards."""
+    return scene(
+        item("tray", "box", (0.30, -0.30), size=(0.30, 0.22, 0.02), color="black"),
+        cup("red_cup", (0.25, -0.25), on="tray", color="red", z=0.18),
+        ball("lime", (0.35, -0.35), on="tray", color="green", z=0.17),
+        item("plate", "box", (0.40, 0.05), size=(0.18, 0.18, 0.015), color="white"),
+        item("bowl", "bowl", (0.42, -0.15), size=(0.14, 0.14, 0.05), color="blue"),
+        ball("apple", (0.42, -0.15), on="bowl", inside="bowl", color="red", z=0.17),
+        cup("white_cup", (0.30, 0.12), color="white"),
+        cup("blue_cup", (0.52, 0.15), color="blue"),
+        ball("onion_1", (0.25, 0.35), label="onion", color="brown"),
+        ball("onion_2", (0.25, -0.05), label="onion", color="brown"),
+        item(
+            "small_box", "bowl", (0.45, 0.32), size=(0.10, 0.10, 0.06), label="box", color="brown"
+        ),
+        item(
+            "large_box", "bowl", (0.55, -0.02), size=(0.18, 0.18, 0.10), label="box", color="brown"
+        ),
+        drawers(
+            "dresser", (0.66, 0.25), {"upper": 0.9, "middle": 0.0, "lower": 0.0}, color="white"
+        ),
+        cabinet("cabinet", (0.66, 0.48), 0.0, color="gray"),
+        item(
+            "shelf",
+            "shelf",
+            (0.66, -0.40),
+            size=(0.25, 0.30, 0.4),
+            boards=("bottom", "middle", "top"),
+        ),
+        item(
+            "tin",
+            "cylinder",
+            (0.66, -0.40),
+            size=(0.06, 0.06, 0.08),
+            on="shelf.top",
+            color="gray",
+            z=0.5,
+        ),
+    )
+
+
+def nursery() -> SceneState:
+    """Balls and blocks of two colours and more, a crate of each, a duck on a mat, two dressers."""
+    return scene(
+        ball("ball_1", (0.25, 0.35), label="ball", color="red"),
+        ball("ball_2", (0.25, 0.20), label="ball", color="blue"),
+        ball("ball_3", (0.40, 0.35), label="ball", color="red"),
+        item("block_1", "box", (0.25, 0.00), size=(0.04, 0.04, 0.04), label="block", color="red"),
+        item("block_2", "box", (0.25, -0.12), size=(0.05, 0.05, 0.05), label="block", color="blue"),
+        item(
+            "block_3", "box", (0.40, -0.12), size=(0.06, 0.06, 0.06), label="block", color="green"
+        ),
+        item(
+            "red_crate", "bowl", (0.45, 0.18), size=(0.20, 0.16, 0.08), label="crate", color="red"
+        ),
+        item(
+            "blue_crate",
+            "bowl",
+            (0.45, -0.32),
+            size=(0.20, 0.16, 0.08),
+            label="crate",
+            color="blue",
+        ),
+        item(
+            "train", "box", (0.40, 0.02), size=(0.12, 0.05, 0.05), label="toy train", color="green"
+        ),
+        item("red_mat", "box", (0.58, -0.05), size=(0.18, 0.18, 0.01), label="mat", color="red"),
+        item(
+            "duck",
+            "ball",
+            (0.58, -0.05),
+            size=(0.05, 0.05, 0.05),
+            on="red_mat",
+            color="yellow",
+            z=0.16,
+        ),
+        drawers(
+            "left_dresser",
+            (0.68, 0.40),
+            {"top": 0.0, "bottom": 0.0},
+            label="left dresser",
+            color="white",
+        ),
+        drawers(
+            "right_dresser",
+            (0.68, -0.42),
+            {"top": 0.9, "bottom": 0.0},
+            label="right dresser",
+            color="white",
+        ),
+    )

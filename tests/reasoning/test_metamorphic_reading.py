@@ -5,9 +5,8 @@ from __future__ import annotations
 import random
 import re
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import islice
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -42,14 +41,14 @@ def meaning(text: str, scene: SceneState) -> str | None:
         return None
 
 
-def sample(step: int, start: int = 0) -> Iterator[tuple[str, str]]:
-    return islice(READ, start, None, step)
+def sample(step: int, start: int = 0) -> list[tuple[str, str]]:
+    return READ[start::step]
 
 
 # -- words that are added --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "text"), sample(8))
+@pytest.mark.parametrize(("name", "text"), sample(11))
 def test_a_word_that_nobody_knows_is_never_read_over(name: str, text: str) -> None:
     words = text.split()
     where = random.Random(text).randrange(len(words) + 1)
@@ -57,7 +56,7 @@ def test_a_word_that_nobody_knows_is_never_read_over(name: str, text: str) -> No
     assert meaning(strange, SCENES[name]) is None
 
 
-@pytest.mark.parametrize(("name", "text"), sample(12, 1))
+@pytest.mark.parametrize(("name", "text"), sample(16, 1))
 @pytest.mark.parametrize("word", ["not", "without"])
 def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
     words = text.split()
@@ -66,7 +65,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
     assert meaning(denied, SCENES[name]) != meaning(text, SCENES[name])
 
 
-@pytest.mark.parametrize(("name", "text"), sample(8))
+@pytest.mark.parametrize(("name", "text"), sample(11))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     if re.match(r"(?i)(i |i'd|could|would|the |don't|never|1\.)", text):
@@ -132,7 +131,7 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
         assert meaning(exchanged(text), behind) == exchanged(meaning(text, scene) or "")
 
 
-@pytest.mark.parametrize(("name", "text"), sample(12))
+@pytest.mark.parametrize(("name", "text"), sample(16))
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(r"(?i)every|any|else|thing|object|rest|other|all |clear|tidy", text):
         return  # such words are about it, too
@@ -146,7 +145,7 @@ def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None
     assert meaning(text, wider) == meaning(text, scene)
 
 
-@pytest.mark.parametrize(("name", "text"), sample(12, 2))
+@pytest.mark.parametrize(("name", "text"), sample(16, 2))
 def test_the_order_of_things_in_the_scene_file_changes_nothing(name: str, text: str) -> None:
     scene = SCENES[name]
     names = list(scene.infos)[::-1]

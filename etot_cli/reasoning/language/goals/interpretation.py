@@ -17,12 +17,13 @@ from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ordering import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.grammar.syntax import Order, Spoken, reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.protocol import ReasonerStopped
+from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import SceneState
 
 MAX_BRANCHES = 16
@@ -102,11 +103,11 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
     problem: ReferenceProblem | None = None
     blame = 0
     found: dict[Goal, _State] = {}
-    cost = -1
+    cost, undecided = -1, 0
     unclear: AmbiguousReference | None = None
     for reading in sentence.readings:
         simplicity = reading_cost(reading)
-        if found and simplicity > cost:
+        if found and simplicity > cost and not undecided:
             break
         attempt = state.copy()
         try:
@@ -119,8 +120,15 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
             if problem is None or error.weight - simplicity > blame:
                 problem, blame = error, error.weight - simplicity
             continue
+        meaning = _meaning(goal)
+        if found and simplicity > cost:
+            if len(attempt.context.discourse.undecided) < undecided and meaning not in found:
+                # What would tell "the cup" from others may be said of it.
+                _only_one_that_asks(state, sentence, {**found, meaning: attempt})
+            continue
         cost = simplicity
-        found.setdefault(_meaning(goal), attempt)
+        found.setdefault(meaning, attempt)
+        undecided = min(len(item.context.discourse.undecided) for item in found.values())
         if len(found) > MAX_COMPARED:
             raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
     if unclear is not None:
@@ -142,7 +150,8 @@ def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _St
             scene = state.context.discourse.scene
             branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
             if branches:
-                key = tuple(branch.actions for branch in branches)
+                ordered = any(item.order is not Order.SAID for item in attempt.timed)
+                key = tuple(_moves(branch.actions, ordered=ordered) for branch in branches)
                 plans.setdefault(key, attempt)
     if len(plans) > 1:
         goals = (formal(attempt.goal()) for attempt in plans.values())
@@ -153,6 +162,16 @@ def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _St
     for attempt in plans.values():
         return attempt
     return next(iter(found.values()))
+
+
+def _moves(actions: Sequence[Action], *, ordered: bool) -> tuple[object, ...]:
+    """What a branch moves where; in the order of the text only where a word asks for an order."""
+    moves: list[tuple[Action, ...]] = [()]
+    for action in actions:
+        moves[-1] += (action,)
+        if action.verb is not Verb.PICK_UP:
+            moves.append(())
+    return tuple(moves if ordered else sorted(moves, key=str))
 
 
 def _meaning(goal: Goal) -> Goal:

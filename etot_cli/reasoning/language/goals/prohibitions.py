@@ -23,6 +23,10 @@ _ONES = (("one",), ("ones",))
 
 def avoid(context: Context, clause: AvoidClause) -> None:
     """Adds what a clause forbids to the constraints."""
+    if clause.goes_on:
+        last = clause.things.phrases[-1].text if clause.things else "anything else"
+        why = "'not' may be said of what follows by 'and', too; say that in a sentence of its own"
+        raise ReferenceProblem(last, why, 4)
     if clause.things is None:
         _avoid_others(context, clause)
         return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
@@ -29,7 +30,9 @@ _FORBIDDEN = either(
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
-AVOID = sequence(silent(phrase(verbs.DO_NOT)), _FORBIDDEN, build=lambda clause: clause)
+AVOID = sequence(
+    silent(phrase(verbs.DO_NOT)), _FORBIDDEN, build=lambda clause: replace(clause, negated=True)
+)
 WITHOUT = sequence(
     OPTIONAL_COMMA, silent(phrase("without")), _FORBIDDEN, build=lambda clause: clause
 )

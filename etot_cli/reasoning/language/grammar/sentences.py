@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
+    AvoidClause,
     EnsureClause,
     Order,
     PutClause,
@@ -100,6 +101,7 @@ def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
 
 LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
 _JOINED = either(
+    sequence(silent(phrase("and")), LED_CLAUSE, build=lambda clause: ("mere and", clause)),
     sequence(silent(phrase(small_words.JOINTS)), LED_CLAUSE, build=lambda clause: ("and", clause)),
     sequence(COMMA, LED_CLAUSE, build=lambda clause: ("and", clause)),
     sequence(
@@ -147,9 +149,23 @@ def _then(clause: Reading) -> Reading:
     return (first, *clause[1:])
 
 
+def _maybe_denied(done: Reading, clause: Reading) -> Reading:
+    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
+    before = done[-1].clause
+    if (
+        not isinstance(before, AvoidClause)
+        or not before.negated
+        or isinstance(clause[0].clause, AvoidClause)
+    ):
+        return done
+    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
+
+
 def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
     done = first
     for joint, clause in more:
+        if joint == "mere and":
+            done = _maybe_denied(done, clause)
         if joint == "after":
             done = (*clause, *_then(done))
         else:

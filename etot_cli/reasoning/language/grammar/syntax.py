@@ -222,6 +222,10 @@ class AvoidClause:
     avoid: Avoid
     things: Things | None
     destinations: tuple[Destination, ...] = ()
+    negated: bool = False
+    """It is said with "do not"."""
+    goes_on: bool = False
+    """Another clause follows by a mere "and", of which "do not" may be said as well."""
 
 
 Clause = (

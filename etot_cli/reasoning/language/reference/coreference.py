@@ -29,6 +29,8 @@ class Mention:
     noun: str
     several: bool = False
     """It speaks of all that fit, even where that is one."""
+    whatever: bool = False
+    """It speaks of whatever is somewhere, which nothing is put into or onto."""
 
 
 @dataclass
@@ -56,6 +58,8 @@ class Discourse:
     """Number of a clause and the referent that something is put beside there."""
     stacks: dict[int, int] = field(default_factory=dict)
     """Number of the clause that built a stack → the referent at its bottom."""
+    undecided: frozenset[int] = frozenset()
+    """Referents of "the …" where several things fit and nothing tells them apart."""
 
     def copy(self) -> Discourse:
         """An independent copy, for trying a reading."""
@@ -70,9 +74,18 @@ class Discourse:
             self.put,
             self.last_landmark,
             dict(self.stacks),
+            self.undecided,
         )
 
-    def add(self, resolved: Resolved, text: str, role: Role, *, several: bool = False) -> int:
+    def add(
+        self,
+        resolved: Resolved,
+        text: str,
+        role: Role,
+        *,
+        several: bool = False,
+        whatever: bool = False,
+    ) -> int:
         """Notes what a phrase means and returns its referent; ``several``: no "it" means that.
 
         A definite phrase with the same meaning as an earlier one speaks of the same choice.
@@ -83,7 +96,7 @@ class Discourse:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
                     self.mentions.append(
-                        Mention(earlier, role, self.clause, resolved.noun, several)
+                        Mention(earlier, role, self.clause, resolved.noun, several, whatever)
                     )
                     return earlier
         distinct: tuple[int, ...] = ()
@@ -94,8 +107,10 @@ class Discourse:
                 for earlier, referent in enumerate(self.referents)
                 if things & {thing for option in referent.options for thing in option}
             )
+        if resolved.definite and not resolved.other and len(resolved.options) > 1:
+            self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
-        self.mentions.append(Mention(index, role, self.clause, resolved.noun, several))
+        self.mentions.append(Mention(index, role, self.clause, resolved.noun, several, whatever))
         return index
 
     def _is_again(self, referent: int, resolved: Resolved) -> bool:
@@ -217,7 +232,8 @@ class Discourse:
         for mention in self.mentions:
             referent = mention.referent
             single = any(len(option) == 1 for option in self.referents[referent].options)
-            single = single and not mention.several
+            target = role in (Role.SURFACE, Role.CONTAINER, Role.PLACE)
+            single = single and not mention.several and not (mention.whatever and target)
             fits = single and referent not in excluded and self._fits(referent, role)
             if mention.clause != clause or not fits:
                 continue

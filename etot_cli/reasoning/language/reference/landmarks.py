@@ -16,6 +16,8 @@ RANKED = frozenset(
     }
 )  # fmt: skip
 """Relations that are true of some things more than of others."""
+_BESIDE = RANKED - {Prep.NEAREST, Prep.FARTHEST}
+"""Relations that nothing has to what it carries or stands on."""
 
 
 EQUAL = 1e-6
@@ -50,7 +52,9 @@ def related(
         others = [
             thing
             for thing in fitting
-            if thing not in marks and space.holds_at(prep, thing, marks, scene) is not False
+            if thing not in marks
+            and space.holds_at(prep, thing, marks, scene) is not False
+            and not (prep in _BESIDE and any(space.carries(thing, m, scene) for m in marks))
         ]
         for cost, thing in space.ranked(prep, others, marks, scene):
             best[thing] = min(cost, best.get(thing, cost))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -25,12 +26,14 @@ from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary, 
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     LEVELS,
+    NUMBERS,
     SIDES,
     SIZES,
     STATES,
     THING_NOUNS,
     basic_color,
     matches_any,
+    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -41,6 +44,8 @@ _INCOMPLETE = frozenset(
     {"", "the", "a", "an", "my", "your", "its", "their", "our", "this", "that", "these", "those"}
 )
 """Determiners that do not stand without a noun."""
+_SO_MANY = frozenset({*NUMBERS, *map(str, range(100)), "any", "some", "either"})
+"""Determiners that leave open which ones are left out."""
 
 
 Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
@@ -78,6 +83,13 @@ def _tells_parts(modifier: Modifier) -> bool:
     named = any(word in LEVELS for item in modifier.phrases for word in item.words)
     by_part = named and modifier.prep is Prep.EXCEPT
     return state or side or by_part or modifier.prep in _OF_PARTS
+
+
+def _is_one(phrase: NounPhrase) -> bool:
+    """Whether a phrase speaks of one thing that is known ("the cup")."""
+    quantity = quantity_of(phrase.determiner)
+    plural = not phrase.words or singular(phrase.words[-1]) != phrase.words[-1]
+    return quantity.definite and not quantity.every and quantity.count in (None, 1) and not plural
 
 
 def _means_the_others(modifier: Modifier) -> bool:
@@ -153,6 +165,9 @@ class Resolver:
         match = self._match(phrase, words, noun, parts_first=parts)
         if (quantity.every or phrase.determiner == "one") and not match.plural:
             match = self._parts(match, words, phrase)
+        nameless = noun is None and words[-1] in ("one", "ones") and role is not Role.ANY
+        if nameless and match.selectors:
+            raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         things = [entry.thing for entry in match.entries]
         first = phrase.determiner.split()[:1]
         if match.plural and first == ["some"]:
@@ -178,6 +193,13 @@ class Resolver:
         if phrase.among not in (0, len(things)):
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"not {phrase.among}, but {names} fit", 2)
+        asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
+        if len(things) == 1 and any(item.words[0] == "to" for item in asides):
+            raise ReferenceProblem(phrase.text, "say to which side of what", 3)
+        if asides and phrase.determiner in ("a", "an") and len(things) > 1:
+            names = ", ".join(thing.name for thing in things)
+            why = f"say 'the' one of {names}, or to which side of what"
+            raise ReferenceProblem(phrase.text, why, 3)
         things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
             names = ", ".join(thing.name for thing in things)
@@ -278,6 +300,9 @@ class Resolver:
                 }
             if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
                 for item in modifier.phrases:
+                    if (item.determiner or item.words[0]).split()[0] in _SO_MANY:
+                        why = "say which are left out of"
+                        raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                     out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))
         if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
             raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
@@ -321,7 +346,10 @@ class Resolver:
         pronoun: Pronoun,
     ) -> list[Thing]:
         """Things that all modifiers are true of, or that they fit best."""
-        for modifier in sorted(modifiers, key=lambda item: item.prep in RANKED):
+        waiting = sorted(modifiers, key=lambda item: item.prep in RANKED)
+        unclear = 0
+        while waiting:
+            modifier = waiting.pop(0)
             if modifier.prep is Prep.MATCHING:
                 why = "say which thing's colour is meant"
                 raise ReferenceProblem(phrase.text, why, 2)
@@ -336,6 +364,11 @@ class Resolver:
                 tuple(related(modifier, things, landmarks, quantity, count, self._scene))
                 for landmarks in self._landmark_sets(modifier, phrase, pronoun)
             } - {()}
+            if len(ways) > 1 and unclear < len(waiting):
+                # Another modifier may tell.
+                waiting.append(modifier)
+                unclear += 1
+                continue
             if len(ways) > 1:
                 named = [thing.name for way in ways for thing in way]
                 raise AmbiguousReference(phrase.text, sorted(named))
@@ -371,7 +404,12 @@ class Resolver:
             self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
             for item in modifier.phrases
         ]
-        return [each]
+        # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear.
+        ways = (
+            [[thing] for thing in things] if _is_one(item) else [things]
+            for item, things in zip(modifier.phrases, each, strict=True)
+        )
+        return [list(way) for way in product(*ways)]
 
     def _landmarks(
         self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None

@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, D
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
-from etot_cli.reasoning.language.reference.usual_form import is_robot
+from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.words.lexicon import SIDES
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -95,7 +95,8 @@ class Places:
         found = []
         for index in self._phrases.refer(phrase, role, themes):
             options = self.discourse.referents[index].options
-            if quantity_of(phrase.determiner).every and any(len(option) > 1 for option in options):
+            every = quantity_of(usual_form(phrase).determiner).every
+            if every and any(len(option) > 1 for option in options):
                 raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)

@@ -27,6 +27,9 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
+_OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
+"""What follows the last of several things and is said of that one, or is dealt with elsewhere."""
+
 
 class Phrases:
     """Turns phrases into referents of a discourse.
@@ -46,6 +49,7 @@ class Phrases:
         """Referents of coordinated phrases; alternatives become one referent. No pronoun means any
         of ``excluded``.
         """
+        self._check_shared(things, role)
         if not things.either:
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             return list(dict.fromkeys(index for indices in found for index in indices))
@@ -54,6 +58,38 @@ class Phrases:
         either = Resolved(options, definite=False, other=False, noun=resolved[-1].noun)
         text = " or ".join(phrase.text for phrase in things.phrases)
         return [self.discourse.add(either, text, role)]
+
+    def _check_shared(self, things: Things, role: Role) -> None:
+        """In "the cup and the ball on the tray" the cup may be the one on the tray, too.
+
+        Raises:
+            AmbiguousReference: that would be another one.
+        """
+        *before, last = things.phrases
+        for first, phrase in zip(things.phrases, things.phrases[1:], strict=False):
+            if phrase.loose and len(phrase.words) == 1 and len(first.words) > 1:
+                alike = replace(phrase, words=(*first.words[:-1], *phrase.words))
+                self._check_alike(phrase, alike, role, " ".join(alike.words))
+        shared = tuple(item for item in last.modifiers if item.prep not in _OF_ITS_OWN)
+        if not shared:
+            return
+        for phrase in before:
+            if phrase.modifiers or phrase.pronoun or not phrase.words:
+                continue
+            end = last.text.removeprefix(" ".join((last.determiner, *last.words)).strip())
+            alike = replace(phrase, modifiers=shared)
+            self._check_alike(phrase, alike, role, f"{phrase.text}{end}")
+
+    def _check_alike(self, phrase: NounPhrase, alike: NounPhrase, role: Role, text: str) -> None:
+        """Whether a phrase means the same with the words that another one has."""
+        try:
+            plain, also = (self.meaning(item, role).options for item in (phrase, alike))
+        except ReferenceProblem:
+            return
+        if set(plain) != set(also):
+            ways = [[thing.name for option in found for thing in option] for found in (also, plain)]
+            named = [", ".join(dict.fromkeys(names)) for names in ways]
+            raise AmbiguousReference(phrase.text, named, f"{text!r} may be meant, too:")
 
     def refer(
         self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()
@@ -78,7 +114,7 @@ class Phrases:
         resolved = self._resolved(phrase, role)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
         several = resolved.every and not whole
-        index = self.discourse.add(resolved, phrase.text, role, several=several)
+        index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
         self._note_landmarks(phrase)
         return (index,)
 

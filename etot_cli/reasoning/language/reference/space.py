@@ -82,6 +82,11 @@ def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     return any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
+def carries(one: Thing, other: Thing, scene: SceneState) -> bool:
+    """Whether one of two things stands in or on the other."""
+    return one.name in _bearers(other, scene) or other.name in _bearers(one, scene)
+
+
 def _levels_up(low: Thing, high: Thing, scene: SceneState) -> int:
     """How many levels of the same piece of furniture one part or board is above another, else 0."""
     if low.name != high.name or low.name == DESK:
@@ -114,7 +119,8 @@ def holds_at(
         ),
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
         Prep.UNDER: lambda landmark: (
-            thing.name in _bearers(landmark, scene) or _levels_up(thing, landmark, scene) == 1
+            (thing.board is None and thing.name in _bearers(landmark, scene))
+            or _levels_up(thing, landmark, scene) == 1
         ),
         Prep.ABOVE: lambda landmark: (
             landmark.name in _bearers(thing, scene) or _levels_up(landmark, thing, scene) == 1

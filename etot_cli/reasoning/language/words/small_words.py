@@ -42,7 +42,7 @@ TRAILING_THEN = "afterwards, afterward, after that, next, then, later"
 AND = "and [also], as well as, along with, together with, plus"
 OR = "or [else]"
 EITHER = "either, one of, any of"
-JOINTS = "and, but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
+JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and|but] then, [and] after that, [and] afterwards, [and] next, [and] finally, after which,
     and later
