@@ -188,7 +188,7 @@ def bench(
 
     code = session.conclude(
         report, path,
-        lambda summary: BenchSummary(summary.console, summary.verbosity).show(report, path),
+        lambda out: BenchSummary(out.console, out.verbosity).show(report, path),
     )  # fmt: skip
     if code == OK and all(trial.status == "error" for trial in report.trials):
         raise ServiceError(f"no trial could be carried out: {report.trials[0].reason}")

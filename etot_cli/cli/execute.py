@@ -139,7 +139,9 @@ def execute(
             session.save(report)
         if html and not report.interrupted:
             session.add_page(report, lambda told: write_execute_page(execution, session.folder))
-    code = session.conclude(report, path, lambda summary: summary.execute(report, path))
+    from etot_cli.reporting.run_summary import execute_summary
+
+    code = session.conclude(report, path, lambda out: execute_summary(out, report, path))
     if execution.lost and not report.interrupted:
         raise ServiceError(report.reason)
     return code

@@ -188,7 +188,9 @@ def plan(
 
         for warning in write_exports(planning, export):
             print(f"warning: {warning}", file=sys.stderr)
-    code = session.conclude(report, path, lambda summary: summary.plan(report, path))
+    from etot_cli.reporting.plan_summary import plan_summary
+
+    code = session.conclude(report, path, lambda out: plan_summary(out, report, path))
     if code == OK and report.success is not None and not report.success.holds:
         return NO
     if code == NO and report.statistics.limit == "service":

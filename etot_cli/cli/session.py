@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
     from etot_cli.reporting.models import Report
+    from etot_cli.reporting.printer import Printer
     from etot_cli.reporting.reconstruct_report import ReconstructReport
-    from etot_cli.reporting.summary import Summary
 
     AnyReport = Report | ReconstructReport | BenchReport
 
@@ -183,18 +183,18 @@ class Session:
                 yield bar
 
     def conclude(
-        self, report: Report | BenchReport, path: Path, show: Callable[[Summary], None]
+        self, report: Report | BenchReport, path: Path, show: Callable[[Printer], None]
     ) -> int:
         """Prints the answer and returns the exit code.
 
         Args:
             report: what was found.
             path: where it was saved.
-            show: prints it with the summary it is given.
+            show: prints it with what it is given.
         """
         from etot_cli.reporting.files import report_text
+        from etot_cli.reporting.printer import Printer
         from etot_cli.reporting.style import make_console
-        from etot_cli.reporting.summary import Summary
 
         with uninterrupted():
             if self._json:
@@ -205,7 +205,7 @@ class Session:
                 if report.interrupted:
                     print(f"interrupted; what was found so far: {path}", file=sys.stderr)
             else:
-                show(Summary(make_console(sys.stdout), self._verbosity))
+                show(Printer(make_console(sys.stdout), self._verbosity))
         if report.interrupted:
             return INTERRUPTED
         return OK if report.status in POSITIVE else NO

@@ -141,7 +141,9 @@ def simulate(
         session.save(report)
     if html and not report.interrupted:
         session.add_page(report, lambda told: write_simulate_page(simulation, session.folder, told))
-    code = session.conclude(report, path, lambda summary: summary.simulate(report, path))
+    from etot_cli.reporting.run_summary import simulate_summary
+
+    code = session.conclude(report, path, lambda out: simulate_summary(out, report, path))
     if viewer is not None and not report.interrupted:
         from etot_cli.commands.view import view as look_at
 

@@ -64,7 +64,7 @@ def test_a_narrow_place_is_enough_for_workers_too(tmp_path: Path) -> None:
 def test_a_plan_needs_no_library_for_pictures() -> None:
     """OpenCV and the video library take more address space than all the others together."""
     loaded = "import sys, etot_cli.control.simulator, etot_cli.commands.plan, "
-    loaded += "etot_cli.reporting.summary; print({'cv2', 'av', 'coacd'} & {*sys.modules})"
+    loaded += "etot_cli.reporting.plan_summary; print({'cv2', 'av', 'coacd'} & {*sys.modules})"
     done = subprocess.run(
         [sys.executable, "-c", loaded], cwd=ROOT, env=environment(), capture_output=True,
         text=True, check=True,

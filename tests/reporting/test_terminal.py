@@ -19,8 +19,10 @@ from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.live import LiveView, window
 from etot_cli.reporting.log import PlainLog
 from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.plan_summary import plan_summary
+from etot_cli.reporting.printer import Printer
+from etot_cli.reporting.run_summary import simulate_summary
 from etot_cli.reporting.style import LOOKS, Verbosity, make_console
-from etot_cli.reporting.summary import Summary
 from etot_cli.world.state import CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails
 from tests.reporting.toy_rooms import ToyRooms
@@ -109,18 +111,18 @@ def test_log_lines() -> None:
     assert "no revision" in stream.getvalue()
 
 
-def plan_summary(verbosity: Verbosity, *, worlds: int = 1, feasible: bool = True) -> str:
+def summary_text(verbosity: Verbosity, *, worlds: int = 1, feasible: bool = True) -> str:
     simulator = ToySimulator(fails("a", "c"), worlds=worlds)
     revisions = {"a b @ 0": "x a b"} if feasible else {}
     rooms = ToyRooms(simulator, ToyReasoner(["a b", "c"], revisions)).rooms()
     report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=worlds), rooms=rooms)
     stream = Stream("utf-8")
-    Summary(make_console(stream), verbosity).plan(report, Path("out/report.json"))
+    plan_summary(Printer(make_console(stream), verbosity), report, Path("out/report.json"))
     return stream.getvalue()
 
 
 def test_plan_summary() -> None:
-    text = plan_summary(Verbosity.NORMAL)
+    text = summary_text(Verbosity.NORMAL)
     assert "✓ feasible plan  Leave the cup alone." in text
     assert "1 ✓ [PICK UP, x]" in text and "3 ✓ [PICK UP, b]" in text
     assert "failure, blocked: it was blocked" in text
@@ -130,15 +132,15 @@ def test_plan_summary() -> None:
 
 
 def test_plan_summary_with_worlds() -> None:
-    assert "holds in 3 of 3 varied worlds: 100%" in plan_summary(Verbosity.NORMAL, worlds=3)
+    assert "holds in 3 of 3 varied worlds: 100%" in summary_text(Verbosity.NORMAL, worlds=3)
 
 
 def test_plan_summary_without_a_plan() -> None:
-    assert "✗ no feasible plan" in plan_summary(Verbosity.NORMAL, feasible=False)
+    assert "✗ no feasible plan" in summary_text(Verbosity.NORMAL, feasible=False)
 
 
 def test_quiet_is_one_line() -> None:
-    text = plan_summary(Verbosity.QUIET)
+    text = summary_text(Verbosity.QUIET)
     assert text == "feasible: [PICK UP, x] [PICK UP, a] [PICK UP, b]\n"
 
 
@@ -148,7 +150,8 @@ def toy_report(branches: list[str], *failing: str) -> PlanReport:
 
 
 def shown(report: PlanReport, console: Console, verbosity: Verbosity = Verbosity.NORMAL) -> str:
-    Summary(console, verbosity).plan(report, Path("out") / ("deep" * 12) / "report.json")
+    path = Path("out") / ("deep" * 12) / "report.json"
+    plan_summary(Printer(console, verbosity), report, path)
     stream = console.file
     assert isinstance(stream, io.StringIO)
     return stream.getvalue()
@@ -212,7 +215,8 @@ def test_simulate_summary() -> None:
     options = SimulateOptions(task=Path("toy.yaml"), plan="[PICK UP, cup] [PUT ON, desk]")
     report = run_simulate(options, rooms=rooms).report
     stream = Stream("utf-8")
-    Summary(make_console(stream), Verbosity.NORMAL).simulate(report, Path("out/report.json"))
+    out = Printer(make_console(stream), Verbosity.NORMAL)
+    simulate_summary(out, report, Path("out/report.json"))
     text = stream.getvalue()
     assert "✗ the plan fails" in text
     assert "not tried" in text
