@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from etot_cli.errors import PlanSyntaxError
@@ -163,6 +163,10 @@ def read_whereabouts(text: str) -> Whereabouts | None:
     Args:
         text: one relation, single spaces between words; the case of its words does not matter.
     """
+    if text.lower().startswith("not "):
+        there = read_whereabouts(text[len("not ") :])
+        known = there is not None and not there.denied and there.relation is not Nearby.UPRIGHT
+        return replace(there, denied=True) if there is not None and known else None
     point = _POINT.fullmatch(text.lower())
     if point is not None:
         return Whereabouts(Nearby.AT_POINT, point=(float(point[1]), float(point[2])))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -82,18 +82,21 @@ class Whereabouts:
         relation: to the landmarks, or to the surface itself.
         landmarks: names of objects, as many as the relation takes.
         point: x, y in the base frame [m], for ``at 0.412 -0.100``.
+        denied: anywhere but there; written ``not near cup``.
     """
 
     relation: Nearby
     landmarks: tuple[str, ...] = ()
     point: tuple[float, float] | None = None
+    denied: bool = False
 
     def __str__(self) -> str:
+        no = "not " if self.denied else ""
         if self.point is not None:
-            return f"at {self.point[0]:.3f} {self.point[1]:.3f}"
+            return f"{no}at {self.point[0]:.3f} {self.point[1]:.3f}"
         if not self.landmarks:
-            return self.relation.value
-        return f"{self.relation.value} {' and '.join(self.landmarks)}"
+            return f"{no}{self.relation.value}"
+        return f"{no}{self.relation.value} {' and '.join(self.landmarks)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +143,9 @@ def fits(
         area: outline of the surface on which it stands.
         forward: unit direction in which the viewer looks.
     """
+    if where.denied:
+        there = replace(where, denied=False)
+        return ~fits(there, points, radius, landmarks, area, forward)
     ahead = np.array(forward)
     left = np.array([-forward[1], forward[0]])
     match where.relation:

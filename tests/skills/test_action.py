@@ -96,6 +96,10 @@ def test_landmarks_must_exist() -> None:
         ("[PICK UP, cup](vertical)", Action(Verb.PICK_UP, "cup", GraspPose.VERTICAL)),
         ("[PUT ON, desk] (safe place)", Action(Verb.PUT_ON, "desk", safe=True)),
         (
+            "[PUT ON, desk] (not near cup)",
+            Action(Verb.PUT_ON, "desk", where=(Whereabouts(Nearby.NEAR, ("cup",), denied=True),)),
+        ),
+        (
             "[PUT INTO, bin] (Upright)",
             Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.UPRIGHT),)),
         ),

@@ -198,7 +198,7 @@ def _whereabouts(
         names = tuple(things[index][0].name for index in near.landmarks)
         if len(set(names)) < len(names):
             return []
-        found.append(Whereabouts(near.relation, names, near.point))
+        found.append(Whereabouts(near.relation, names, near.point, near.denied))
     return [tuple(found)]
 
 

@@ -41,6 +41,17 @@ _CONVERSE = {
     Nearby.AWAY: Nearby.AWAY,
 }
 """What holds of a landmark and a thing where the key holds of the thing and the landmark."""
+_LAST = {BESIDE: 1, "upright": 2}
+_CONVERSE = {
+    Nearby.LEFT: Nearby.RIGHT,
+    Nearby.RIGHT: Nearby.LEFT,
+    Nearby.FRONT: Nearby.BEHIND,
+    Nearby.BEHIND: Nearby.FRONT,
+    Nearby.NEXT_TO: Nearby.NEXT_TO,
+    Nearby.NEAR: Nearby.NEAR,
+    Nearby.AWAY: Nearby.AWAY,
+}
+"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 _INSTEAD = {
     Nearby.LEFT: Nearby.RIGHT,
     Nearby.RIGHT: Nearby.LEFT,
@@ -70,8 +81,6 @@ class _Atom:
     names: tuple[str, ...]
     denied: bool = False
     where: Whereabouts | None = None
-    instead_of: Whereabouts | None = None
-    """Where the object is not to be, which is why it is to be at ``where``."""
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
@@ -88,8 +97,6 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     goals: list[Goal] = []
     objection: InstructionError | None = None
     for atoms in alternatives:
-        if any(_is_idle(atom, atoms, scene) for atom in atoms):
-            continue
         draft = _Draft(scene)
         try:
             # What says where on a surface, and how it stands there, comes after what says on which.
@@ -136,29 +143,15 @@ def _alternatives(
     return [()]
 
 
-def _is_idle(atom: _Atom, others: Sequence[_Atom], scene: SceneState) -> bool:
-    """Whether an object would be moved away from where it neither is nor is brought."""
-    name = atom.names[0]
-    if atom.instead_of is None or name not in scene.states:
-        return False
-    moved = any(item.key in ("on", "inside") and item.names[0] == name for item in others)
-    return not (moved or spatial.holds(atom.instead_of, name, scene))
-
-
 def _beside(
     name: str, where: Whereabouts, scene: SceneState, *, denied: bool
 ) -> list[tuple[_Atom, ...]]:
-    """Ways to have an object somewhere or not there: the landmark of what stays is moved, and what
-    is not to be there may be elsewhere.
-    """
-    found = [_Atom(BESIDE, (name,), denied, where)]
-    other = _INSTEAD.get(where.relation) if denied else where.relation
-    if denied and other is not None:
-        there = replace(where, relation=other)
-        found.append(_Atom(BESIDE, (name,), where=there, instead_of=where))
+    """Ways to have an object somewhere, or not there: the landmark of what stays is moved."""
+    where = replace(where, denied=denied)
+    found = [_Atom(BESIDE, (name,), where=where)]
     info = scene.infos.get(name)
-    if other in _CONVERSE and info is not None and not info.movable:
-        turned = Whereabouts(_CONVERSE[other], (name,))
+    if where.relation in _CONVERSE and info is not None and not info.movable:
+        turned = replace(where, relation=_CONVERSE[where.relation], landmarks=(name,))
         found.append(_Atom(BESIDE, where.landmarks, where=turned))
     return [(atom,) for atom in found]
 
@@ -224,13 +217,10 @@ class _Draft:
         name, where = atom.names[0], atom.where
         assert where is not None  # these atoms have one
         theme = self._refer(name, Role.THEME)
-        if atom.denied:
-            if spatial.holds(where, name, self.scene):
-                raise ReferenceProblem(name, f"say where it is to be instead of {where}")
-            return
         landmarks = tuple(self._refer(landmark, Role.ANY) for landmark in where.landmarks)
-        near = Near(where.relation, landmarks, where.point)
-        if not self._add_to_put(theme, near):
+        near = Near(where.relation, landmarks, where.point, where.denied)
+        is_away = where.denied and spatial.holds(where, name, self.scene)
+        if not self._add_to_put(theme, near) and not is_away:
             surface = None if landmarks else self._refer(DESK, Role.SURFACE)
             self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
 

@@ -69,11 +69,15 @@ class Pick:
 
 @dataclass(frozen=True, slots=True)
 class Near:
-    """Where on a surface: a relation to referents, or a point x, y in the base frame [m]."""
+    """Where on a surface: a relation to referents, or a point x, y in the base frame [m].
+
+    ``denied``: anywhere but there.
+    """
 
     relation: Nearby
     landmarks: tuple[int, ...] = ()
     point: tuple[float, float] | None = None
+    denied: bool = False
 
 
 @dataclass(frozen=True, slots=True)

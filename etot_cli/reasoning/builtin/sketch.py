@@ -14,7 +14,7 @@ from etot_cli.reasoning.builtin.relations import (
 )
 from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.world import spatial
-from etot_cli.world.spatial import Whereabouts
+from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.state import DESK, STAYS_OPEN_AT, PartInfo, SceneState
 
 PUT_DOWN = Action(Verb.PUT_ON, DESK, safe=True)
@@ -72,6 +72,8 @@ class Sketch:
             return
         part = self._scene.part(target) if relation is Relation.INSIDE else None
         if part is None:
+            if relation is Relation.INSIDE:
+                self._stand_up(target)
             verb = Verb.PUT_ON if relation is Relation.ON else Verb.PUT_INTO
             opened = self._uncover(target)
             self.pick_up(name, pose)
@@ -160,6 +162,13 @@ class Sketch:
                 return self._moved[name] == (relation, target)
             return is_on(self._scene, name, target)
         return target in self._containers_around(name)
+
+    def _stand_up(self, vessel: str) -> None:
+        """Makes a vessel that lies on its side ready to take something in."""
+        state = self._scene.states.get(vessel)
+        if state is not None and state.toppled and vessel not in self._moved:
+            self.pick_up(vessel)
+            self.do(Action(Verb.PUT_ON, DESK, where=(Whereabouts(Nearby.UPRIGHT),)))
 
     def _uncover(self, target: str) -> list[PartInfo]:
         """Opens the closed parts around a vessel or surface; returns them, the outermost first."""

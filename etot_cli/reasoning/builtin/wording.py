@@ -73,10 +73,11 @@ def _place(place: Place, goal: Goal) -> str:
 
 
 def _near(near: Near, goal: Goal) -> str:
+    no = "not " if near.denied else ""
     if near.point is not None:
-        return f"at {near.point[0]:.3f} {near.point[1]:.3f}"
+        return f"{no}at {near.point[0]:.3f} {near.point[1]:.3f}"
     marks = " and ".join(_choice(index, goal) for index in near.landmarks)
-    return f"{near.relation.value} {marks}".strip()
+    return f"{no}{near.relation.value} {marks}".strip()
 
 
 def _choice(index: int, goal: Goal, joint: str = " and ") -> str:

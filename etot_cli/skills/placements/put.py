@@ -40,7 +40,9 @@ def placements_on(
         action.keepout,
         strict=action.safe,
         preference=_preference(belief, action, name),
-        at=tuple(where.point for where in action.where if where.point is not None),
+        at=tuple(
+            where.point for where in action.where if where.point is not None and not where.denied
+        ),
         rehearsed=rehearsed,
         upright=_is_upright(action),
     )
@@ -53,7 +55,9 @@ def placements_into(
     """Ways to put the held object ``name`` into a container; a rod stands where it must."""
     support = container_support(belief, action.target)
     if support is None:
-        yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} is no container")
+        lies = action.target in belief.world.regions
+        text = "lies on its side and takes nothing in" if lies else "is no container"
+        yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} {text}")
         return
     attached = belief.attach(name)
     yield from _placements(
