@@ -13,9 +13,10 @@ from collections import deque
 from collections.abc import Iterator
 from itertools import islice
 
-from etot_cli.control.simulated import Simulated, Simulator, StateToken, WorldOutcome
+from etot_cli.control.simulated import Simulator
 from etot_cli.planning.acceptance import check_of
 from etot_cli.planning.alternatives import Corrections, best_prefix
+from etot_cli.planning.findings import Findings
 from etot_cli.planning.lookahead import Lookahead
 from etot_cli.planning.options import BRANCHES_AT_ONCE, Ablation, Limits
 from etot_cli.planning.result import (
@@ -24,23 +25,13 @@ from etot_cli.planning.result import (
     SearchResult,
     SearchStatus,
     SilentObserver,
-    Statistics,
     told,
 )
-from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
-from etot_cli.reasoning.builtin.acceptance import Doubts
-from etot_cli.reasoning.protocol import (
-    Assignment,
-    Branch,
-    FailedStep,
-    Reasoner,
-    ReasonerStopped,
-    StopReason,
-)
+from etot_cli.reasoning.protocol import Assignment, Branch, Reasoner, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
-from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
+from etot_cli.world.state import CauseKind, SceneState
 
 
 def search(
@@ -101,26 +92,16 @@ class _Search:
 
         self._tree = PlanTree()  # [T]
         self._queue: deque[PlanNode] = deque()  # [Q]
-        self._worlds = tuple(range(simulator.world_count))
-        self._statistics = Statistics()
+        self._known = Findings(reasoner, simulator.world_count, limits.min_survival)
         self._started = time.monotonic()
         seconds = limits.time_limit_s
         self._until_s = NEVER if seconds is None else self._started + seconds
-        self._lookahead = Lookahead(simulator, self._start_of, self._until_s)
+        self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s)
         self._proposals: Iterator[Branch] = iter(())
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()
-        self._root_state: StateToken = b""
-        self._root_scene: SceneState | None = None
-        self._end_states: dict[int, StateToken] = {}
-        self._failures: dict[int, RolloutRecord] = {}
         self._reflected: set[tuple[int, tuple[Action, ...]]] = set()
-        self._rollouts: dict[int, WorldOutcome] = {}
-        self._best: PlanNode | None = None
-        self._goal_holds = False
         self._check = check
-        self._doubts: Doubts = lambda scene: ""
-        self._doubted: dict[tuple[Action, ...], str] = {}
         self._limit: LimitKind | None = None
         self._cut: LimitKind | None = None
         self._stopped = ""
@@ -141,34 +122,36 @@ class _Search:
             self._limit = LimitKind.TIME
         finally:
             self._lookahead.cancel()
-        if not self._found:
+        known = self._known
+        if not known.found:
             self._limit = self._limit or self._cut
-        self._statistics.wall_s = time.monotonic() - self._started
+        known.statistics.wall_s = time.monotonic() - self._started
         result = SearchResult(
             status=self._status(interrupted),
-            leaf=self._best,
+            leaf=known.best,
             tree=self._tree,
-            statistics=self._statistics,
+            statistics=known.statistics,
             branches=tuple(self._branches),
-            goal_holds=self._goal_holds,
-            survival=self._survival(),
+            goal_holds=known.goal_holds,
+            survival=known.survival(),
             limit=self._limit,
-            rollouts=self._rollouts,
+            rollouts=known.rollouts,
             stopped=self._stopped or told(self._limit, self._limits),
-            prefix=None if self._found else best_prefix(self._tree),
-            final=self._final(),
-            doubts={actions: why for actions, why in self._doubted.items() if why},
+            prefix=None if known.found else best_prefix(self._tree),
+            final=known.final(),
+            doubts=known.doubts,
         )
         self._observer.finished(result)
         return result
 
     def _run(self) -> None:
-        self._root_state, self._root_scene = self._simulator.start(self._until_s)
-        self._branch_a_priori(self._root_scene)
+        state, scene = self._simulator.start(self._until_s)
+        self._known.begin(state, scene)
+        self._branch_a_priori(scene)
         self._observer.proposed(self._tree)
         while self._queue or self._widen():
             node = self._queue.popleft()
-            if not self._can_beat_best(node):
+            if not self._known.can_beat_best(node):
                 continue
             self._limit = self._limit_reached()
             if self._limit is not None:
@@ -176,14 +159,14 @@ class _Search:
             self._observer.started(node)
             simulated = self._lookahead.fetch(
                 node,
-                (ahead for ahead in self._queue if self._can_beat_best(ahead)),
-                allowance=self._limits.max_nodes - self._statistics.nodes_evaluated,
+                (ahead for ahead in self._queue if self._known.can_beat_best(ahead)),
+                allowance=self._limits.max_nodes - self._known.statistics.nodes_evaluated,
             )
-            self._judge(node, simulated)
+            self._known.judge(node, simulated)
             self._observer.judged(node)
             if node.status is NodeStatus.SUCCESS:
                 if node.end is not None:
-                    self._offer(node)
+                    self._known.offer(node)
                 self._queue.extend(node.live_children)
             else:
                 self._revise(node)
@@ -194,9 +177,9 @@ class _Search:
         if Ablation.PRIORI in self._without:
             self._proposals = islice(self._proposals, 1)
         if self._check:
-            self._doubts = check_of(self._assignment, scene)
+            self._known.check = check_of(self._assignment, scene)
         self._propose()
-        self._goal_holds = not self._branches and self._does_it((), scene)
+        self._known.goal_holds = not self._branches and self._known.does_it((), scene)
 
     def _propose(self) -> None:
         """Takes the next of the proposed branches into the tree."""
@@ -215,38 +198,14 @@ class _Search:
         First the proposed branches that have not entered the tree yet, then the next corrections
         of every failure in turn, each time one.
         """
-        if self._found:
+        if self._known.found:
             return False
         self._propose()
-        while self._untried and not self._queue and not self._found:
+        while self._untried and not self._queue and not self._known.found:
             if self._out_of_time():
                 raise OutOfTimeError
             self._take(self._untried.popleft())
         return bool(self._queue)
-
-    def _judge(self, node: PlanNode, simulated: Simulated) -> None:
-        """[VLMJudge] Puts the verdict on the node and keeps what later steps need of it."""
-        judgement = judge_worlds(
-            self._reasoner, node.action, simulated, self._alive(node.parent),
-            self._limits.min_survival,
-        )  # fmt: skip
-        node.verdict = judgement.verdict
-        node.survived = judgement.survived
-        node.losses = judgement.losses
-        node.simulated_s = sum(outcome.record.simulated_s for outcome in simulated.outcomes)
-        node.steps = sum(outcome.record.steps for outcome in simulated.outcomes)
-        node.wall_s = simulated.wall_s
-        node.status = NodeStatus(judgement.verdict.outcome.value)
-        self._rollouts[node.id] = simulated.outcomes[NOMINAL]
-        if node.status is NodeStatus.SUCCESS:
-            self._end_states[node.id] = simulated.end
-        else:
-            self._failures[node.id] = judgement.record
-        self._statistics.nodes_evaluated += 1
-        self._statistics.simulated_s += node.simulated_s
-        self._statistics.steps += node.steps
-        self._statistics.physics_s += simulated.physics_s
-        self._statistics.kinematics_s += simulated.kinematics_s
 
     def _revise(self, node: PlanNode) -> None:
         """Takes a failed node out and reflects on every branch that ran through it."""
@@ -266,7 +225,11 @@ class _Search:
         """
         key = (node.id, path.branch.actions)
         # With a plan in hand, only what the tree already holds is still compared with it.
-        if Ablation.REFLECTIVE in self._without or self._best is not None or key in self._reflected:
+        if (
+            Ablation.REFLECTIVE in self._without
+            or self._known.best is not None
+            or key in self._reflected
+        ):
             return
         if path.revisions >= self._limits.revisions_per_branch:
             self._cut = LimitKind.REVISIONS
@@ -276,8 +239,8 @@ class _Search:
             if self._out_of_time():
                 raise OutOfTimeError
             self._reflected.add(key)
-            self._statistics.reflections += 1
-            branches = self._reasoner.reflect(self._failed_step(node, path.branch))  # [B]
+            self._known.statistics.reflections += 1
+            branches = self._reasoner.reflect(self._known.failed_step(node, path.branch))  # [B]
             self._take(Corrections(node, path.revisions + 1, iter(branches)))
 
     def _take(self, corrections: Corrections) -> None:
@@ -305,77 +268,22 @@ class _Search:
             if not any(node in self._queue for node in merged):
                 self._queue.append(new)
         elif merged and merged[-1].status is NodeStatus.SUCCESS:
-            self._offer(merged[-1])  # a plan whose every step has succeeded
-
-    def _failed_step(self, node: PlanNode, branch: Branch) -> FailedStep:
-        assert node.verdict is not None  # a failed node has been judged
-        assert self._root_scene is not None  # and the root was there before it
-        return FailedStep(
-            branch=branch,
-            index=node.depth - 1,
-            record=self._failures[node.id],
-            verdict=node.verdict,
-            start=self._root_scene,
-        )
-
-    def _offer(self, node: PlanNode) -> None:
-        """[extractPath] A plan was found; it is kept when it survives in more worlds."""
-        if not self._does_it(node.actions, self._rollouts[node.id].record.after):
-            return
-        if self._best is None or len(self._alive(node)) > len(self._alive(self._best)):
-            self._best = node
-
-    def _does_it(self, actions: tuple[Action, ...], final: SceneState) -> bool:
-        """Whether actions that have succeeded also did what was asked for."""
-        if actions not in self._doubted:
-            self._doubted[actions] = self._doubts(final)
-        return not self._doubted[actions]
-
-    def _can_beat_best(self, node: PlanNode) -> bool:
-        """Whether a plan through ``node`` could survive in more worlds than the best one.
-
-        Survivors only become fewer along a path. In a single world no plan beats the first.
-        """
-        return self._best is None or len(self._alive(node.parent)) > len(self._alive(self._best))
-
-    def _alive(self, node: PlanNode | None) -> tuple[int, ...]:
-        """The worlds alive after a successful node; all of them at the root (None)."""
-        if node is None:
-            return self._worlds
-        assert node.survived is not None  # only asked of nodes that have been judged
-        return node.survived
-
-    def _start_of(self, node: PlanNode) -> StateToken:
-        return self._root_state if node.parent is None else self._end_states[node.parent.id]
+            self._known.offer(merged[-1])  # a plan whose every step has succeeded
 
     def _limit_reached(self) -> LimitKind | None:
-        if self._statistics.nodes_evaluated >= self._limits.max_nodes:
+        if self._known.statistics.nodes_evaluated >= self._limits.max_nodes:
             return LimitKind.MAX_NODES
         return LimitKind.TIME if self._out_of_time() else None
 
     def _out_of_time(self) -> bool:
         return self._until_s != NEVER and time.monotonic() >= self._until_s
 
-    @property
-    def _found(self) -> bool:
-        return self._best is not None or self._goal_holds
-
-    def _final(self) -> SceneState | None:
-        if self._best is not None:
-            return self._rollouts[self._best.id].record.after
-        return self._root_scene if self._goal_holds else None
-
     def _status(self, interrupted: bool) -> SearchStatus:
         if interrupted:
             return SearchStatus.INTERRUPTED
-        if self._found:
+        if self._known.found:
             return SearchStatus.FEASIBLE
         return SearchStatus.INFEASIBLE if self._limit is None else SearchStatus.LIMIT
-
-    def _survival(self) -> Survival | None:
-        if self._best is not None:
-            return Survival(len(self._alive(self._best)), len(self._worlds))
-        return Survival(len(self._worlds), len(self._worlds)) if self._goal_holds else None
 
 
 def _abandoned(node: PlanNode) -> bool:

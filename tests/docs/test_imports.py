@@ -122,7 +122,8 @@ def test_the_judge_of_trials_is_not_that_of_actions() -> None:
         rooms_used = {".".join(name.split(".")[:3]) for name in used}
         assert not {name for name in rooms_used if name.startswith("etot_cli.reasoning")}, module
     judging = [path for room in ("reasoning", "skills", "control") for path in files(room)]
-    for path in [*judging, PACKAGE / "planning" / "search.py"]:
+    searching = [PACKAGE / "planning" / name for name in ("search.py", "findings.py")]
+    for path in [*judging, *searching]:
         assert not any("conditions.holds" in name or "planning.conditions" in name
                        for name in imports(path)), path  # fmt: skip
 
