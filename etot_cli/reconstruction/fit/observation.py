@@ -29,6 +29,8 @@ SEAM = 4
 """Masks of things that touch may be this far apart [px]."""
 LOST = 9
 """Readings that are lost at an edge are replaced by others up to this far away [px]."""
+LEAST_SPREAD = 30
+"""With fewer readings depth does not say how large a thing is."""
 FREE_RING = 25
 """How far around a mask free space is sampled [px]."""
 
@@ -56,6 +58,14 @@ class Observation:
     def pixels(self) -> Array:
         """Edge, free and inside pixels in this order, (n + k + m, 2)."""
         return np.vstack([self.edges, self.free, self.inside])
+
+    @cached_property
+    def spread(self) -> float:
+        """Diagonal of the box around the surface points, a few stray ones left out [m]."""
+        if len(self.points) < LEAST_SPREAD:
+            return float("inf")
+        low, high = np.percentile(self.points, [2, 98], axis=0)
+        return float(np.linalg.norm(high - low))
 
     def thinned(self, edges: int, points: int, rng: np.random.Generator) -> Observation:
         """With at most so many edge points and surface points."""

@@ -30,6 +30,9 @@ FINE_DEPTH = 0.0015
 """With a larger error of depth the thickness of a wall cannot be measured [m]."""
 IMPLAUSIBLE = 50.0
 """Added to the score of a shape that its family is not meant for."""
+MOST_HIDDEN = 3.0
+"""No side of a thing is more than so many times as long as what is seen of it: of a flat patch or a
+sliver a huge ball explains every reading."""
 FARTHEST_OFF = 9.0
 """An error counts in the score as at most this many squares of twice its standard deviation."""
 EXPLAINED_PX = 2.0
@@ -135,6 +138,7 @@ def residuals_of(family: Family, seen: Observation, params: Array) -> Array:
 def judge(family: Family, seen: Observation, params: Array) -> Fit:
     """How well a shape explains an observation."""
     hulls = family.hulls(params, seen.view)
+    plausible = family.plausible(params) and max(family.size(params)) < MOST_HIDDEN * seen.spread
     edge = np.abs(silhouette_distance(hulls, seen.view, seen.edges)) if len(seen.edges) else None
     signed = family.distance(params, seen.points) if len(seen.points) else np.zeros(0)
     edge_rms = 0.0 if edge is None else trimmed_rms(edge)
@@ -151,7 +155,7 @@ def judge(family: Family, seen: Observation, params: Array) -> Fit:
         + spill / (2 * seen.edge_sigma) ** 2
         + _bounded(signed, 2 * seen.depth_sigma)
         + SIMPLICITY * family.complexity
-        + (0.0 if family.plausible(params) else IMPLAUSIBLE)
+        + (0.0 if plausible else IMPLAUSIBLE)
     )
     bias = float(np.median(signed)) if len(signed) else 0.0
     return Fit(family, params, edge_rms, depth_rms, bias, good / max(total, 1), score)

@@ -9,7 +9,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
-from etot_cli.reconstruction.fit.pose import FINE, FINE_DEPTH, Fit, fit_shape, judge
+from etot_cli.reconstruction.fit.pose import EXPLAINED_M, FINE, FINE_DEPTH, Fit, fit_shape, judge
 from etot_cli.reconstruction.shapes.upright import Cup
 
 FIRST_DEPTH = 0.006
@@ -21,6 +21,8 @@ WORST_DEPTH = 0.008
 """Depth is never taken to be worse than this, lest a shape collapses [m]."""
 BIASED = 0.0025
 """Readings that lie off by more than this and 2 σ from what the silhouette says are biased [m]."""
+HIGHEST = 98
+"""Percentile of the readings' heights that is a thing's top, a few stray ones left out."""
 REWEIGHTINGS = 3
 RIVALS = 2
 """So many of the best shapes are fitted to all points."""
@@ -77,7 +79,14 @@ def refine(
         )
     if trusted.depth_sigma > FINE_DEPTH and isinstance(fit.family, Cup):
         warnings.append("wall and floor are from rule, not from data")
-    if not len(placed.points):
+    if len(placed.points):
+        top = float(fit.params[2]) + fit.family.size(fit.params)[2]
+        higher = float(np.percentile(placed.points[:, 2], HIGHEST)) - top
+        if higher > EXPLAINED_M + 2 * seen.noise:
+            warnings.append(
+                f"depth shows something of it {1000 * higher:.0f} mm above its shape: it is taller"
+            )
+    else:
         warnings.append("no depth readings: shape and size are from the silhouette alone")
     return fit, fine, tuple(warnings)
 

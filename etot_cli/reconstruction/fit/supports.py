@@ -12,7 +12,16 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.fit.observation import Observation, observe
-from etot_cli.reconstruction.fit.pose import COARSE, FINE, Fit, best_fit, fit_shape, judge
+from etot_cli.reconstruction.fit.pose import (
+    COARSE,
+    FINE,
+    INVOLVED,
+    Fit,
+    best_fit,
+    fit_shape,
+    judge,
+)
+from etot_cli.reconstruction.fit.protrusions import without_protrusions
 from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
 from etot_cli.reconstruction.fit.rims import as_cup, disagreement, settle_on_rim
 from etot_cli.reconstruction.fit.standing import Support, offence, possible_supports
@@ -21,6 +30,7 @@ from etot_cli.reconstruction.objects import Segment, Solid
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.base import Evidence
 from etot_cli.reconstruction.shapes.catalog import tiers
+from etot_cli.reconstruction.shapes.upright import Cylinder
 
 EROSION = 3
 """Pixels at the edge of a mask whose depth is left out where depth is noisy."""
@@ -110,6 +120,13 @@ def _ball_in(
     return Solid(segment, fit, vessel.name, "rim", observation.thinned(*FINE, rng))
 
 
+def fit_alone(
+    seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
+) -> Solid | None:
+    """A segment's shape on the desk; ``others`` may hide parts of it."""
+    return _fit_one(seen, segment, [segment, *others], [], rng, None)
+
+
 def free_ball(
     seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
 ) -> Fit:
@@ -173,7 +190,36 @@ def _fit_one(
             # A mask that was given stays as it is; one that was found is put right.
             segment = segment if segment.named else own
     fit, used, warnings = refine(seen, placed, fits, rng)
-    return Solid(segment, fit, support.name, support.relation, used, warnings=warnings)
+    whole = Solid(segment, fit, support.name, support.relation, used, warnings=warnings)
+    return _without_handle(seen, whole, segments, done, rng.spawn(1)[0], hint)
+
+
+def _without_handle(
+    seen: Calibrated,
+    whole: Solid,
+    segments: list[Segment],
+    done: list[Solid],
+    rng: np.random.Generator,
+    hint: str | None,
+) -> Solid:
+    """The solid, or the round body of it that explains what is seen without its handle better.
+
+    With exact depth the handle becomes part of a free form instead.
+    """
+    body = None if exact_depth(seen) else without_protrusions(whole.segment.mask)
+    if body is None:
+        return whole
+    own = replace(whole.segment, mask=body)
+    choice = _choose(seen, own, segments, done, rng, hint)
+    if choice is None or not isinstance(choice[0][0].family, Cylinder):
+        return whole
+    fits, support, placed = choice
+    fit, used, warnings = refine(seen, placed, fits, rng)
+    if fit.explained < CONVINCING or fit.misfit > INVOLVED * whole.fit.misfit:
+        return whole
+    return Solid(
+        whole.segment, fit, support.name, support.relation, used, warnings=warnings
+    ).warned("what stands out from its round body, such as a handle, is left out of its shape")
 
 
 def _choose(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.articulation.furnish import LEAST_SIDE
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.fit.pose import INVOLVED
 from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
@@ -27,7 +28,7 @@ The second value is for exact depth and things too small for furniture, whose ha
 simple shape has.
 """
 DOUBTFUL = 0.75
-"""Shares below this are worth a warning."""
+"""Shares below this are worth a warning, or a free form that leaves less than half as much open."""
 POOR_EDGE = 5.0
 """… and so does one whose outline is off by more than this [px]."""
 LEAST_POINTS = 100
@@ -45,8 +46,9 @@ def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
     strict = exact_depth(seen) and min(solid.size) <= LEAST_SIDE
     least = POOR_EXACT if strict else POOR
     doubtful = solid.warned("its shape is poorly explained: treat size and pose with care")
-    if fit.explained > least and fit.edge_rms < POOR_EDGE:
-        return solid if fit.explained > DOUBTFUL else doubtful
+    poor = fit.explained <= least or fit.edge_rms >= POOR_EDGE
+    if not poor and fit.explained > DOUBTFUL:
+        return solid
     if len(solid.observation.points) < LEAST_POINTS:
         return doubtful
     mask, base = solid.segment.mask, solid.observation.base
@@ -62,7 +64,9 @@ def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
     params[2], params[4] = base, model.form.unit
     target = target_of(seen, mask, others, base)
     free = fit_of(target, model, params)
-    if free.explained < fit.explained:
+    # A free form of noisy depth is ragged: it has to leave much less open to be worth it.
+    unexplained = 1.0 if poor else INVOLVED
+    if 1.0 - free.explained > unexplained * (1.0 - fit.explained):
         return doubtful
     hidden = "mirrored" if carved.mirrored else "taken to end where nothing is seen"
     return replace(solid, fit=free, extra={}, warnings=()).warned(

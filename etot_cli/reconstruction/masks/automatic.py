@@ -13,8 +13,8 @@ from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
 from etot_cli.reconstruction.capture.surfaces import measure_surfaces, shaded_desk
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.refine import exact_depth
-from etot_cli.reconstruction.masks.boundaries import refine_masks
-from etot_cli.reconstruction.masks.color_regions import part_by_color
+from etot_cli.reconstruction.masks.boundaries import EXACT, refine_masks
+from etot_cli.reconstruction.masks.color_regions import FRAGMENT, part_by_color
 from etot_cli.reconstruction.masks.foreground import (
     LEAST_HEIGHT,
     LEAST_PIXELS,
@@ -24,7 +24,12 @@ from etot_cli.reconstruction.masks.foreground import (
     raised_pixels,
     with_feet,
 )
-from etot_cli.reconstruction.masks.fragments import TEAR, adopt_fringes, join_fragments
+from etot_cli.reconstruction.masks.fragments import (
+    TEAR,
+    adopt_fringes,
+    join_fragments,
+    without_crumbs,
+)
 from etot_cli.reconstruction.masks.labels import grow_labels, label_components
 from etot_cli.reconstruction.masks.tops import part_by_tops
 from etot_cli.reconstruction.objects import Segment
@@ -68,6 +73,8 @@ def find_segments(seen: Calibrated) -> list[Segment]:
         parted = refine_masks(seen, parted, surfaces.color, shade)
         # With their edges drawn, what belongs together is nearer to each other.
         parted, _ = join_fragments(parted, surfaces.color, origin)
+        if seen.noise > EXACT:
+            parted = without_crumbs(parted, FRAGMENT)
     parted = [part for part in parted if is_thing(seen, part)]
     parted.sort(key=lambda part: -int(part.sum()))
     return [Segment(f"object_{index + 1}", mask, named=False) for index, mask in enumerate(parted)]

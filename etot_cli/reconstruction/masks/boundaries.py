@@ -49,6 +49,8 @@ def refine_masks(
     small_first = sorted(range(len(masks)), key=lambda i: int(masks[i].sum()))
     result, settled = list(masks), [False] * len(masks)
     readings = sure_readings(seen) if seen.noise < EXACT else None
+    # So coarse a sensor smears things over the desk beside them: colour says what is desk.
+    smeared = like_desk(seen, color) if readings is None else np.zeros_like(shade)
     for _ in range(REFINEMENTS):
         for index in small_first:
             if settled[index]:
@@ -57,7 +59,10 @@ def refine_masks(
             own = np.median(color[mask][:, :2], axis=0)
             apart = bool(np.linalg.norm(own - desk) > COLOURFUL)
             others = [other for i, other in enumerate(result) if i != index]
-            result[index] = _refine(seen, mask, others, color, shade, readings, apart=apart)
+            doubtful = smeared if apart else np.zeros_like(smeared)
+            result[index] = _refine(
+                seen, mask, others, color, shade, readings, doubtful, apart=apart
+            )
             settled[index] = bool((result[index] ^ mask).sum() < SETTLED * mask.sum())
         taken = np.zeros(seen.depth.shape, dtype=bool)
         for index in small_first:
@@ -66,9 +71,17 @@ def refine_masks(
     return result if readings is None else settled_by_depth(result, masks, shade, readings)
 
 
+def like_desk(seen: Calibrated, color: NDArray[np.float32]) -> Mask:
+    """Pixels (h, w) that have one of the desk's colours."""
+    known = color[seen.desk]
+    palette = cKDTree(known[:: max(1, len(known) // SAMPLES)])
+    away = palette.query(color.reshape(-1, 3), distance_upper_bound=UNLIKE)[0]
+    return np.asarray(np.isfinite(away).reshape(seen.desk.shape))
+
+
 def _refine(
     seen: Calibrated, mask: Mask, others: list[Mask], color: NDArray[np.float32], shade: Mask,
-    readings: Readings | None, *, apart: bool,
+    readings: Readings | None, doubtful: Mask, *, apart: bool,
 ) -> Mask:  # fmt: skip
     rows, columns = np.nonzero(mask)
     height, width = mask.shape
@@ -82,6 +95,7 @@ def _refine(
     core = cv2.erode(filled, disc)
     if core.sum() < 0.15 * own.sum():
         core = cv2.erode(filled, np.ones((3, 3), np.uint8))
+    core[doubtful[window]] = 0
     reach = cv2.dilate(filled, ring)
     foreign: Any = np.zeros_like(own)
     for other in others:

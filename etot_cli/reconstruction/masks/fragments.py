@@ -23,6 +23,8 @@ MOST_FRINGE = 0.3
 """A strip along a thing is at most this share of it."""
 MOST_HALF = 2.0
 """A thing's other half, such as a cup's inner wall, is at most this many times as large."""
+INSIDE = 0.7
+"""Share of a small piece in another's outline, from which it is a part of it."""
 ALONG = 0.7
 """Share of a fringe that lies along its thing."""
 
@@ -88,6 +90,22 @@ def adopt_fringes(groups: list[list[Mask]], color: NDArray[np.float32]) -> list[
     return parts
 
 
+def without_crumbs(parts: list[Mask], least: int) -> list[Mask]:
+    """The masks without those smaller than ``least`` pixels at a larger one: it takes in what lies
+    in its outline, and the rest is left out.
+    """
+    order = sorted(parts, key=lambda part: -int(part.sum()))
+    kept: list[Mask] = []
+    for part in order:
+        near = cv2.dilate(part.astype(np.uint8), _disc(TEAR)) > 0
+        at = next((index for index, large in enumerate(kept) if (near & large).any()), None)
+        if part.sum() >= least or at is None:
+            kept.append(part)
+        elif (part & convex_hull_mask(kept[at])).sum() > INSIDE * part.sum():
+            kept[at] = kept[at] | part
+    return kept
+
+
 def _is_fringe(fringe: Mask, thing: Mask, color: NDArray[np.float32]) -> bool:
     """Whether a part is a thing's: a strip along it, or about its other half."""
     share = fringe.sum() / thing.sum()
@@ -119,7 +137,7 @@ def _one_thing(
         return False
     hull = convex_hull_mask(large)
     inside = (small & hull).sum() / small.sum()
-    if inside > 0.7 and small.sum() < 0.3 * large.sum():
+    if inside > INSIDE and small.sum() < 0.3 * large.sum():
         return True
     union = _bridged(large | small)
     between = union & ~large & ~small

@@ -89,7 +89,8 @@ def what_a_scene_may_have(
     """
     objects, notes = dict(document["objects"]), []
     while len(objects) > 1 and (found := _impossible(objects, document, solids)) is not None:
-        worst, why = found
+        named, why = found
+        worst = _least_seen(named, objects, document, solids)
         gone = [worst]
         while borne := [name for name, item in objects.items()
                         if name not in gone and _support(item) in gone]:  # fmt: skip
@@ -98,6 +99,27 @@ def what_a_scene_may_have(
         notes.append(f"{', '.join(gone)}: left out, for {why}")
     kept = [solid for solid in solids if solid.name in objects]
     return kept, {**document, "objects": objects}, notes
+
+
+def _least_seen(
+    named: str, objects: dict[str, Any], document: dict[str, Any], solids: list[Solid]
+) -> str:
+    """Of the objects each of which could go to make ``named`` possible, the one that shows least:
+    a fragment that lies in a thing must not cost the thing.
+    """
+    pixels = {solid.name: int(solid.segment.mask.sum()) for solid in solids}
+    for name in sorted(objects, key=lambda name: pixels.get(name, 0)):
+        if name == named or pixels.get(name, 0) >= pixels.get(named, 0):
+            break
+        if _support(objects[named]) == name:
+            continue
+        rest = {key: item for key, item in objects.items() if key != name}
+        if any(_support(item) == name for item in rest.values()):
+            continue
+        left = _impossible(rest, document, solids)
+        if left is None or left[0] != named:
+            return name
+    return named
 
 
 def _support(item: dict[str, Any]) -> str:
