@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from etot_cli.world.state import ObjectInfo, PartInfo
-
-Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

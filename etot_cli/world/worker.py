@@ -18,6 +18,7 @@ PARENT_CHECK_S = 0.25
 OUT_OF_MEMORY = 77
 """Exit code of a worker that memory ran out in; what it still holds is not worth keeping."""
 _PR_SET_PDEATHSIG = 1
+"""From Linux's ``prctl.h``."""
 
 HANDLERS: dict[int, Any] = {signal.SIGINT: signal.SIG_IGN, signal.SIGTERM: signal.SIG_DFL}
 if hasattr(signal, "SIGHUP"):

@@ -25,8 +25,6 @@ FINGER_GAP = 0.030
 """Gap into which one finger goes: 10 mm of finger, or 22 mm across, and 4 mm either side."""
 HEADROOM = 0.012
 """Clear height of a compartment minus the height of what goes into it, at least."""
-EDGE = 0.006
-"""How far the middle of what stands on something stays inside the edge, at least."""
 NEAREST = 0.28
 """Least distance from the base axis at which the hand points down and the elbow stays free."""
 FARTHEST = 0.54

@@ -17,7 +17,6 @@ from etot_cli.specs.scene import Finite
 
 Array = NDArray[np.float64]
 
-FORMAT = "etot.calibration/1"
 RIGID = 0.005
 """Entries of RᵀR may be off the identity by as much as rounding to three digits makes them."""
 FARTHEST = 5.0

@@ -155,10 +155,6 @@ class CameraEyes:
         return (before, Mark.LOST) if hidden is None else (hidden, Mark.HIDDEN)
 
 
-def _pose(sighting: Sighting) -> Pose:
-    return Pose.of(sighting.position, sighting.quaternion)
-
-
 def _sighting(pose: Pose, mark: Mark) -> Sighting:
     x, y, z = (float(value) for value in pose.position)
     w, i, j, k = (float(value) for value in pose.quaternion)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 SPACING = 0.004
 """Distance between neighbouring points [m]: about a pixel of a 640-pixel camera a metre away."""
-FEWEST, MOST = 600, 30_000
+MOST = 30_000
 """Points of a body."""
 SEEN_GROUPS = 3
 """Geoms of lower groups are what is drawn."""

@@ -26,7 +26,7 @@ Vector = NDArray[np.float64]
 CONTROL_PORT = 502
 SERVO_MODE = 1
 """The controller's mode in which streamed joint targets are followed as they come."""
-STATE_READY, STATE_STOP = 0, 4
+STATE_READY = 0
 AXES = 6
 REPORTED_WITHIN = 2.0
 """Time for a change to come back in the controller's reports, five of which come a second [s]."""

@@ -52,23 +52,6 @@ _CONVERSE = {
     Nearby.AWAY: Nearby.AWAY,
 }
 """What holds of a landmark and a thing where the key holds of the thing and the landmark."""
-_INSTEAD = {
-    Nearby.LEFT: Nearby.RIGHT,
-    Nearby.RIGHT: Nearby.LEFT,
-    Nearby.FRONT: Nearby.BEHIND,
-    Nearby.BEHIND: Nearby.FRONT,
-    Nearby.NEXT_TO: Nearby.AWAY,
-    Nearby.NEAR: Nearby.AWAY,
-    Nearby.AWAY: Nearby.NEAR,
-    Nearby.AT_LEFT: Nearby.AT_RIGHT,
-    Nearby.AT_RIGHT: Nearby.AT_LEFT,
-    Nearby.AT_FRONT: Nearby.AT_BACK,
-    Nearby.AT_BACK: Nearby.AT_FRONT,
-    Nearby.AT_CENTRE: Nearby.AT_EDGE,
-    Nearby.AT_EDGE: Nearby.AT_CENTRE,
-    Nearby.AT_CORNER: Nearby.AT_CENTRE,
-}
-"""Where something goes that is not to be where the key says: there the key does not hold."""
 MAX_ALTERNATIVES = 256
 """Alternatives that nested ``any`` conditions may multiply into."""
 

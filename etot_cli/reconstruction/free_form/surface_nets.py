@@ -15,6 +15,7 @@ from etot_cli.reconstruction.capture.view import Array
 LEVEL = 0.5
 """Cells filled by more than this are inside."""
 JUST_FULL = 0.6
+"""What cells are filled up to, barely inside, so that the surface hardly moves."""
 ROUNDS = 12
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 _EDGES = [

@@ -21,6 +21,7 @@ SMALL = 2.0
 FILL_BIAS = 0.5
 """Triangles are filled to the outer edge of the pixels that they touch [px of the outline]."""
 _SHIFT = 4
+"""Bits of a pixel that OpenCV fills polygons with: sixteenths."""
 
 
 @dataclass(frozen=True)

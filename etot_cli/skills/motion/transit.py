@@ -22,8 +22,10 @@ EDGE_STEP = 0.08
 """Spacing of collision checks along a path [rad]."""
 RRT_STEP = 0.35
 RRT_ITERATIONS = 400
+"""Samples of a search, and steps of one link: the bound of both loops."""
 SHORTCUTS = 40
 LIFTS = (0.08, 0.16)
+"""Heights [m] by which a way over what stands between is tried first, the lower one first."""
 
 
 def plan_transit(

@@ -26,8 +26,8 @@ MAX_VALUES = 6 * MAX_FACES
 """Entries in one accessor of a GLB file; a mesh has three indices for each face."""
 MAX_ACCESSORS = 512
 MAX_NODES = 512
-_GLB_MAGIC = 0x46546C67
-_JSON_CHUNK = 0x4E4F534A
+_GLB_MAGIC, _JSON_CHUNK = 0x46546C67, 0x4E4F534A
+"""The letters ``glTF`` and ``JSON`` as little-endian numbers, as the format demands."""
 
 
 @dataclass(frozen=True)
