@@ -248,6 +248,3 @@ def _reason(trials: list[Trial], interrupted: bool) -> str:
     if failed is not None:
         return failed.reason
     return "stopped before it began" if interrupted else "not all trials were run"
-
-
-__all__ = ["ExecuteOptions", "Execution", "Runner", "run_execute"]

@@ -143,6 +143,3 @@ def _unfulfilled(evaluation: Evaluation) -> str:
     if evaluation.harm:
         return "; ".join(evaluation.harm)
     return "the plan was carried out, but the task's conditions do not hold"
-
-
-__all__ = ["Account"]

@@ -276,6 +276,3 @@ class BelievedTwin:
             data.qvel[:] = 0.0
         if not np.isfinite(data.qpos).all():
             raise WorldError("the twin cannot be brought into the state that was seen")
-
-
-__all__ = ["BelievedTwin"]

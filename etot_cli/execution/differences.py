@@ -49,6 +49,3 @@ def _changed(was: ObjectState, now: ObjectState) -> str:
         if abs(now.openness.get(part, value) - value) > PART_MOVED:
             return f"has its {part} {now.openness[part]:.0%} open, not {value:.0%}"
     return f"stands {far * 100:.0f} cm from where it was" if far > MOVED and not now.in_hand else ""
-
-
-__all__ = ["differences"]

@@ -100,6 +100,3 @@ class Believed:
         if memory is not None:
             self.twin.remember(memory)
         self._renewed(scene)
-
-
-__all__ = ["Believed"]

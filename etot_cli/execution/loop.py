@@ -313,6 +313,3 @@ class _Tried:
 
 def _told(unexpected: tuple[Difference, ...]) -> str:
     return "; ".join(f"{item.name} {item.text}" for item in unexpected)
-
-
-__all__ = ["Loop"]

@@ -138,6 +138,3 @@ class ExecutionWorld:
         data.time = 0.0
         mujoco.mj_forward(world.model, data)
         self.memory = initial_memory(world, data)
-
-
-__all__ = ["ExecutionWorld"]

@@ -138,6 +138,3 @@ def _shown(value: object) -> str:
     if isinstance(value, tuple):
         return " ".join(f"{number:g}" for number in value)
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-__all__ = ["DEEDS", "MAX_DISTURBANCES", "Disturbance", "Role"]

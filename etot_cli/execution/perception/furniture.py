@@ -187,6 +187,3 @@ class Furniture:
         rest = np.flatnonzero(scan.unexplained)
         apart, _ = surface.tree.query(pose.local(scan.points[rest]), distance_upper_bound=OWN)
         scan.unexplained[rest[np.isfinite(apart)]] = False
-
-
-__all__ = ["Furniture", "Standing"]

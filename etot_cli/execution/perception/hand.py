@@ -86,6 +86,3 @@ class HandContents:
         half = np.array([[0.0, opening / 2, 0.0]])
         apart, _ = surface.tree.query(pose.local(tool.place(np.vstack([half, -half]))))
         return float(apart.max())
-
-
-__all__ = ["HandContents"]

@@ -181,6 +181,3 @@ def _picture(camera: Camera) -> dict[str, Any]:
         "camera_to_base": frame.camera_to_base.tolist(),
         "taken_s": frame.taken_s,
     }
-
-
-__all__ = ["Served", "serve"]
