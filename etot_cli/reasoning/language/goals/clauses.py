@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step
-from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.prohibitions import avoid
@@ -46,6 +46,10 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case MoveClause():
             for index in context.phrases.things(clause.things, Role.PART):
                 context.steps.append(Open(index) if clause.opens else Close(index))
+        case EnsureClause(waits=True, states=states):
+            text = f"until {states[0].subjects[0].text} …"
+            why = "conditions and waiting are not supported; say what is to be done"
+            raise ReferenceProblem(text, why, 4, word="until")
         case EnsureClause():
             for state in clause.states:
                 ensure(context, state)

@@ -9,7 +9,7 @@ from itertools import islice
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
-from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Referent
+from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
@@ -42,10 +42,23 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     state = _State(scene, Discourse(scene), Resolver(scene, vocabulary))
     for sentence in sentences:
         state = _best_reading(state, sentence)
+    _check_kept(state.goal())
     goal = settled(state.goal(), scene, state.context.turned)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
     return goal
+
+
+def _check_kept(goal: Goal) -> None:
+    """Whether anything is to be put somewhere and to stay where it is."""
+    still = (Keep.UNTOUCHED, Keep.UNMOVED)
+    kept = {name for item in goal.constraints if item.keep in still for name in item.names}
+    for index in (index for step in goal.steps if isinstance(step, Put) for index in step.what):
+        referent = goal.referents[index]
+        always = set.intersection(*({t.name for t in option} for option in referent.options))
+        for name in sorted(always & kept):
+            why = f"{name} cannot both be put somewhere and be left as it is"
+            raise ReferenceProblem(referent.text, why, 4)
 
 
 class _State:

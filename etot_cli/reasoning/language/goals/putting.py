@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
-from etot_cli.reasoning.language.reference.distribution import distributed
+from etot_cli.reasoning.language.reference.distribution import distributed, is_different
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, same_noun, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -55,6 +55,10 @@ def put(context: Context, clause: PutClause) -> None:
             _put_back(context, themes, group)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
+        options = [context.discourse.referents[index].options[0] for index in themes]
+        if is_different(group) and sum(map(len, options)) == 1:
+            text = group.destinations[0].targets[0].text
+            raise ReferenceProblem(text, "say which one", 3, word="different")
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):

@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
     EnsureClause,
+    MoveClause,
     Order,
     PutClause,
     Spoken,
@@ -130,6 +131,11 @@ _JOINED = either(
         build=lambda clause: ("and", clause),
     ),
     sequence(
+        silent(phrase("until")),
+        located(states, lambda at, found: (Spoken(EnsureClause(found, waits=True), at),)),
+        build=lambda clause: ("until", clause),
+    ),
+    sequence(
         OPTIONAL_COMMA,
         silent(phrase(small_words.THEN_JOINTS)),
         OPTIONAL_COMMA,
@@ -164,6 +170,11 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
 def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
     done = first
     for joint, clause in more:
+        if joint == "until" and isinstance(done[-1].clause, MoveClause):
+            # What is opened until it is open is opened; anything else would wait.
+            waits = (item.clause for item in clause if isinstance(item.clause, EnsureClause))
+            at = clause[0].position
+            clause = tuple(Spoken(EnsureClause(item.states), at) for item in waits)
         if joint == "mere and":
             done = _maybe_denied(done, clause)
         if joint == "after":

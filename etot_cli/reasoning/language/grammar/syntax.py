@@ -134,6 +134,8 @@ class PutClause:
     """Each goes to a place of its own colour."""
     one_each: bool = False
     """Every place gets one."""
+    itself: bool = False
+    """The thing itself goes, in words that may mean what is in or on it ("clear X into Y")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +159,8 @@ class EnsureClause:
     """States that must hold in the end."""
 
     states: tuple[State, ...]
+    waits: bool = False
+    """It is said with "until", which is about time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,4 +275,5 @@ def reading_cost(node: object) -> int:
     if isinstance(node, tuple):
         return sum(reading_cost(item) for item in node)
     fields = getattr(node, "__dataclass_fields__", {})
-    return sum(reading_cost(getattr(node, name)) for name in fields)
+    itself = isinstance(node, PutClause) and node.itself  # as far-fetched as its contents
+    return itself + sum(reading_cost(getattr(node, name)) for name in fields)

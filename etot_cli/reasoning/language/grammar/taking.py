@@ -115,7 +115,7 @@ EMPTY = either(
         THINGS,
         silent(optional(phrase("away, up"), None)),
         DESTINATIONS,
-        build=lambda things, where: PutClause((PutGroup(things, where),)),
+        build=lambda things, where: PutClause((PutGroup(things, where),), itself=True),
     ),
     sequence(
         silent(phrase(verbs.CLEAR)),

@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
-from etot_cli.reasoning.language.words.lexicon import same_noun
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
 from etot_cli.world.state import DESK, SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
@@ -108,10 +108,25 @@ class Discourse:
                 if things & {thing for option in referent.options for thing in option}
             )
         if resolved.definite and not resolved.other and len(resolved.options) > 1:
+            self._check_among_spoken(resolved, text)
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
         self.mentions.append(Mention(index, role, self.clause, resolved.noun, several, whatever))
         return index
+
+    def _check_among_spoken(self, resolved: Resolved, text: str) -> None:
+        """After "the black things" "the jar" may be the black one, or any.
+
+        Raises:
+            AmbiguousReference: some of what a definite phrase fits was spoken of, and some not.
+        """
+        if matches_any(resolved.noun, THING_NOUNS):
+            return
+        sets = [referent.options[0] for referent in self.referents if len(referent.options) == 1]
+        spoken = {thing for things in sets if len(things) > 1 for thing in things}
+        fitting = dict.fromkeys(thing for option in resolved.options for thing in option)
+        if spoken & set(fitting) and set(fitting) - spoken:
+            raise AmbiguousReference(text, [thing.name for thing in fitting])
 
     def _is_again(self, referent: int, resolved: Resolved) -> bool:
         """Whether a definite phrase speaks of an earlier referent.
@@ -174,7 +189,7 @@ class Discourse:
             ReferenceProblem: nothing before it fits.
         """
         if pronoun in PLURAL_PRONOUNS:
-            found = self._plural(role)
+            found = self._plural(role, text)
             if not found:
                 raise ReferenceProblem(text, UNCLEAR, 2)
             return found
@@ -265,7 +280,7 @@ class Discourse:
             return self.put_into.get(theme) == place
         return all(self.scene.infos[thing.name].movable for thing in things)
 
-    def _plural(self, role: Role) -> tuple[int, ...]:
+    def _plural(self, role: Role, text: str) -> tuple[int, ...]:
         for clause in sorted({mention.clause for mention in self.mentions}, reverse=True):
             if clause in self.stacks and role in (Role.THEME, Role.ANY):
                 # What stands on the bottom goes with it.
@@ -276,7 +291,13 @@ class Discourse:
             )
             if several:
                 return found
-        return self._acted_on(self.mentions, role)
+        found = self._acted_on(self.mentions, role)
+        said = [mention for mention in self.mentions if mention.referent in found]
+        options = [option for index in found for option in self.referents[index].options]
+        single = len(found) == 1 and all(len(option) == 1 for option in options)
+        if single and not any(mention.several or mention.whatever for mention in said):
+            raise AmbiguousReference(text, [item.text for item in self.referents])
+        return found
 
     def _acted_on(self, mentions: Sequence[Mention], role: Role) -> tuple[int, ...]:
         return tuple(

@@ -24,6 +24,12 @@ def unmatched(phrase: NounPhrase) -> NounPhrase:
 _DIFFERENT = frozenset({"different", "separate", "distinct"})
 
 
+def is_different(group: PutGroup) -> bool:
+    """Whether a place is to be "a different one", of several things or from where it is now."""
+    targets = [target for item in group.destinations for target in item.targets]
+    return any(target.words[:1] == ("different",) for target in targets)
+
+
 def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination, ...], Grouping]:
     """The destinations without such words, and what they say.
 

@@ -379,7 +379,8 @@ class Resolver:
                     phrase.text, f"this is true of none of what it could mean ({names})", 1
                 )
             bare = modifier.denied and modifier.prep is Prep.WITH
-            if bare and found == things and len(things) == 1:
+            alike = len(things) == 1 or all(thing.board for thing in things)
+            if bare and found == things and alike:
                 why = "there is no other one that this would tell it from"
                 raise ReferenceProblem(phrase.text, why, 2)
             things = found

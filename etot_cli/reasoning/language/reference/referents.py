@@ -201,6 +201,8 @@ class Phrases:
         resolved = self._with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
             return self._others(resolved)
+        if resolved.other and resolved.definite and quantity.count in (None, 1):
+            self._check_one_left(phrase, resolved)
         return self._of_spoken_owner(self._spoken_part(resolved))
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
@@ -278,6 +280,20 @@ class Phrases:
             if own:
                 return replace(resolved, options=own)
         return resolved
+
+    def _check_one_left(self, phrase: NounPhrase, resolved: Resolved) -> None:
+        """Whether "the other one" is one: as many are left as have not been chosen before."""
+        if any(len(option) != 1 for option in resolved.options):
+            return
+        things = {thing for option in resolved.options for thing in option}
+        free = [set(self.discourse.things(i)) for i in range(len(self.discourse.referents))]
+        chosen = sum(
+            len(referent.options[0])
+            for referent, may_be in zip(self.discourse.referents, free, strict=True)
+            if len(referent.options) > 1 and may_be <= things
+        )
+        if len(things) - chosen > 1:
+            raise AmbiguousReference(phrase.text, sorted(thing.name for thing in things))
 
     def _others(self, resolved: Resolved) -> Resolved:
         """All others of a choice made before: which they are depends on it."""

@@ -142,7 +142,10 @@ _COLOR_SYNONYMS = {
     "beige": "brown", "maroon": "red", "crimson": "red", "navy": "blue", "turquoise": "blue",
     "teal": "green",
 }  # fmt: skip
-_IRREGULAR = {"shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box"}
+_IRREGULAR = {
+    "shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box",
+    "canvases": "canvas", "canvas": "canvas", "lenses": "lens", "lens": "lens",
+}  # fmt: skip
 
 
 def basic_color(word: str) -> str | None:
