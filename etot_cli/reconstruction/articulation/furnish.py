@@ -16,7 +16,7 @@ from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.block import Block
-from etot_cli.reconstruction.shapes.furniture import cabinet_spec, unit_spec
+from etot_cli.reconstruction.shapes.furniture import cabinet_spec, most_drawers, unit_spec
 
 LEAST_SIDE = 0.09
 """Nothing smaller is taken for furniture without a name that says so [m]."""
@@ -40,8 +40,12 @@ def furnish(seen: Calibrated, solid: Solid, hint: str | None) -> Solid:
         return replace(fitted, extra=closed).warned(GUESS_DOOR)
     if hint != "drawer_unit" and not (hint is None and seams and min(size) > LEAST_SIDE):
         return solid
+    most = most_drawers(size[2])
+    if most == 0:
+        return solid
     fitted = _turned(solid, _front(seen, solid))
-    extra: dict[str, Any] = unit_spec(fitted.size, max(2, min(len(seams) + 1, 3)), 0.0)
+    drawers = min(max(2, min(len(seams) + 1, 3)), most)
+    extra: dict[str, Any] = unit_spec(fitted.size, drawers, 0.0)
     return replace(fitted, extra=extra).warned(GUESS)
 
 

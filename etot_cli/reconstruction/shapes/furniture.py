@@ -19,9 +19,12 @@ from etot_cli.reconstruction.shapes.base import (
     roof_rectangle,
     rotate,
 )
+from etot_cli.specs.dimensions import LEAST_COMPARTMENT
 
 UNIT_WALL = 0.006
 """Panels of a drawer unit [m]; the default of the scene's kind."""
+ROUNDED = 0.001
+"""What is fitted is written to a scene to within less than this [m]."""
 CABINET_WALL = 0.012
 DOOR_THICKNESS = 0.02
 DRAWER_SIDES = 0.6
@@ -124,7 +127,8 @@ class OpenUnit(Family):
 
     def plausible(self, params: Array) -> bool:
         """Whether the proportions fit the family."""
-        return bool(min(params[4:7]) > 0.05 and 0.006 < params[7] < params[4])
+        fits = self.drawers <= most_drawers(params[6])
+        return bool(fits and min(params[4:7]) > 0.05 and 0.006 < params[7] < params[4])
 
     def size(self, params: Array) -> tuple[float, float, float]:
         """Extents along its own axes [m]."""
@@ -231,6 +235,11 @@ class OpenCabinet(Family):
         length, width, height = params[4:7]
         faces = 2 * (length * width + length * height + width * height)
         return float(CABINET_WALL * faces)
+
+
+def most_drawers(height: float) -> int:
+    """How many drawers a unit that tall [m] has at most, for the scene file to allow it."""
+    return int((height - ROUNDED - UNIT_WALL) / (LEAST_COMPARTMENT + UNIT_WALL))
 
 
 def unit_spec(
