@@ -41,17 +41,6 @@ _CONVERSE = {
     Nearby.AWAY: Nearby.AWAY,
 }
 """What holds of a landmark and a thing where the key holds of the thing and the landmark."""
-_LAST = {BESIDE: 1, "upright": 2}
-_CONVERSE = {
-    Nearby.LEFT: Nearby.RIGHT,
-    Nearby.RIGHT: Nearby.LEFT,
-    Nearby.FRONT: Nearby.BEHIND,
-    Nearby.BEHIND: Nearby.FRONT,
-    Nearby.NEXT_TO: Nearby.NEXT_TO,
-    Nearby.NEAR: Nearby.NEAR,
-    Nearby.AWAY: Nearby.AWAY,
-}
-"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 MAX_ALTERNATIVES = 256
 """Alternatives that nested ``any`` conditions may multiply into."""
 
