@@ -11,6 +11,7 @@ from typing import Any, cast
 
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.timed import TimedReasoner
+from etot_cli.control.simulated import Step
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.result import (
     SearchObserver,
@@ -176,18 +177,18 @@ def _tried(
     """The result with the odds of its plan, from worlds that did not choose it."""
     limit = options.limits.time_limit_s
     until_s = NEVER if limit is None else begun_s + limit
-    simulator = rooms.open_simulator(
+    nodes = () if result.leaf is None else result.leaf.path
+    steps = [Step(node.action, result.rollouts[node.id].motion) for node in nodes]
+    trials = rooms.open_trials(
         scene,
         seed=options.seed,
         jobs=options.jobs,
-        worlds=1 + (options.worlds or task.worlds),
-        record=False,
-        fresh=True,
+        worlds=options.worlds or task.worlds,
         look=options.look,
     )
     try:
-        with closing(simulator):
-            survival = try_plan(result.plan, simulator, judge, task.success, until_s)
+        with closing(trials):
+            survival = try_plan(steps, trials, judge, task.success, until_s)
     except OutOfTimeError:
         return replace(result, survival=None)
     return replace(result, survival=survival)

@@ -15,7 +15,7 @@ from etot_cli.specs.look import Look
 
 if TYPE_CHECKING:
     from etot_cli.control.replaying import Recording
-    from etot_cli.control.simulated import Simulator
+    from etot_cli.control.simulated import Simulator, Trials
     from etot_cli.reasoning.protocol import Reasoner
     from etot_cli.reasoning.vlm.accounts import VlmAccount
     from etot_cli.specs.scene import Scene
@@ -34,14 +34,22 @@ class OpenSimulator(Protocol):
         jobs: int,
         worlds: int,
         record: bool,
-        fresh: bool = False,
         truth: Scene | None = None,
         look: Look = Look.EACH,
     ) -> Simulator:
-        """``record``: keep trajectories for later rendering; ``fresh``: varied worlds that no
-        search has seen; ``truth``: the world to act in, beside the twin; ``look``: when the robot
-        looks at a world that is not the twin.
+        """``record``: keep trajectories for later rendering; ``truth``: the world to act in, beside
+        the twin; ``look``: when the robot looks at a world that is not the twin.
         """
+        ...
+
+
+class OpenTrials(Protocol):
+    """Opens varied worlds that no search has seen."""
+
+    def __call__(
+        self, scene: Scene, *, seed: int, jobs: int, worlds: int, look: Look = Look.EACH
+    ) -> Trials:
+        """``worlds``: how many; ``look``: when the robot looks at them."""
         ...
 
 
@@ -121,6 +129,7 @@ class Rooms:
     vary_truth: Callable[[Scene, int], Scene]
     """The same, and what no twin is told."""
     open_simulator: OpenSimulator
+    open_trials: OpenTrials
     known_targets: Callable[[SceneState], Sequence[str]]
     """What actions may name in a scene."""
     reasoners: dict[str, Callable[[], Reasoner]]
@@ -133,10 +142,17 @@ class Rooms:
 def default_rooms() -> Rooms:
     """The rooms of this package."""
     from etot_cli.control.simulator import known_targets, open_simulator
+    from etot_cli.control.trial_worlds import open_trials
     from etot_cli.reasoning.builtin import BuiltinReasoner
     from etot_cli.specs.load import load_task
     from etot_cli.specs.vary import vary, vary_truth
 
     return Rooms(
-        load_task, vary, vary_truth, open_simulator, known_targets, {"builtin": BuiltinReasoner}
+        load_task,
+        vary,
+        vary_truth,
+        open_simulator,
+        open_trials,
+        known_targets,
+        {"builtin": BuiltinReasoner},
     )

@@ -5,7 +5,7 @@ Plain data and one protocol, free of MuJoCo: planning sees the world only throug
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Protocol
@@ -50,6 +50,46 @@ class Simulated:
     """Of the processes' time, all worlds together: stepping [s]."""
     kinematics_s: float = 0.0
     """The same: looking for grasps, places and ways [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """An action, and the motion that brought it about in the twin, opaque here."""
+
+    action: Action
+    motion: object | None
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What became of a plan in one world, up to the first action without its effect.
+
+    ``start``: the scene before; None where the world was lost with its process.
+    """
+
+    start: SceneState | None
+    records: tuple[RolloutRecord, ...]
+
+    @property
+    def final(self) -> SceneState | None:
+        """The scene in the end."""
+        return self.records[-1].after if self.records else self.start
+
+
+class Trials(Protocol):
+    """Varied worlds in which whole plans are carried out."""
+
+    def carry_out(self, plan: Sequence[Step], until_s: float = NEVER) -> Iterator[Course]:
+        """Carries a plan out in every world; what became of it there, world by world.
+
+        Raises:
+            OutOfTimeError: not done at ``until_s``, a reading of ``time.monotonic`` [s].
+        """
+        ...
+
+    def close(self) -> None:
+        """Ends workers; idempotent."""
+        ...
 
 
 class Simulator(Protocol):

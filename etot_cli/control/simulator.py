@@ -38,7 +38,6 @@ def open_simulator(
     jobs: int,
     worlds: int,
     record: bool,
-    fresh: bool = False,
     truth: Scene | None = None,
     look: Look = Look.EACH,
 ) -> ActionSimulator:
@@ -50,7 +49,6 @@ def open_simulator(
         jobs: worker processes; 1 works in this process.
         worlds: how many worlds every action is tried in, the twin counted.
         record: keep trajectories for rendering.
-        fresh: varied worlds other than those that the same arguments give without it.
         truth: the one true world, beside the twin as world 1, instead of ``worlds``. The robot acts
             in it whatever the twin says.
         look: when the robot looks at a varied world.
@@ -60,8 +58,7 @@ def open_simulator(
     """
     if truth is not None:
         return ActionSimulator(Worlds(Recipe(scene, (truth,), seed, record, look)), 1, go_on=True)
-    kind = "fresh" if fresh else "choosing"
-    drawn = [vary_truth(scene, world_seed(seed, kind, index)) for index in range(1, worlds)]
+    drawn = [vary_truth(scene, world_seed(seed, "choosing", index)) for index in range(1, worlds)]
     recipe = Recipe(scene, tuple(drawn), seed, record, look)
     return ActionSimulator(Worlds(recipe), max(jobs, 1), go_on=False)
 

@@ -16,9 +16,10 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
-from etot_cli.control.simulator import ActionSimulator, open_simulator, world_seed
-from etot_cli.control.worlds import Recipe, Worlds
-from etot_cli.planning.trials import CHOOSING_WORLDS, survivors
+from etot_cli.control.simulator import world_seed
+from etot_cli.control.trial_worlds import ActionTrials
+from etot_cli.control.worlds import Recipe
+from etot_cli.planning.trials import CHOOSING_WORLDS, try_plan
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.skills.action import Action, parse_plan
 from etot_cli.specs.look import Look
@@ -105,33 +106,22 @@ def alive_in(job: tuple[str, int, int]) -> int | None:
     """
     name, first, count = job
     (setting,) = (each for each in settings() if each.name == name)
-    scene, reasoner = setting.scene(), BuiltinReasoner()
+    scene = setting.scene()
     # Settings that share their draws would err together.
     seed = zlib.crc32(name.encode())
+
+    def alive(plan: tuple[Action, ...], kind: str, numbers: range, look: Look) -> int | None:
+        truths = tuple(vary_truth(scene, world_seed(seed, kind, number)) for number in numbers)
+        trials = ActionTrials(Recipe(scene, truths, seed, record=False, look=look))
+        steps = trials.rehearse(plan)
+        return None if steps is None else try_plan(steps, trials, BuiltinReasoner()).alive
+
     plans = [parse_plan(plan) for plan in setting.plans]
     plan = plans[0]
     if len(plans) > 1:
-        chosen = open_simulator(
-            scene, seed=seed, jobs=1, worlds=CHOOSING_WORLDS, record=False, look=Look.ONCE
-        )
-        plan = max(plans, key=lambda each: len(survivors(each, chosen, reasoner)))
-    numbers = range(first, first + count)
-    truths = tuple(vary_truth(scene, world_seed(seed, "fresh", number)) for number in numbers)
-    recipe = Recipe(scene, truths, seed, record=False, look=setting.look)
-    worlds = ActionSimulator(Worlds(recipe), 1, go_on=False)
-    alive = len(survivors(plan, worlds, reasoner))
-    return alive if alive or _works(plan, worlds) else None
-
-
-def _works(plan: tuple[Action, ...], worlds: ActionSimulator) -> bool:
-    """Whether every action has its effect in the twin."""
-    state, _ = worlds.start()
-    for action in plan:
-        simulated = worlds.submit(state, action).result()
-        if not simulated.outcomes[0].record.effect:
-            return False
-        state = simulated.end
-    return True
+        choosing = range(1, CHOOSING_WORLDS)
+        plan = max(plans, key=lambda each: alive(each, "choosing", choosing, Look.ONCE) or 0)
+    return alive(plan, "fresh", range(first, first + count), setting.look)
 
 
 def report(pairs: list[Pair]) -> tuple[str, bool]:

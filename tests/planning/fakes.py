@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
+from etot_cli.control.simulated import Course, Simulated, StateToken, Step, WorldOutcome
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, format_plan, parse_plan
 from etot_cli.skills.deadline import NEVER
@@ -125,9 +125,9 @@ class ToySimulator:
             future.set_exception(error)
         return future
 
-    def fresh(self, worlds: int) -> ToySimulator:
-        """Another simulator by the same rule."""
-        return ToySimulator(self._rule, worlds=worlds)
+    def trials(self, worlds: int) -> ToyTrials:
+        """Worlds 1 to ``worlds`` by the same rule."""
+        return ToyTrials(ToySimulator(self._rule, worlds=1 + worlds))
 
     def close(self) -> None:
         self.closed = True
@@ -152,6 +152,27 @@ class ToySimulator:
             self.running -= 1
         end = f"{history} {action}".strip().encode()
         return Simulated(outcomes, end, wall_s=delay)
+
+
+class ToyTrials:
+    """Implements the trials protocol on the worlds of a toy simulator, the nominal one left out."""
+
+    def __init__(self, simulator: ToySimulator) -> None:
+        self._simulator = simulator
+
+    def carry_out(self, plan: Sequence[Step], until_s: float = NEVER) -> Iterator[Course]:
+        state, start = self._simulator.start()
+        records: list[list[RolloutRecord]] = [[] for _ in range(self._simulator.world_count)]
+        for step in plan:
+            simulated = self._simulator.submit(state, step.action).result()
+            state = simulated.end
+            for found, outcome in zip(records, simulated.outcomes, strict=True):
+                if all(record.effect for record in found):
+                    found.append(outcome.record)
+        return iter([Course(start, tuple(found)) for found in records[1:]])
+
+    def close(self) -> None:
+        self._simulator.close()
 
 
 class ToyReasoner:

@@ -135,7 +135,7 @@ def test_worlds_are_the_tasks_unless_asked_for(asked: int | None, opened: int) -
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), worlds=3)
     report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=asked), rooms=rooms.rooms())
     assert rooms.worlds == opened
-    assert rooms.fresh_worlds == 1 + opened, "the nominal world is not counted"
+    assert rooms.trial_worlds == opened, "the nominal world is not counted"
     assert report.options.worlds == opened
 
 

@@ -6,7 +6,7 @@ from concurrent.futures import Future
 from pathlib import Path
 
 from etot_cli.commands.rooms import Rooms
-from etot_cli.control.simulated import Simulated, Simulator, StateToken
+from etot_cli.control.simulated import Simulated, Simulator, StateToken, Trials
 from etot_cli.errors import SpecError
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
@@ -47,7 +47,7 @@ class ToyRooms:
         self.varied_with: int | None = None
         self.recorded: bool | None = None
         self.worlds: int | None = None
-        self.fresh_worlds: int | None = None
+        self.trial_worlds: int | None = None
 
     def rooms(self) -> Rooms:
         return Rooms(
@@ -55,6 +55,7 @@ class ToyRooms:
             vary=self._vary,
             vary_truth=self._vary,
             open_simulator=self._open,
+            open_trials=self._open_trials,
             known_targets=lambda scene: ["cup", "box", "desk"],
             reasoners={"builtin": lambda: self._reasoner},
         )
@@ -83,18 +84,20 @@ class ToyRooms:
         jobs: int,
         worlds: int,
         record: bool,
-        fresh: bool = False,
         truth: Scene | None = None,
         look: Look = Look.EACH,
     ) -> Simulator:
         self._interrupt("open")
-        if fresh:
-            self.fresh_worlds = worlds
-            return self.simulator.fresh(worlds)
         self.recorded, self.worlds = record, worlds
         if self._interrupt_in == "search":
             return _Interrupting(self.simulator)
         return self.simulator
+
+    def _open_trials(
+        self, scene: Scene, *, seed: int, jobs: int, worlds: int, look: Look = Look.EACH
+    ) -> Trials:
+        self.trial_worlds = worlds
+        return self.simulator.trials(worlds)
 
     def _interrupt(self, where: str) -> None:
         if self._interrupt_in == where:
