@@ -29,14 +29,14 @@ format: $(VENV)/.dev  ## put the style right
 	$(BIN)/ruff format .
 
 docs: $(VENV)/.dev  ## build the documentation as a site in site/, strictly
-	$(BIN)/python -m etot_cli.reporting.formats docs/formats.md
+	$(BIN)/python -m tests.docs.formats docs/formats.md
 	$(BIN)/mkdocs build --strict --quiet
 
 figures: $(VENV)/.dev  ## render the documentation's pictures
 	$(BIN)/python -m tests.measure.figures docs/images
 
 schemas: $(VENV)/.run  ## write docs/schemas anew from the report models
-	$(BIN)/python -m etot_cli.reporting.schemas docs/schemas
+	$(BIN)/python -m tests.docs.schemas docs/schemas
 
 bench: $(VENV)/.dev  ## measure speed and success rates
 	$(BIN)/python -m tests.measure.bench

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from etot_cli.commands.execute import Execution
 from etot_cli.commands.pages import PAGE_NAME, cores
-from etot_cli.errors import ServiceError
+from etot_cli.commands.render import rendering
 from etot_cli.execution.records import Trial
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.execute_page import execute_page
@@ -39,13 +39,8 @@ def write_films(execution: Execution, folder: Path, progress: Progress | None = 
         ServiceError: OpenGL, or a library that rendering needs, is not there.
     """
     trial = execution.trials[0]
-    try:
+    with rendering():
         from etot_cli.world.film import write_video
-    except ImportError as error:
-        raise ServiceError(
-            f"rendering is not available here ({error}); it needs OpenGL, e.g. the packages "
-            "libegl1 and libgl1-mesa-dri"
-        ) from error
     begun = time.monotonic()
     scenes: list[tuple[str, Scene | None, bool]] = [
         ("world", trial.true_scene, False), ("twin", trial.scene, True),

@@ -79,15 +79,6 @@ class Planning:
     result: SearchResult
 
 
-def run_plan(
-    options: PlanOptions,
-    observer: SearchObserver | None = None,
-    rooms: doors.Rooms | None = None,
-) -> PlanReport:
-    """The report of :func:`plan_task`."""
-    return plan_task(options, observer, rooms).report
-
-
 def plan_task(
     options: PlanOptions,
     observer: SearchObserver | None = None,

@@ -32,7 +32,7 @@ from etot_cli.specs.load import load_scene
 from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
 
-__all__ = ["Options", "run_reconstruct"]
+__all__ = ["Options", "reconstruct_capture"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
@@ -42,11 +42,6 @@ class Reconstruction:
 
     report: ReconstructReport
     twin: Twin | None
-
-
-def run_reconstruct(options: Options, folder: Path) -> ReconstructReport:
-    """The report of :func:`reconstruct_capture`."""
-    return reconstruct_capture(options, folder).report
 
 
 def reconstruct_capture(options: Options, folder: Path) -> Reconstruction:

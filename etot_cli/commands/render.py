@@ -6,6 +6,8 @@ Apart from the simulation itself, because it needs OpenGL, which planning and si
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +21,22 @@ if TYPE_CHECKING:
 
 VIDEO_NAME = "video.mp4"
 FRAMES_FOLDER = "frames"
+
+
+@contextmanager
+def rendering() -> Iterator[None]:
+    """Around the import of what renders.
+
+    Raises:
+        ServiceError: OpenGL, or a library that rendering needs, is not there.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise ServiceError(
+            f"rendering is not available here ({error}); it needs OpenGL, e.g. the packages "
+            "libegl1 and libgl1-mesa-dri"
+        ) from error
 
 
 def render_files(
@@ -37,13 +55,8 @@ def render_files(
     """
     if simulation.scene is None or not simulation.trajectories or not (video or frames):
         return
-    try:
+    with rendering():
         from etot_cli.world.film import write_frames, write_video
-    except ImportError as error:
-        raise ServiceError(
-            f"rendering is not available here ({error}); it needs OpenGL, e.g. the packages "
-            "libegl1 and libgl1-mesa-dri"
-        ) from error
     report = simulation.report
     begun = time.monotonic()
     film = takes(simulation)

@@ -16,13 +16,13 @@ from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.motion import Motion, Trace
-from etot_cli.skills.motion.ready import ready_pose
+from etot_cli.skills.motion.ready import make_ready
 from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.skills.motions import outcome_of
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
-from etot_cli.world.placing import check_robot_is_free, place_objects
+from etot_cli.world.placing import check_robot_is_free
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Memory, Snapshot, restore, save
@@ -72,7 +72,6 @@ class PhysicsWorld:
         self.limits = JointLimits(robot.speed, robot.limits.acceleration, robot.limits.jerk)
         self.seed = seed
         self.keep_frames = keep_frames
-        self.total_steps = 0
         self.stepping_s = 0.0
         """Time spent stepping motions so far [s]."""
 
@@ -85,17 +84,10 @@ class PhysicsWorld:
         """
         world, data = self.world, self.data
         mujoco.mj_resetData(world.model, data)
-        place_objects(world, data)
-        gripper = world.robot.spec.gripper
-        world.robot.set_opening(data, gripper.opening)
-        ready = ready_pose(world, data)
-        data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
-        data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
-        mujoco.mj_forward(world.model, data)
+        make_ready(world, data)
         check_robot_is_free(world, data)
         robot = SimulatedRobot(world, data, deadline=self.deadline)
         robot.wait(SETTLE_AT_START, Guards(), until_rest=True)
-        self.total_steps += robot.steps
         scene, start = self._awake(initial_memory(world, data))
         return start, scene
 
@@ -171,7 +163,6 @@ class PhysicsWorld:
             trace = replay(recorded, robot)
         robot.rest()
         self.stepping_s += time.perf_counter() - begun
-        self.total_steps += robot.steps
         after, end = self._awake(start.memory)
         displacement = recorder.displacement()
         record = RolloutRecord(

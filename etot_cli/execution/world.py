@@ -15,12 +15,11 @@ import numpy as np
 from etot_cli.control.physics_world import SETTLE_AT_START
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
-from etot_cli.skills.motion.ready import ready_pose
+from etot_cli.skills.motion.ready import make_ready
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.specs.scene import Scene, SceneObject
 from etot_cli.specs.vary import vary_truth
 from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Memory
@@ -127,13 +126,7 @@ class ExecutionWorld:
 
     def _begin(self) -> None:
         world, data = self.world, self.data
-        place_objects(world, data)
-        gripper = world.robot.spec.gripper
-        world.robot.set_opening(data, gripper.opening)
-        ready = ready_pose(world, data)
-        data.qpos[world.robot.qpos] = data.ctrl[world.robot.ctrl] = ready
-        data.ctrl[world.robot.gripper_ctrl] = gripper.command_open
-        mujoco.mj_forward(world.model, data)
+        make_ready(world, data)
         SimulatedRobot(world, data).wait(SETTLE_AT_START, Guards(), until_rest=True)
         data.time = 0.0
         mujoco.mj_forward(world.model, data)

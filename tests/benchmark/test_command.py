@@ -19,10 +19,10 @@ from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_report import BenchReport, CompareReport
 from etot_cli.reporting.bench_table import BenchSummary, significantly_worse
 from etot_cli.reporting.files import write_report
-from etot_cli.reporting.schemas import schema_text
 from etot_cli.reporting.style import Verbosity, make_console
 from tests.benchmark import toys
 from tests.benchmark.test_suite import suite, write
+from tests.docs.schemas import schema_text
 
 TOYS = toys.perform, toys.begin
 

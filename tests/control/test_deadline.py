@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.rooms import default_rooms
 from etot_cli.planning.options import Limits
 from etot_cli.reporting.tree_report import NodeModel
@@ -53,7 +53,7 @@ def test_an_action_under_way_ends(jobs: int, share: float) -> None:
 
 @pytest.fixture(scope="module")
 def unlimited() -> dict[int, NodeModel]:
-    report = run_plan(PlanOptions(task=TASK))
+    report = plan_task(PlanOptions(task=TASK)).report
     assert report.status == "feasible"
     return {node.id: node for node in report.tree.nodes}
 
@@ -63,7 +63,9 @@ def unlimited() -> dict[int, NodeModel]:
 def test_a_search_ends_in_time_and_blames_nothing_on_it(
     jobs: int, limit_s: float, unlimited: dict[int, NodeModel]
 ) -> None:
-    report = run_plan(PlanOptions(task=TASK, jobs=jobs, limits=Limits(time_limit_s=limit_s)))
+    report = plan_task(
+        PlanOptions(task=TASK, jobs=jobs, limits=Limits(time_limit_s=limit_s))
+    ).report
     if report.status == "limit":  # else the machine was quick
         assert report.statistics.limit == "time_limit"
     assert report.statistics.wall_s < limit_s + SLACK_S

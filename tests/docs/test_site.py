@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from etot_cli.reporting.formats import SECTIONS, formats_text
+from tests.docs.formats import SECTIONS, formats_text
 
 ROOT = Path(__file__).parents[2]
 

@@ -20,7 +20,7 @@ from unittest import mock
 
 import mujoco
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control import physics_world
 from etot_cli.planning.result import SilentObserver
 from etot_cli.planning.tree import PlanNode, PlanTree
@@ -81,9 +81,9 @@ def overhead(tasks: list[str], runs: int) -> tuple[str, bool]:
         ratios, asleep, rates = [], [], []
         for _ in range(runs):
             with Meter() as meter:
-                report = run_plan(PlanOptions(task=task_file(task), jobs=1))
+                report = plan_task(PlanOptions(task=task_file(task), jobs=1)).report
             with Meter() as bare, mock.patch.object(physics_world, "SLEEP_BELOW", 0.0):
-                awake = run_plan(PlanOptions(task=task_file(task), jobs=1))
+                awake = plan_task(PlanOptions(task=task_file(task), jobs=1)).report
             wall, steps = report.statistics.wall_s, report.statistics.steps
             ratios.append(wall / steps / (bare.inside_s / awake.statistics.steps))
             asleep.append(wall / meter.inside_s)
@@ -152,8 +152,8 @@ def speedup(task: str, runs: int) -> tuple[str, bool]:
     bounds = []
     for _ in range(runs):
         chains = Chains()
-        alone = run_plan(PlanOptions(task=task_file(task), jobs=1), chains)
-        together = run_plan(PlanOptions(task=task_file(task), jobs=2))
+        alone = plan_task(PlanOptions(task=task_file(task), jobs=1), chains).report
+        together = plan_task(PlanOptions(task=task_file(task), jobs=2)).report
         walls[1].append(alone.statistics.wall_s)
         walls[2].append(together.statistics.wall_s)
         cost = {node.id: node.wall_s for node in alone.tree.nodes}
@@ -177,7 +177,7 @@ def many_worlds(task: str, runs: int) -> tuple[str, bool]:
     walls: dict[int, list[float]] = {1: [], 2: []}
     for _ in range(max(1, runs // 3)):
         for jobs, found in walls.items():
-            report = run_plan(PlanOptions(task=task_file(task), jobs=jobs, worlds=16))
+            report = plan_task(PlanOptions(task=task_file(task), jobs=jobs, worlds=16)).report
             found.append(report.timing.wall_s)
     ratios = [one / two for one, two in zip(walls[1], walls[2], strict=True)]
     ratio, wall = statistics.median(ratios), statistics.median(walls[2])
@@ -193,7 +193,7 @@ def steps(tasks: list[str]) -> tuple[str, bool]:
     """Physics steps of the search by what became of them; the same on every machine."""
     rows = []
     for task in tasks:
-        report = run_plan(PlanOptions(task=task_file(task), jobs=1))
+        report = plan_task(PlanOptions(task=task_file(task), jobs=1)).report
         judged = [node for node in report.tree.nodes if node.status in JUDGED]
         plan = [node for node in judged if node.id in report.plan_nodes]
         rows.append([task, str(len(judged)), str(report.statistics.steps),
@@ -211,7 +211,7 @@ def crowds(runs: int) -> tuple[str, bool]:
         files = {count: crowd_file(Path(folder), count) for count in CROWDS}
         for _ in range(max(1, runs // 3)):
             for count, file in files.items():
-                report = run_plan(PlanOptions(task=file, jobs=1))
+                report = plan_task(PlanOptions(task=file, jobs=1)).report
                 assert report.status == "feasible", f"{count} objects: {report.status}"
                 walls[count].append(report.statistics.wall_s)
                 costs[count].append(report.statistics.wall_s / report.statistics.steps)
@@ -236,7 +236,7 @@ def failing(tasks: list[str], runs: int) -> tuple[str, bool]:
         files = [*(task_file(task) for task in tasks), *hopeless_files(Path(folder))]
         for file in files:
             for _ in range(max(1, runs // 3)):
-                report = run_plan(PlanOptions(task=file, jobs=1))
+                report = plan_task(PlanOptions(task=file, jobs=1)).report
                 for node in report.tree.nodes:
                     if node.status in ("failure", "unsafe"):
                         key = (file.stem, str(node.action))

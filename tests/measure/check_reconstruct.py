@@ -24,7 +24,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "2")
 
 import numpy as np
 
-from etot_cli.commands.reconstruct import run_reconstruct
+from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.capture.folder import read_masks
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
 from etot_cli.specs.load import load_task
@@ -286,7 +286,8 @@ def plan_row(auto: bool, work: Path, material: str | None = None) -> Row:
     out = work / f"twin-{auto}-{material}"
     words = "Reorient the pen and place it into a holder."
     materials = {"pen": material} if material else {}
-    run_reconstruct(Options(capture=REAL, auto=auto, instruction=words, materials=materials), out)
+    options = Options(capture=REAL, auto=auto, instruction=words, materials=materials)
+    reconstruct_capture(options, out)
     command = [sys.executable, "-m", "etot_cli.cli.app"]
     plan = subprocess.run(
         [*command, "plan", str(out / "task.yaml"), "--out", str(out / "plan"), "--json"],

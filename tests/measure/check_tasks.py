@@ -18,7 +18,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control.simulator import ActionSimulator
 from etot_cli.control.worlds import Recipe, Worlds
 from etot_cli.planning.conditions import holds
@@ -92,9 +92,9 @@ def plan_trial(
     """
     code, name, seed = arguments
     begun = time.process_time()
-    report = run_plan(
+    report = plan_task(
         PlanOptions(task=task_file(name), seed=seed or 0, vary=seed is not None, jobs=1)
-    )
+    ).report
     spent_s = time.process_time() - begun
     if seed is None and report.plan:
         folder = report_folder(code, name)
@@ -190,9 +190,9 @@ def naive_trials(arguments: tuple[int, int, int]) -> list[dict[str, Any]]:
 def ablation_trial(arguments: tuple[str, str]) -> tuple[str, str, str, int]:
     """Plans a task without one component: task, component, status, first-level branches."""
     name, component = arguments
-    report = run_plan(
+    report = plan_task(
         PlanOptions(task=task_file(name), jobs=1, without=frozenset({Ablation(component)}))
-    )
+    ).report
     branches = len(report.understood.branches) if report.understood else 0
     return name, component, report.status, branches
 

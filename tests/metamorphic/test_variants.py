@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control.simulator import open_simulator
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment
@@ -100,7 +100,7 @@ def test_renamed(name: str, outcome: Outcome, tmp_path: Path) -> None:
     words = new_words(task, seed=sum(name.encode()))
     changed = renamed(task, words)
     assert not set(changed["scene"]["objects"]) & set(task["scene"]["objects"])
-    report = run_plan(PlanOptions(task=write(changed, tmp_path), jobs=1))
+    report = plan_task(PlanOptions(task=write(changed, tmp_path), jobs=1)).report
     status, plan = outcome(name)
     assert _outcome(report) == (status, tuple(reworded(action, words) for action in plan))
 
@@ -109,7 +109,7 @@ def test_renamed(name: str, outcome: Outcome, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", (*TASKS, *MORE))
 def test_mirrored(name: str, outcome: Outcome, tmp_path: Path) -> None:
     file = write(mirrored(document(file_of(name))), tmp_path)
-    assert _outcome(run_plan(PlanOptions(task=file, jobs=1))) == outcome(name)
+    assert _outcome(plan_task(PlanOptions(task=file, jobs=1)).report) == outcome(name)
 
 
 @cache
@@ -147,4 +147,4 @@ def test_reworded_instruction_plan(
 ) -> None:
     task = document(FOLDER / f"{name}.yaml")
     file = write({**task, "instruction": instruction}, tmp_path)
-    assert _outcome(run_plan(PlanOptions(task=file, jobs=1))) == outcome(name)
+    assert _outcome(plan_task(PlanOptions(task=file, jobs=1)).report) == outcome(name)

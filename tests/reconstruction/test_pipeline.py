@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
-from etot_cli.commands.reconstruct import run_reconstruct
+from etot_cli.commands.plan import PlanOptions, plan_task
+from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
 from etot_cli.reconstruction.twin.assembly import what_a_scene_may_have
 from etot_cli.reconstruction.twin.physics import MASS_DOUBT, WORLDS
@@ -67,7 +67,7 @@ def test_everything_is_written(folder: Path, tmp_path: Path) -> None:
 
     out = tmp_path / "out"
     options = Options(capture=folder, auto=True, instruction="Put the marker into the mug.")
-    report = run_reconstruct(options, out)
+    report = reconstruct_capture(options, out).report
     names = {item.name for item in report.objects}
     assert {"marker", "mug"} <= names
     assert set(load_scene(out / "scene.yaml").objects) == names
@@ -120,8 +120,8 @@ def test_real_capture_with_given_masks() -> None:
 def test_plan_for_the_real_capture_holds_in_most_worlds(tmp_path: Path) -> None:
     """The light holder topples under the pen, the other one is covered by an apple."""
     words = "Reorient the pen and place it into a holder."
-    run_reconstruct(Options(capture=REAL, auto=True, instruction=words), tmp_path)
-    report = run_plan(PlanOptions(task=tmp_path / "task.yaml", jobs=1))
+    reconstruct_capture(Options(capture=REAL, auto=True, instruction=words), tmp_path)
+    report = plan_task(PlanOptions(task=tmp_path / "task.yaml", jobs=1)).report
     assert report.status == "feasible"
     assert [action.split(",")[0] for action in report.plan] == [
         "[PICK UP", "[PUT ON", "[PICK UP", "[PUT INTO",

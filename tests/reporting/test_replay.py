@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment, Branch
@@ -30,7 +30,7 @@ def saved(tmp_path: Path) -> Path:
     reasoner = ToyReasoner([])
     reasoner._branches = [Branch(DETAILED)]
     rooms = ToyRooms(ToySimulator(fails()), reasoner).rooms()
-    return write_report(run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms), tmp_path)
+    return write_report(plan_task(PlanOptions(task=Path("toy.yaml")), rooms=rooms).report, tmp_path)
 
 
 def edit(path: Path, **changes: Any) -> Path:

@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 import yaml
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Ablation, Limits
@@ -18,9 +18,9 @@ from etot_cli.planning.trials import CHOOSING_WORLDS
 from etot_cli.reporting.files import claim_folder, report_text, write_atomically, write_report
 from etot_cli.reporting.models import Report
 from etot_cli.reporting.plan_report import PlanReport
-from etot_cli.reporting.schemas import INPUTS, REPORTS, schema_text
 from etot_cli.skills.action import Action
 from etot_cli.world.state import Cause, CauseKind
+from tests.docs.schemas import INPUTS, REPORTS, schema_text
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails, plan
 from tests.reporting.toy_rooms import ToyRooms
 
@@ -40,12 +40,12 @@ def planned(
     simulator: ToySimulator, reasoner: ToyReasoner, options: PlanOptions | None = None
 ) -> PlanReport:
     rooms = ToyRooms(simulator, reasoner)
-    return run_plan(options or PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+    return plan_task(options or PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms()).report
 
 
 @pytest.mark.parametrize("name", REPORTS | INPUTS)
 def test_schema_files_are_up_to_date(name: str) -> None:
-    """If this fails: python -m etot_cli.reporting.schemas docs/schemas."""
+    """If this fails: python -m tests.docs.schemas docs/schemas."""
     assert (SCHEMAS / name).read_text(encoding="utf-8") == schema_text((REPORTS | INPUTS)[name])
 
 
@@ -125,7 +125,7 @@ def test_the_trials_are_judged_by_the_reasoner_that_planned() -> None:
 
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a b"])).rooms()
     rooms.reasoners["builtin"] = reasoner
-    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=2), rooms=rooms)
+    report = plan_task(PlanOptions(task=Path("toy.yaml"), worlds=2), rooms=rooms).report
     assert report.survival is not None
     assert len(made) == 1
 
@@ -133,7 +133,7 @@ def test_the_trials_are_judged_by_the_reasoner_that_planned() -> None:
 @pytest.mark.parametrize(("asked", "opened"), [(None, 3), (2, 2)])
 def test_worlds_are_the_tasks_unless_asked_for(asked: int | None, opened: int) -> None:
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), worlds=3)
-    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=asked), rooms=rooms.rooms())
+    report = plan_task(PlanOptions(task=Path("toy.yaml"), worlds=asked), rooms=rooms.rooms()).report
     assert rooms.worlds == opened
     assert rooms.trial_worlds == opened, "the nominal world is not counted"
     assert report.options.worlds == opened
@@ -163,7 +163,7 @@ def test_goal_that_already_holds() -> None:
 @pytest.mark.parametrize("where", ["load", "open", "search"])
 def test_interrupted_plan_report(where: str) -> None:
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), interrupt_in=where)
-    report = run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+    report = plan_task(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms()).report
     document = validate(report)
     assert document["status"] == "interrupted" and document["interrupted"] is True
 
@@ -180,7 +180,7 @@ def test_interrupted_simulate_report(where: str) -> None:
 def test_simulator_is_closed_whatever_happens() -> None:
     for where in ("search", ""):
         rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"]), interrupt_in=where)
-        run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
+        plan_task(PlanOptions(task=Path("toy.yaml")), rooms=rooms.rooms())
         assert rooms.simulator.closed
 
 

@@ -11,7 +11,7 @@ import pytest
 from rich.console import Console
 from rich.text import Text
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.search import search
@@ -115,7 +115,7 @@ def summary_text(verbosity: Verbosity, *, worlds: int = 1, feasible: bool = True
     simulator = ToySimulator(fails("a", "c"), worlds=worlds)
     revisions = {"a b @ 0": "x a b"} if feasible else {}
     rooms = ToyRooms(simulator, ToyReasoner(["a b", "c"], revisions)).rooms()
-    report = run_plan(PlanOptions(task=Path("toy.yaml"), worlds=worlds), rooms=rooms)
+    report = plan_task(PlanOptions(task=Path("toy.yaml"), worlds=worlds), rooms=rooms).report
     stream = Stream("utf-8")
     plan_summary(Printer(make_console(stream), verbosity), report, Path("out/report.json"))
     return stream.getvalue()
@@ -146,7 +146,7 @@ def test_quiet_is_one_line() -> None:
 
 def toy_report(branches: list[str], *failing: str) -> PlanReport:
     rooms = ToyRooms(ToySimulator(fails(*failing)), ToyReasoner(branches)).rooms()
-    return run_plan(PlanOptions(task=Path("toy.yaml")), rooms=rooms)
+    return plan_task(PlanOptions(task=Path("toy.yaml")), rooms=rooms).report
 
 
 def shown(report: PlanReport, console: Console, verbosity: Verbosity = Verbosity.NORMAL) -> str:
@@ -205,7 +205,7 @@ def test_quiet_names_the_cause() -> None:
 def test_one_is_singular() -> None:
     stream = io.StringIO()
     rooms = ToyRooms(ToySimulator(fails()), ToyReasoner(["a"])).rooms()
-    report = run_plan(PlanOptions(task=Path("toy.yaml")), PlainLog(stream), rooms=rooms)
+    report = plan_task(PlanOptions(task=Path("toy.yaml")), PlainLog(stream), rooms=rooms).report
     assert "1 branch proposed, 1 node\n" in stream.getvalue()
     assert "1 node evaluated, 0 reflections" in shown(report, make_console(Stream("utf-8")))
 

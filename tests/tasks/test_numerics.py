@@ -13,7 +13,7 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Outcome
@@ -86,7 +86,7 @@ def test_naive_plans_fail(naive: Naive) -> None:
 def found_plan(task: str) -> tuple[Action, ...]:
     """The plan that is found for a task, with the details that its written form leaves out."""
     with tempfile.TemporaryDirectory() as folder:
-        found = run_plan(PlanOptions(task=task_file(task)))
+        found = plan_task(PlanOptions(task=task_file(task))).report
         return plan_from_report(write_report(found, Path(folder)))
 
 

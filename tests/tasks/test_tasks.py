@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from etot_cli.commands.plan import PlanOptions, run_plan
+from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.planning.result import SearchStatus
 from etot_cli.reporting.plan_report import PlanReport
@@ -96,7 +96,7 @@ def test_cupboard_otherwise(hinge: str, robot: str, tmp_path: Path) -> None:
     task = document(FOLDER / "cupboard.yaml")
     task["scene"]["robot"] = robot
     task["scene"]["objects"]["cupboard"]["door"]["hinge"] = hinge
-    report = run_plan(PlanOptions(task=write(task, tmp_path), jobs=1))
+    report = plan_task(PlanOptions(task=write(task, tmp_path), jobs=1)).report
     assert report.status == SearchStatus.FEASIBLE.value, causes(report)
     assert matches(report.plan, PLANS["cupboard"]), report.plan
 

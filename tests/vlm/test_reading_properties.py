@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from etot_cli.reasoning.vlm.grounding import ground
 from etot_cli.reasoning.vlm.reading.names import Names
 from etot_cli.reasoning.vlm.reading.plans import read_plans, read_revision
-from etot_cli.reasoning.vlm.reading.states import read_comparison, read_scene, read_states
+from etot_cli.reasoning.vlm.reading.states import read_comparison, read_scene
 from etot_cli.reasoning.vlm.reading.text import PAIRS
 from etot_cli.reasoning.vlm.reading.verdicts import read_verdict
 from etot_cli.skills.action import Verb
@@ -268,7 +268,6 @@ def test_rubbish_is_survived(reply: str) -> None:
     for found in (*read_plans(reply).plans, *read_revision(reply).plans):
         ground(found, SCENE, NAMES)
     read_verdict(reply)
-    read_states(reply)
     read_comparison(reply, NAMES)
     read_scene(reply, NAMES)
 

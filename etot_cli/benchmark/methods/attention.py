@@ -63,7 +63,6 @@ class StaticScene:
         self._world, self._scene = world, scene
         self._data = mujoco.MjData(world.model)
         restore(world, self._data, start)
-        self._sweeps: dict[tuple[str, bool], AttentionPoint | None] = {}
 
     def point(self, actions: tuple[Action, ...], index: int) -> AttentionPoint | None:
         """What asks for attention when an action of a plan is due; None when nothing does."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from etot_cli.skills.motion.collision import CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
 from etot_cli.world.model import World
+from etot_cli.world.placing import place_objects
 
 Vector = NDArray[np.float64]
 
@@ -37,3 +38,17 @@ def ready_pose(world: World, data: mujoco.MjData) -> Vector:
         if not checker.hits(joints, clearance=WAITING_CLEARANCE):
             return joints
     return arm.home
+
+
+def make_ready(world: World, data: mujoco.MjData) -> None:
+    """Puts ``data`` where an execution begins: objects placed, fingers open, the arm waiting.
+
+    Raises:
+        WorldError: an object does not fit where the scene puts it.
+    """
+    place_objects(world, data)
+    robot = world.robot
+    robot.set_opening(data, robot.spec.gripper.opening)
+    data.qpos[robot.qpos] = data.ctrl[robot.ctrl] = ready_pose(world, data)
+    data.ctrl[robot.gripper_ctrl] = robot.spec.gripper.command_open
+    mujoco.mj_forward(world.model, data)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from etot_cli.reasoning.vlm.reading.text import bare, words
 from etot_cli.world.colors import BASIC_COLORS
-from etot_cli.world.state import DESK, ObjectInfo, SceneState
+from etot_cli.world.state import DESK, SceneState
 
 _QUALIFIER = re.compile(
     r"(?i)\s+\b(?:from|inside|within|into|in|onto|on|near|next to|beside|behind|under|at|of|with|"
@@ -62,7 +62,7 @@ class Names:
         aliases = [(word, DESK) for word in _DESK_WORDS]
         colors: dict[str, str] = {}
         for info in scene.infos.values():
-            aliases += [(alias, info.name) for alias in _names_of(info)]
+            aliases += [(info.name, info.name), (info.label, info.name)]
             if info.color is not None:
                 colors[info.name] = info.color
             for part in info.parts:
@@ -73,11 +73,6 @@ class Names:
                 aliases.append((part.address, part.address))
                 aliases.append((part.name, part.address))
         return cls(aliases, colors, marks)
-
-    @classmethod
-    def of_list(cls, names: Iterable[str]) -> Names:
-        """Plain names without a scene."""
-        return cls([(name, name) for name in names])
 
     def resolve(self, written: str) -> str | Unresolved:
         """The one thing that a text means, or why there is none."""
@@ -128,7 +123,3 @@ class Names:
     @staticmethod
     def _several(written: str, found: set[str]) -> Unresolved:
         return Unresolved(f"{bare(written[:60])!r} may mean {' or '.join(sorted(found))}")
-
-
-def _names_of(info: ObjectInfo) -> list[str]:
-    return [info.name, info.label]

@@ -13,14 +13,6 @@ from etot_cli.reasoning.vlm.reading.text import bare, lines_of, words
 
 UNSURE = "unsure"
 MAX_STATES = 200
-_RELATIONS = {
-    "ontop": "ontop", "on top": "ontop", "on": "ontop", "inside": "inside", "in": "inside",
-    "inhand": "inhand", "in hand": "inhand", "open": "open", "closed": "closed", "lost": "lost",
-    "toppled": "toppled", "unsure": "unsure",
-}  # fmt: skip
-_TRIPLE = re.compile(
-    r"\[\s*([a-zA-Z ]{2,12}?)\s*,\s*([^\[\],]{1,60}?)\s*(?:,\s*([^\[\],]{1,60}?)\s*)?\]"
-)
 _SECTION = re.compile(
     r"(?i)^(?:the\s+)?(?:states?\s+|status\s+)?(?P<when>before|after)\b[^:]{0,40}:?\s*(?P<rest>.*)$"
 )
@@ -73,18 +65,6 @@ class ReadScene:
     labels: Mapping[str, str]
     states: Mapping[str, str]
     understanding: str = ""
-
-
-def read_states(reply: str) -> list[tuple[str, ...]]:
-    """Bracketed relations such as ``[ontop, cup, desk]``, in order."""
-    found: list[tuple[str, ...]] = []
-    for match in _TRIPLE.finditer(reply[:20_000]):
-        relation = _RELATIONS.get(match[1].replace("_", " ").lower().strip())
-        if relation is not None and len(found) < MAX_STATES:
-            found.append(
-                tuple(part for part in (relation, *map(_clean, match.groups()[1:])) if part)
-            )
-    return found
 
 
 def read_comparison(reply: str, names: Names) -> ReadComparison:
@@ -201,7 +181,3 @@ def _meaning(text: str) -> str:
         return f"{found[0]} grasp"
     plain = re.sub(r"(?i)^(?:the|a|an)\s+", "", bare(text))
     return " ".join(words(plain))
-
-
-def _clean(text: str | None) -> str:
-    return "" if text is None else bare(text)

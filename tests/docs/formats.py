@@ -1,4 +1,4 @@
-"""The YAML formats as a page: ``python -m etot_cli.reporting.formats docs/formats.md``.
+"""The YAML formats as a page: ``python -m tests.docs.formats docs/formats.md``.
 
 Every key, what it may be and its default are read from the models that check the files.
 """
@@ -148,7 +148,7 @@ def _bounds(schema: dict[str, Any]) -> str:
 def main(arguments: list[str]) -> int:
     """Writes the page into the file given as the only argument."""
     if len(arguments) != 1:
-        print("usage: python -m etot_cli.reporting.formats FILE", file=sys.stderr)
+        print("usage: python -m tests.docs.formats FILE", file=sys.stderr)
         return 2
     write_atomically(Path(arguments[0]), formats_text())
     return 0

@@ -1,5 +1,5 @@
 """JSON Schemas of all reports, and of the files that are one document each:
-``python -m etot_cli.reporting.schemas docs/schemas``.
+``python -m tests.docs.schemas docs/schemas``.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def schema_text(model: type[BaseModel]) -> str:
 def main(arguments: list[str]) -> int:
     """Writes all schema files into the folder given as the only argument."""
     if len(arguments) != 1:
-        print("usage: python -m etot_cli.reporting.schemas FOLDER", file=sys.stderr)
+        print("usage: python -m tests.docs.schemas FOLDER", file=sys.stderr)
         return 2
     for name, model in (REPORTS | INPUTS).items():
         write_atomically(Path(arguments[0]) / name, schema_text(model))
