@@ -104,3 +104,19 @@ def test_tool_speed() -> None:
     path = np.linspace([0.0, 0.0], [1.0, 0.3], 12)
     assert peaks(time_line(path, 0.5, 0.1, XARM))[0] == pytest.approx(0.2, rel=0.01)
     assert peaks(time_line(path, 0.5, 100.0, XARM))[0] <= XARM.speed * 1.001
+
+
+@given(seeds, st.floats(0.05, 0.5))
+@settings(deadline=None, max_examples=50)
+def test_tool_speed_part_by_part(seed: int, speed: float) -> None:
+    """Where the tool's way is told from row to row it is nowhere much faster than meant, though the
+    joints are; and where it is short the arm does not dawdle.
+    """
+    ways = np.random.default_rng(seed).uniform(0.006, 0.04, 12)
+    path = np.linspace([0.0, 0.0], [1.2, 0.3], 13)
+    timed = np.vstack([path[:1], time_line(path, ways, speed, XARM)])
+    tool = np.interp(timed[:, 0], path[:, 0], np.concatenate([[0.0], np.cumsum(ways)]))
+    # Between two points of the grid, and by averaging, a part takes over some of the next's speed.
+    assert np.diff(tool).max() / CONTROL_PERIOD <= speed * 1.25
+    fair = sum(max(way / speed, 0.1 / XARM.speed) for way in ways)
+    assert len(timed) * CONTROL_PERIOD < fair + 0.7

@@ -30,9 +30,6 @@ Vector = NDArray[np.float64]
 ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
 """Shares of its travel from which on a part is left as it is."""
 TOOL_SPEED = 0.16
-SLOWEST = 0.04
-"""Speed below which no drawer is moved, however unevenly its way maps to the joints [m/s]: what
-stands in it keeps standing, and the action ends."""
 GRIP_TIME, RELEASE_TIME = 0.45, 0.35
 SETTLE_TIME = 1.2
 PRESSED = 0.3
@@ -128,7 +125,7 @@ def _phases(belief: Belief, part: Part, move: PreparedMove) -> tuple[Phase, ...]
         Move("approach", move.approach, STANDOFF, TOOL_SPEED),
         *grip,
         Move(
-            "along", move.along, move.length, _speed_along(belief, part, move),
+            "along", move.along, _length_along(belief, part, move), TOOL_SPEED,
             may_block=True, exits=_exits(belief, move), dwell=0.15,
         ),
         *release,
@@ -136,20 +133,16 @@ def _phases(belief: Belief, part: Part, move: PreparedMove) -> tuple[Phase, ...]
     )  # fmt: skip
 
 
-def _speed_along(belief: Belief, part: Part, move: PreparedMove) -> float:
-    """Mean speed of the hand with a part [m/s]. What stands in a drawer falls over where that is
-    faster than meant: joints turn at an even speed, and the hand does not move evenly by that.
+def _length_along(belief: Belief, part: Part, move: PreparedMove) -> float | Vector:
+    """Length of the hand's way with a part [m]; of a drawer (k,), waypoint by waypoint. What stands
+    in it falls over where that is faster than meant, and the hand does not move evenly by turns of
+    the joints.
     """
     if part.info.joint_type != "slide":
-        return TOOL_SPEED
-    rows = np.vstack([move.approach[-1:], move.along])
+        return move.length
+    rows = (move.approach[-1], *move.along)
     tools = np.array([belief.arm.forward(row).position for row in rows])
-    turns = np.abs(np.diff(rows, axis=0)).max(axis=1)
-    ways = np.linalg.norm(np.diff(tools, axis=0), axis=1)
-    if move.length < 1e-6 or turns.min() < 1e-6:
-        return TOOL_SPEED
-    fastest = float((ways / turns).max() * turns.sum() / move.length)
-    return float(np.clip(TOOL_SPEED / fastest, SLOWEST, TOOL_SPEED))
+    return np.asarray(np.linalg.norm(np.diff(tools, axis=0), axis=1))
 
 
 def _exits(belief: Belief, move: PreparedMove) -> tuple[Vector, ...]:

@@ -42,7 +42,8 @@ class Move:
     Args:
         name: what the move is for (``transit``, ``approach``, ``lift``, …).
         path: (k, n) joint values [rad], the robot's present ones left out.
-        length: of the tool's straight way [m]; None for a free path in joint space.
+        length: of the tool's way [m], or (k,) of its part up to each waypoint, where each has to
+            keep to the speed; None for a free path in joint space.
         tool_speed: along that way [m/s]; None with a free path, which has the robot's own speed.
         opening: set between the pads as the move begins [m]; None leaves the gripper as it is.
         holding: ends as slipped when the opening falls below this [m]; None with an empty hand.
@@ -54,7 +55,7 @@ class Move:
 
     name: str
     path: Vector
-    length: float | None = None
+    length: float | Vector | None = None
     tool_speed: float | None = None
     opening: float | None = None
     holding: float | None = None

@@ -50,20 +50,38 @@ def time_path(path: Vector, limits: JointLimits) -> Vector:
     Returns:
         (m, n) joint targets, the first one period after the start, the last the path's end.
     """
-    path, along = _without_repeats(path)
+    return _timed(path, np.zeros(len(path)), limits)
+
+
+def time_line(
+    path: Vector, length: float | Vector, tool_speed: float, limits: JointLimits
+) -> Vector:
+    """Samples the joint path of a tool's way, as :func:`time_path` does.
+
+    Args:
+        path: (k, n) joint values [rad], the first row where the arm is.
+        length: of the tool's way [m], or (k - 1,) of that from each row to the next.
+        tool_speed: on the way as a whole [m/s]; where the length is told row by row, on each part.
+        limits: kept besides.
+    """
+    if isinstance(length, float | int):
+        joint_speed = _joint_speed(path, length, tool_speed, limits.speed)
+        return time_path(path, limits.slowed(joint_speed))
+    return _timed(path, np.concatenate([[0.0], np.cumsum(length)]) / tool_speed, limits)
+
+
+def _timed(path: Vector, least: Vector, limits: JointLimits) -> Vector:
+    """Samples a path (k, n) of which no part takes less time than between the moments ``least``
+    (k,) [s].
+    """
+    path, along, least = _without_repeats(path, least)
     if along[-1] <= 1e-9:
         return path[-1:].copy()
     points, spacing = _rounded(path, along)
-    speeds = _speeds(points, spacing, limits)
+    slowness = np.diff(np.interp(np.arange(len(points)) * spacing, along, least)) / spacing
+    speeds = _speeds(points, spacing, slowness, limits)
     samples = _sampled(points, spacing, speeds)
     return _averaged(path[0], samples, _window(limits))
-
-
-def time_line(path: Vector, length: float, tool_speed: float, limits: JointLimits) -> Vector:
-    """Samples the joint path (k, n) of a straight tool way of ``length`` [m] at ``tool_speed``
-    [m/s], within the joints' limits.
-    """
-    return time_path(path, limits.slowed(_joint_speed(path, length, tool_speed, limits.speed)))
 
 
 def peaks(targets: Vector) -> tuple[float, float, float]:
@@ -75,12 +93,14 @@ def peaks(targets: Vector) -> tuple[float, float, float]:
     return found[0], found[1], found[2]
 
 
-def _without_repeats(path: Vector) -> tuple[Vector, Vector]:
-    """The path's distinct points and how far along it they are, largest joint change [rad]."""
+def _without_repeats(path: Vector, least: Vector) -> tuple[Vector, Vector, Vector]:
+    """The path's distinct points, how far along it they are, largest joint change [rad], and what
+    goes with them.
+    """
     steps = np.abs(np.diff(path, axis=0)).max(axis=1) if len(path) > 1 else np.zeros(0)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     keep = np.concatenate([[True], np.diff(along) > 1e-9])
-    return path[keep], along[keep]
+    return path[keep], along[keep], least[keep]
 
 
 def _rounded(path: Vector, along: Vector) -> tuple[Vector, float]:
@@ -103,19 +123,20 @@ def _rounded(path: Vector, along: Vector) -> tuple[Vector, float]:
     return smooth, total / count
 
 
-def _speeds(points: Vector, spacing: float, limits: JointLimits) -> Vector:
-    """Speed along the path at its points [rad/s], zero at both ends.
+def _speeds(points: Vector, spacing: float, slowness: Vector, limits: JointLimits) -> Vector:
+    """Speed along the path at its points [rad/s], zero at both ends; between them at most the
+    inverse of ``slowness`` [s/rad].
 
     Forward and backward passes as in Bobrow, Dubowsky and Gibson, "Time-optimal control of robotic
     manipulators along specified paths" (1985), with constant limits.
     """
-    cells = np.abs(np.diff(points, axis=0)).max(axis=1) / spacing
-    rate = np.maximum(np.append(cells, cells[-1]), np.insert(cells, 0, cells[0]))
+    rate = _at_points(np.abs(np.diff(points, axis=0)).max(axis=1) / spacing)
     bend = np.zeros(len(points))
     bend[1:-1] = np.abs(np.diff(points, 2, axis=0)).max(axis=1) / spacing**2
     # Half a grid step on, a bend is as sharp as at the sharper of its neighbours.
     bend = np.maximum(bend, np.maximum(np.roll(bend, 1), np.roll(bend, -1)))
     allowed = limits.speed / np.maximum(rate, 1e-6)
+    allowed = np.minimum(allowed, 1.0 / np.maximum(_at_points(slowness), 1e-6))
     allowed = np.minimum(
         allowed, np.sqrt(BEND_SHARE * limits.acceleration / np.maximum(bend, 1e-9))
     )
@@ -130,6 +151,11 @@ def _speeds(points: Vector, spacing: float, limits: JointLimits) -> Vector:
     for i in range(len(squared) - 2, -1, -1):
         squared[i] = min(squared[i], squared[i + 1] + push[i])
     return np.asarray(np.sqrt(squared))
+
+
+def _at_points(cells: Vector) -> Vector:
+    """The larger of the values (k,) between points, at the points (k + 1,)."""
+    return np.asarray(np.maximum(np.append(cells, cells[-1]), np.insert(cells, 0, cells[0])))
 
 
 def _sampled(points: Vector, spacing: float, speeds: Vector) -> Vector:
