@@ -18,6 +18,7 @@ from etot_cli.errors import EtotError, SpecError
 from etot_cli.specs.base import Spec, Title
 from etot_cli.specs.bounds import MAX_TRIALS
 from etot_cli.specs.document import Node, read_document
+from etot_cli.specs.inputs import file_digest, referenced_files
 from etot_cli.specs.load import load_task
 from etot_cli.specs.problems import validate
 from etot_cli.specs.reading import printable
@@ -94,11 +95,14 @@ def select(inputs: Sequence[str], folder: Path) -> Selection:
 
 
 def digest(task: Task) -> str:
-    """Tells tasks apart by what is in them, wherever their files lie."""
+    """Tells tasks apart by what is in them and in their meshes, wherever the files lie."""
     plain = task.model_copy(
         update={"file": "", "scene": task.scene.model_copy(update={"directory": "."})}
     )
-    return hashlib.sha256(plain.model_dump_json().encode()).hexdigest()
+    found = hashlib.sha256(plain.model_dump_json().encode())
+    for content in sorted(map(file_digest, referenced_files(task.scene, task.added_objects))):
+        found.update(content.encode())
+    return found.hexdigest()
 
 
 def random_problems(count: int) -> list[tuple[str, int]]:

@@ -10,9 +10,11 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
 COSTS = (
-    "planning_s", "nodes", "simulated_s", "model_calls", "input_tokens", "output_tokens", "cost",
+    "planning_s", "nodes", "simulated_s", "model_calls", "model_requests", "input_tokens",
+    "output_tokens", "cost",
 )  # fmt: skip
-"""What planning cost in a trial: wall time [s], nodes, physics time [s], tokens, US dollars."""
+"""What planning cost in a trial: wall time [s], nodes, physics time [s], answers of a model, those
+of them that no cache had, tokens, US dollars."""
 TIMES = ("physics", "inverse_kinematics", "rendering", "reasoning", "other")
 """What the wall time of a trial is split into."""
 

@@ -26,6 +26,8 @@ from etot_cli.cli.options import (
     VlmRecord,
     VlmReplay,
     VlmUrl,
+    model_settings,
+    refuse_beside,
 )
 from etot_cli.cli.session import Session
 from etot_cli.errors import ServiceError
@@ -41,6 +43,7 @@ def _engine(value: str) -> str:
 
 
 def bench(
+    context: typer.Context,
     tasks: Annotated[
         list[str] | None,
         typer.Argument(
@@ -90,7 +93,7 @@ def bench(
     resume: Annotated[
         Path | None,
         typer.Option(
-            "--resume", metavar="DIR", help="Go on with an interrupted run in its folder."
+            "--resume", metavar="DIR", help="Go on with a run that ended early, in its folder."
         ),
     ] = None,
     compare: Annotated[
@@ -137,20 +140,24 @@ def bench(
 ) -> int:
     """Measure how often methods succeed on tasks, in varied worlds, and at what cost.
 
-    Exit code 0: all trials were run; 1: with --compare, a method got significantly worse;
-    2: unusable input; 3: a service is not there, or no trial could be carried out;
-    130: interrupted.
+    Exit code 0: all trials were run; 1: --max-calls or --max-cost ended the run, or, with
+    --compare, a method got significantly worse; 2: unusable input; 3: a service is not there or
+    went away, or no trial could be carried out; 130: interrupted.
     """
     if compare is not None:
-        if tasks or resume:
-            raise typer.BadParameter("--compare takes two reports and nothing to run")
+        refuse_beside(context, "--compare", ("compare", "json", "quiet"))
         return _compare(*compare, json=json, quiet=quiet)
     if not tasks and resume is None:
         raise typer.BadParameter("nothing to run; name task files, folders, suites or random:N")
-    if resume is not None and out is not None:
-        raise typer.BadParameter("--resume DIR goes on in DIR; --out has no place beside it")
+    if resume is not None and (out is not None or force):
+        other = "--force" if force else "--out"
+        raise typer.BadParameter(f"--resume DIR goes on in DIR; {other} has no place beside it")
     if resume is not None and not resume.is_dir():
         raise typer.BadParameter(f"--resume {resume}: there is no such folder")
+    vlm = model_settings(
+        reasoner, vlm_url=vlm_url, model=model, judge=judge, record=record, replay=replay,
+        max_calls=max_calls, max_cost=max_cost,
+    )  # fmt: skip
     if video_url is not None and reasoner is not ReasonerName.VLM:
         raise typer.BadParameter("--video-url needs --reasoner vlm, which looks at the videos")
     subject = Path((tasks or [str(resume)])[0].replace(":", "-"))
@@ -164,14 +171,11 @@ def bench(
         inputs=tuple(tasks or ()),
         seed=seed,
         trials=trials,
-        methods=None if methods is None else tuple(methods.split(",")),
+        methods=None if methods is None else tuple(map(str.strip, methods.split(","))),
         jobs=jobs,
         engine=engine,
         reasoner=reasoner.value,
-        vlm={
-            "url": vlm_url, "model": model, "judge": judge.value if judge else None,
-            "record": record, "replay": replay, "max_calls": max_calls, "max_cost": max_cost,
-        },
+        vlm=vlm,
         video_url=video_url,
         pages=html,
         resume=resume is not None,
@@ -190,6 +194,10 @@ def bench(
         report, path,
         lambda out: BenchSummary(out.console, out.verbosity).show(report, path),
     )  # fmt: skip
+    if report.status == "lost":
+        raise ServiceError(
+            f"the run was ended: {report.reason}; go on with it by --resume {session.folder}"
+        )
     if code == OK and all(trial.status == "error" for trial in report.trials):
         raise ServiceError(f"no trial could be carried out: {report.trials[0].reason}")
     return code
@@ -197,7 +205,7 @@ def bench(
 
 def _compare(first: Path, second: Path, *, json: bool, quiet: bool) -> int:
     """Prints how two runs differ."""
-    from etot_cli.commands.bench import compare
+    from etot_cli.commands.bench_compare import compare
     from etot_cli.reporting.bench_table import significantly_worse, told
     from etot_cli.reporting.files import report_text
 

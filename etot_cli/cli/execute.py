@@ -102,6 +102,8 @@ def execute(
     at a limit; 2: unusable input; 3: robot, camera or another device is not there or was lost;
     130: interrupted.
     """
+    if dry_run and video:
+        raise typer.BadParameter("--video shows what is moved, and --dry-run moves nothing")
     session = Session(
         "execute", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )

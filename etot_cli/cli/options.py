@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -29,11 +30,19 @@ class JudgeName(StrEnum):
     BOTH = "both"
 
 
+def _folder(text: str) -> Path:
+    """A folder's name. An empty one, of a variable that is not set, would be the current folder."""
+    if not text:
+        raise typer.BadParameter("found '', expected a folder")
+    return Path(text)
+
+
 TaskFile = Annotated[Path, typer.Argument(metavar="TASK.yaml", help="The task file.")]
 Out = Annotated[
     Path | None,
     typer.Option(
         "--out",
+        parser=_folder,
         metavar="DIR",
         help="Folder for the report and its files. [default: results/<command>/<name>-<time>]",
     ),
@@ -106,11 +115,21 @@ VlmHints = Annotated[
 ]
 VlmRecord = Annotated[
     Path | None,
-    typer.Option("--record", metavar="DIR", help="Write every exchange with the model there."),
+    typer.Option(
+        "--record",
+        parser=_folder,
+        metavar="DIR",
+        help="Write every exchange with the model there.",
+    ),
 ]
 VlmReplay = Annotated[
     Path | None,
-    typer.Option("--replay", metavar="DIR", help="Take the model's answers from such a folder."),
+    typer.Option(
+        "--replay",
+        parser=_folder,
+        metavar="DIR",
+        help="Take the model's answers from such a folder.",
+    ),
 ]
 VlmMaxCalls = Annotated[
     int | None,
@@ -120,3 +139,54 @@ VlmMaxCost = Annotated[
     float | None,
     typer.Option("--max-cost", min=0.0, metavar="X", help="US dollars for the model at most."),
 ]
+
+
+def model_settings(
+    reasoner: ReasonerName,
+    *,
+    vlm_url: str | None,
+    model: str | None,
+    judge: JudgeName | None,
+    record: Path | None,
+    replay: Path | None,
+    max_calls: int | None,
+    max_cost: float | None,
+    hints: bool | None = None,
+) -> dict[str, Any]:
+    """What the flags say of the model, by the names of its settings; None: they say nothing.
+
+    Raises:
+        typer.BadParameter: something is said of a model that nobody asks.
+    """
+    given: dict[str, Any] = {
+        "vlm_url": vlm_url, "model": model, "judge": judge.value if judge else None,
+        "hints": hints, "record": record, "replay": replay, "max_calls": max_calls,
+        "max_cost": max_cost,
+    }  # fmt: skip
+    if reasoner is not ReasonerName.VLM:
+        idle = [f"--{name.replace('_', '-')}" for name, value in given.items() if value is not None]
+        if idle:
+            raise typer.BadParameter(
+                f"{', '.join(idle)}: the builtin reasoner asks no model; expected --reasoner vlm"
+            )
+    return {"url": given.pop("vlm_url"), **given}
+
+
+def refuse_beside(context: typer.Context, flag: str, fitting: Container[str]) -> None:
+    """Refuses what the command line says beside a flag that leaves no room for it.
+
+    Args:
+        context: of the command.
+        flag: does something else than the command usually does.
+        fitting: names of the parameters that mean something beside it.
+
+    Raises:
+        typer.BadParameter: there is something else.
+    """
+    for parameter in context.command.params:
+        name = parameter.name or ""
+        source = context.get_parameter_source(name)
+        if source is None or source.name != "COMMANDLINE" or name in fitting:
+            continue
+        told = parameter.opts[0] if parameter.opts[0].startswith("-") else name.upper()
+        raise typer.BadParameter(f"{told} has no place beside {flag}")

@@ -34,6 +34,7 @@ from etot_cli.cli.options import (
     VlmReplay,
     VlmUrl,
     WhenToLook,
+    model_settings,
 )
 from etot_cli.cli.session import Session
 from etot_cli.errors import ServiceError
@@ -139,6 +140,10 @@ def plan(
     Exit code 0: a feasible plan, after which the task's success conditions hold; 1: none found, or
     they do not hold; 2: unusable input; 3: the model's endpoint cannot be used; 130: interrupted.
     """
+    vlm = model_settings(
+        reasoner, vlm_url=vlm_url, model=model, judge=judge, hints=hints, record=record,
+        replay=replay, max_calls=max_calls, max_cost=max_cost,
+    )  # fmt: skip
     for file in export or ():
         if not file.name.endswith(EXPORTS):
             raise typer.BadParameter(f"--export {file}: expected a name with {', '.join(EXPORTS)}")
@@ -161,16 +166,7 @@ def plan(
         look=look,
         without=frozenset(without or ()),
         limits=Limits(max_nodes=max_nodes, time_limit_s=time_limit),
-        vlm={
-            "url": vlm_url,
-            "model": model,
-            "judge": judge.value if judge else None,
-            "hints": hints,
-            "record": record,
-            "replay": replay,
-            "max_calls": max_calls,
-            "max_cost": max_cost,
-        },
+        vlm=vlm,
     )
     with session.search_observer() as observer:
         planning = plan_task(options, observer)

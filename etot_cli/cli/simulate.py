@@ -20,6 +20,7 @@ from etot_cli.cli.options import (
     Vary,
     Verbose,
     WhenToLook,
+    refuse_beside,
 )
 from etot_cli.cli.session import Session
 from etot_cli.specs.look import Look
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 
 def simulate(
+    context: typer.Context,
     task: TaskFile,
     plan: Annotated[
         str | None,
@@ -86,13 +88,14 @@ def simulate(
     or --frames without OpenGL; 130: interrupted.
     """
     if capture is not None:
-        if plan is not None or video or frames or view or open_loop:
-            raise typer.BadParameter("--capture renders the scene as it stands; it takes no plan")
+        refuse_beside(context, "--capture", ("task", "capture", "noise", "vary", "seed", "json"))
         from etot_cli.commands.capture import run_capture
 
         folder = run_capture(task, capture, noisy=noise, seed=seed, vary=vary)
         print(f"capture: {folder}", file=sys.stderr if json else sys.stdout)
         return OK
+    if noise:
+        raise typer.BadParameter("--noise needs --capture")
     if plan is None:
         raise typer.BadParameter("missing --plan (or --capture to render the scene)")
     if error is not None and not open_loop:

@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from etot_cli.benchmark.methods.catalogue import Method, methods_of
 from etot_cli.benchmark.running.engine import EngineName, open_engine
 from etot_cli.benchmark.running.journal import NAME as JOURNAL
@@ -21,25 +19,21 @@ from etot_cli.benchmark.running.runner import (
     left_to_do,
     run_trials,
 )
-from etot_cli.benchmark.statistics.paired import paired
+from etot_cli.benchmark.running.stopping import Ending
 from etot_cli.benchmark.suite import Selection, digest, seeds_of, select
 from etot_cli.benchmark.trial import TrialKey, TrialResult
+from etot_cli.commands.bench_services import ModelTerms, check_services
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_csv import write_csv
 from etot_cli.reporting.bench_report import (
     BenchReport,
-    CompareReport,
     method_models,
-    paired_models,
     row_models,
     task_models,
     trial_rows,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
-from etot_cli.specs.reading import read_utf8
 
-MAX_REPORT_BYTES = 256 * 1024 * 1024
-"""A report of ten thousand trials is a tenth of it."""
 MAX_RUN = 100_000
 """Trials of a run, tasks and methods together; their report can still be read."""
 DEFAULT_TRIALS = 10
@@ -116,10 +110,11 @@ def run_bench(
         run = _resolved(options, folder, known)
     work = run.work()
     carry_out: Perform
+    terms = ModelTerms()
     if perform is None:
         from etot_cli.commands import bench_trial
 
-        bench_trial.check_services(options.reasoner, options.vlm, options.video_url)
+        terms = check_services(options.reasoner, options.vlm, options.video_url)
         tasks = {task.name: task for task in run.selection.tasks}
         setup: Any = bench_trial.Setup(
             str(folder.resolve()), tasks, run.seed, options.reasoner, options.vlm,
@@ -131,78 +126,24 @@ def run_bench(
         carry_out, begin = perform
     if options.force and not options.resume:
         throw_away(folder)
-    agree(_described(options, run), known, folder)
+    agree(_described(options, run, terms), known, folder)
     with Journal(folder) as journal, watch.phase("trials"):
         _check_seeds(work, journal)
-        complete = not left_to_do(work, journal)
-        if not complete:
+        ending = Ending("success")
+        if left_to_do(work, journal):
             engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
             try:
-                complete = run_trials(work, carry_out, engine, journal, options.jobs, observer)
+                ending = run_trials(
+                    work, carry_out, engine, journal, options.jobs, observer, terms.budget
+                )
             finally:
                 engine.close()
         finished = journal.results
     results = [finished[item.key] for item in work if item.key in finished]
-    report = _report(options, run, results, watch, complete=complete)
+    report = _report(options, run, results, watch, ending)
     report.files.update(write_csv(report, results, folder))
     report.files["lines"] = JOURNAL
     return report
-
-
-def compare(first: Path, second: Path) -> CompareReport:
-    """Compares two reports, method by method, on the trials that both have.
-
-    Raises:
-        SpecError: a file is no benchmark's report.
-        EtotError: they have no trial of the same method in common.
-    """
-    one, two = load_report(first), load_report(second)
-    outcomes = [
-        {
-            (row.method, row.task, row.number, row.seed, digests.get(row.task)): row.status
-            == "success"
-            for row in report.trials
-        }
-        for report in (one, two)
-        for digests in [{task.name: task.digest for task in report.tasks}]
-    ]
-    common = outcomes[0].keys() & outcomes[1].keys()
-    found = []
-    for method in [model.name for model in one.methods]:
-        own = {key for key in common if key[0] == method}
-        if own:
-            before, after = ({key: given[key] for key in own} for given in outcomes)
-            pairs = paired(before, after)
-            found.append((method, method, pairs))
-    if not found:
-        raise EtotError(
-            f"{first} and {second} have no trial in common; expected runs of the same tasks with "
-            "the same methods and seeds"
-        )
-    left_out = len(outcomes[0].keys() ^ outcomes[1].keys())
-    return CompareReport(
-        first=str(first), second=str(second), comparisons=paired_models(found), left_out=left_out
-    )
-
-
-def load_report(path: Path) -> BenchReport:
-    """Reads a benchmark's report, from its file or its folder.
-
-    Raises:
-        SpecError: it is none.
-    """
-    file = path / "report.json" if path.is_dir() else path
-    text = read_utf8(file, MAX_REPORT_BYTES, "a report of etot bench")
-    try:
-        return BenchReport.model_validate_json(text)
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(step) for step in first["loc"])
-        raise SpecError(
-            f"is no report of etot bench: {first['msg']}; expected schema etot.bench/1",
-            file=str(file),
-            path=where,
-        ) from None
 
 
 def _check_seeds(work: Sequence[TrialWork], journal: Journal) -> None:
@@ -246,7 +187,7 @@ def _resolved(options: BenchOptions, folder: Path, known: Manifest | None) -> _R
     return _Run(selection, inputs, methods, seed, draws, digests)
 
 
-def _described(options: BenchOptions, run: _Run) -> Manifest:
+def _described(options: BenchOptions, run: _Run, terms: ModelTerms) -> Manifest:
     found = versions()
     return Manifest(
         inputs=[*run.inputs],
@@ -256,7 +197,8 @@ def _described(options: BenchOptions, run: _Run) -> Manifest:
         seed=run.seed,
         draws=run.draws,
         reasoner=options.reasoner,
-        model=str(options.vlm.get("model") or ""),
+        model=terms.name,
+        thinking=dict(terms.deciding),
         video=options.video_url is not None,
         etot=found.etot,
         mujoco=found.mujoco,
@@ -268,15 +210,15 @@ def _report(
     run: _Run,
     results: Sequence[TrialResult],
     watch: Stopwatch,
-    *,
-    complete: bool,
+    ending: Ending,
 ) -> BenchReport:
     names = [method.name for method in run.methods]
     rows, means, pairs = row_models(results, names, [task.name for task in run.selection.tasks])
     return BenchReport(
-        status="success" if complete else "interrupted",
+        status=ending.status,
+        reason=ending.reason,
         seed=run.seed,
-        interrupted=not complete,
+        interrupted=ending.status == "interrupted",
         versions=versions(),
         timing=watch.timing(),
         inputs=[*run.inputs],

@@ -77,24 +77,6 @@ def begin(setup: Setup) -> None:
         _shared.twins.clear()
 
 
-def check_services(reasoner: str, vlm: Mapping[str, Any], video_url: str | None) -> None:
-    """Notices before the first trial what would make an error of every one.
-
-    Raises:
-        EtotError: a setting or an address cannot be used.
-        ServiceError: there is no key.
-    """
-    if reasoner != "builtin":
-        from etot_cli.reasoning.vlm.client import ChatClient
-        from etot_cli.reasoning.vlm.settings import VlmSettings
-
-        ChatClient(VlmSettings.load(**vlm)).close()
-    if video_url is not None:
-        from etot_cli.benchmark.methods.video_endpoint import VideoEndpoint
-
-        VideoEndpoint(video_url)
-
-
 def perform(work: TrialWork) -> TrialResult:
     """Carries a trial out and writes its report.
 

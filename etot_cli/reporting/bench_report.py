@@ -82,6 +82,8 @@ class AverageModel(Model):
     nodes: Amount
     simulated_s: Seconds
     model_calls: Amount
+    model_requests: Amount = 0.0
+    """Of these calls, those that no cache had the answer to."""
     input_tokens: Amount
     output_tokens: Amount
     cost: Amount
@@ -133,8 +135,11 @@ class BenchReport(Model):
     """Who succeeds how often, and at what cost."""
 
     schema_: Literal["etot.bench/1"] = Field(default="etot.bench/1", alias="schema")
-    status: Literal["success", "interrupted"]
-    """Success: all trials were run, whatever became of them."""
+    status: Literal["success", "interrupted", "limit", "lost"]
+    """Success: all trials were run, whatever became of them; limit: the run's ``--max-calls`` or
+    ``--max-cost`` is spent; lost: a service that trials need is gone."""
+    reason: str = ""
+    """Why not all trials were run; empty where they were."""
     seed: Count
     interrupted: bool
     versions: VersionsModel

@@ -60,11 +60,10 @@ def load_task(path: str | Path, *, reach: float | None = None) -> Task:
     task = validate(Task, node)
     scene_node = keys["scene"]
     scene = resolve_files(task.scene, scene_node, scene_file.parent)
-    inputs = input_digests(node, scene, file)
     added = resolve_added(task.disturbance, node, scene_file.parent)
-    task = task.model_copy(
-        update={"scene": scene, "file": str(path), "inputs": inputs, "disturbance": added}
-    )
+    task = task.model_copy(update={"scene": scene, "file": str(path), "disturbance": added})
+    inputs = input_digests(node, scene, file, task.added_objects)
+    task = task.model_copy(update={"inputs": inputs})
     check_scene(scene, scene_node, reach)
     problems = task_problems(task)
     if problems:

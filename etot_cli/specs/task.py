@@ -9,6 +9,7 @@ from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 from etot_cli.specs.base import Name, Spec, Title
 from etot_cli.specs.bounds import MAX_WORLDS
 from etot_cli.specs.disturbance import MAX_DISTURBANCES, Disturbance
+from etot_cli.specs.objects import SceneObject
 from etot_cli.specs.quantity import Coordinate, Meaning
 from etot_cli.specs.scene import Scene
 
@@ -107,6 +108,11 @@ class Task(Spec):
         if given is None:
             return ()
         return (given,) if isinstance(given, Disturbance) else given
+
+    @property
+    def added_objects(self) -> tuple[SceneObject, ...]:
+        """What disturbances bring onto the scene."""
+        return tuple(item.object for item in self.disturbances if item.object is not None)
 
     @field_validator("instruction")
     @classmethod

@@ -14,7 +14,8 @@ import pytest
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import TrialResult, TrialStatus
 from etot_cli.cli.app import run
-from etot_cli.commands.bench import BenchOptions, compare, run_bench
+from etot_cli.commands.bench import BenchOptions, run_bench
+from etot_cli.commands.bench_compare import compare
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_report import BenchReport, CompareReport
 from etot_cli.reporting.bench_table import BenchSummary, significantly_worse
@@ -191,6 +192,29 @@ def test_what_got_significantly_worse_is_found(tmp_path: Path, task: Path) -> No
     assert not any(map(significantly_worse, compare(before, before).comparisons))
     assert run(["bench", "--compare", str(before), str(after)]) == 1
     assert run(["bench", "--compare", str(after), str(before)]) == 0
+
+
+@pytest.mark.parametrize(
+    ("flags", "told"),
+    [
+        (["--compare", "a", "b", "--trials", "3"], "--trials has no place beside --compare"),
+        (["--compare", "a", "b", "--no-html"], "--html has no place beside --compare"),
+        (["--compare", "a", "b", "TASK"], "TASKS has no place beside --compare"),
+        (["TASK", "--judge", "state", "--max-calls", "3"], "--judge, --max-calls: the builtin"),
+        (["TASK", "--out", ""], "found '', expected a folder"),
+        (["--resume", "FOLDER", "--force"], "--force has no place beside it"),
+        (["TASK", "--methods", "rekep, x"], "no method 'x'"),
+    ],
+)
+def test_flags_that_mean_nothing_are_refused(
+    tmp_path: Path, task: Path, flags: list[str], told: str,
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    names = {"TASK": str(task), "FOLDER": str(task.parent)}
+    assert run(["bench", *(names.get(word, word) for word in flags)]) == 2
+    assert told in capsys.readouterr().err
+    assert [item.name for item in tmp_path.iterdir()] == ["given"], "nothing is left behind"
 
 
 def test_reports_that_cannot_be_compared(tmp_path: Path, task: Path) -> None:

@@ -33,7 +33,7 @@ def cluster(shared: Path) -> Iterator[Engine]:
 def test_the_same_results_as_here(cluster: Engine, tmp_path: Path) -> None:
     """A worker that is killed in the middle of a trial costs nothing but that trial's time."""
     with Journal(tmp_path) as journal:
-        assert run_trials(toys.work(), toys.dies_once, cluster, journal, 2)
+        assert run_trials(toys.work(), toys.dies_once, cluster, journal, 2).status == "success"
         found = [journal.results[item.key] for item in toys.work()]
     assert found == [toys.result(item) for item in toys.work()]
 
@@ -44,7 +44,7 @@ def test_what_cannot_be_done_is_on_record(cluster: Engine, tmp_path: Path) -> No
         folder = tmp_path / perform.__name__
         folder.mkdir()
         with Journal(folder) as journal:
-            assert run_trials(toys.work(1, 1, 2), perform, cluster, journal, 2)
+            assert run_trials(toys.work(1, 1, 2), perform, cluster, journal, 2).status == "success"
             found = journal.results.values()
         told += [item.reason for item in found if item.status is TrialStatus.ERROR]
     assert "ended 2 times" in told[0] and "ValueError: no such thing" in told[1]

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from etot_cli.benchmark.running.engine import EngineName, open_engine
 from etot_cli.benchmark.running.journal import MAX_LINE_BYTES, NAME, Journal
 from etot_cli.benchmark.running.runner import Perform, RunObserver, run_trials
+from etot_cli.benchmark.running.stopping import ROUNDS, Ending
 from etot_cli.benchmark.trial import (
     ActionTaken,
     TrialKey,
@@ -43,6 +44,7 @@ RESULTS = st.builds(
     costs=st.dictionaries(WORDS, st.floats(0, 1e6), max_size=3),
     report=WORDS,
 )
+DONE = Ending("success")
 CHILD = """
 import sys
 from pathlib import Path
@@ -64,7 +66,7 @@ def run(
     engine = open_engine(EngineName.LOCAL, jobs, toys.begin, (str(folder),))
     try:
         with Journal(folder) as journal:
-            assert run_trials(work, perform, engine, journal, jobs, observer)
+            assert run_trials(work, perform, engine, journal, jobs, observer) == DONE
             return [journal.results[item.key] for item in work]
     finally:
         engine.close()
@@ -163,10 +165,51 @@ def test_interrupting_keeps_what_is_finished(tmp_path: Path) -> None:
 
     engine = open_engine(EngineName.LOCAL, 1, toys.begin, ())
     with Journal(tmp_path) as journal:
-        assert not run_trials(toys.work(), toys.perform, engine, journal, 1, Impatient())
+        ended = run_trials(toys.work(), toys.perform, engine, journal, 1, Impatient())
+        assert ended.status == "interrupted"
     engine.close()
     with Journal(tmp_path) as journal:
         assert len(journal.results) == 3
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_service_that_is_gone_is_not_asked_for_ever(tmp_path: Path, jobs: int) -> None:
+    work = toys.work(2, 1, 40)
+    engine = open_engine(EngineName.LOCAL, jobs, toys.begin, (str(tmp_path),))
+    with Journal(tmp_path) as journal:
+        ended = run_trials(work, toys.forsaken, engine, journal, jobs)
+        assert ended == Ending("lost", "server http://x: no answer")
+        errors = [one.key.method for one in journal.results.values() if not one.actions]
+        assert {*errors} == {"method1"}, "what does not ask that service went on"
+        assert ROUNDS * jobs < len(errors) <= (ROUNDS + 3) * jobs
+        assert len(journal.results) == 40 + len(errors)
+        assert run_trials(work, toys.perform, engine, journal, jobs) == DONE
+        assert all(one.actions for one in journal.results.values())
+    engine.close()
+
+
+def test_a_service_that_was_away_for_a_moment_costs_its_trials_alone(tmp_path: Path) -> None:
+    work = toys.work(1, 1, 12)
+    engine = open_engine(EngineName.LOCAL, 1, toys.begin, (str(tmp_path),))
+    with Journal(tmp_path) as journal:
+        assert run_trials(work, toys.forsaken_now_and_then, engine, journal, 1) == DONE
+        assert sum(one.status is TrialStatus.ERROR for one in journal.results.values()) == 8
+    engine.close()
+
+
+def test_no_trial_is_begun_beyond_the_budget_of_the_run(tmp_path: Path) -> None:
+    work = toys.work(1, 1, 30)
+    for _ in range(2):  # gone on with, nothing is left to spend
+        engine = open_engine(EngineName.LOCAL, 1, toys.begin, (str(tmp_path),))
+        with Journal(tmp_path) as journal:
+            ended = run_trials(work, toys.perform, engine, journal, 1, budget={"nodes": 10.0})
+            assert ended.status == "limit" and ended.reason.endswith(" of 10 nodes are spent")
+            assert 4 <= len(journal.results) <= 5, "one more was ready when the fourth ended"
+        engine.close()
+    engine = open_engine(EngineName.LOCAL, 1, toys.begin, (str(tmp_path),))
+    with Journal(tmp_path) as journal:
+        assert run_trials(work, toys.perform, engine, journal, 1, budget={"nodes": 1e3}) == DONE
+    engine.close()
 
 
 @pytest.mark.slow

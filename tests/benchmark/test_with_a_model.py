@@ -64,6 +64,31 @@ def test_what_a_model_costs_is_in_the_table(
         path.read_text(encoding="utf-8") for path in out.rglob("*") if path.is_file()
     )
     assert "sk-secret" not in everything + shown
+    again = ["bench", "--resume", str(out), "--reasoner", "vlm", "--vlm-url", server.url]
+    assert run([*again, "--judge", "state"]) == 2, "trials that another judge decided are others"
+    assert "thinking" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_server_that_is_not_there_ends_the_run_and_tells_no_secret(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    small = {"IMAGES": "0", "CACHE": "off", "RETRIES": "1", "BACKOFF_S": "0.01",
+             "HEADERS": '{"X-Team": "header-secret"}'}  # fmt: skip
+    for name, value in small.items():
+        monkeypatch.setenv(f"ETOT_VLM_{name}", value)
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-secret-1234567890")
+    url = "http://user:pass-secret@127.0.0.1:9/v1?token=query-secret-1"
+    words = ["bench", str(write(tmp_path, "one")), "--methods", "rekep,etot", "--html", "-v"]
+    assert run([*words, "--reasoner", "vlm", "--vlm-url", url, "--out", str(out)]) == 3
+    report = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    assert report["status"] == "lost" and "127.0.0.1:9" in report["reason"]
+    assert 3 <= len(report["trials"]) <= 5, "of twenty"
+    said = capsys.readouterr()
+    assert "--resume" in said.err
+    written = b"".join(path.read_bytes() for path in out.rglob("*") if path.is_file())
+    assert b"secret" not in written and "secret" not in said.out + said.err
 
 
 @pytest.mark.slow

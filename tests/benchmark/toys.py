@@ -10,6 +10,7 @@ from pathlib import Path
 
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import ActionTaken, TrialKey, TrialResult, TrialStatus
+from etot_cli.errors import ServiceError
 
 FOLDER: list[Path] = []
 """Set by :func:`begin`, in every worker."""
@@ -62,6 +63,20 @@ def noted(item: TrialWork) -> TrialResult:
 def defective(item: TrialWork) -> TrialResult:
     if item.key.number == 1:
         raise ValueError("no such thing")
+    return result(item)
+
+
+def forsaken(item: TrialWork) -> TrialResult:
+    """One method needs a server that is not there."""
+    if item.key.method == "method1":
+        raise ServiceError("server http://x: no answer")
+    return result(item)
+
+
+def forsaken_now_and_then(item: TrialWork) -> TrialResult:
+    """Two trials out of three, but never more in a row."""
+    if item.key.number % 3:
+        raise ServiceError("server http://x: no answer")
     return result(item)
 
 

@@ -13,7 +13,7 @@ import sys
 import time
 from pathlib import Path
 
-from etot_cli.commands.bench import load_report
+from etot_cli.commands.bench_compare import load_report
 from etot_cli.reporting.bench_report import AverageModel, BenchReport
 from tests.measure.markdown import replace_section, table
 

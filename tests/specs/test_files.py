@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli.benchmark.suite import digest
 from etot_cli.errors import SpecError
 from etot_cli.specs import files
 from etot_cli.specs.load import load_scene, load_task
@@ -117,11 +118,18 @@ def test_a_task_knows_its_files_by_their_content(folder: Path) -> None:
     write(folder, "arm.yaml", "x: 1")
     write(folder, "base.yaml", "robot: arm.yaml\n" + objects(duck=MESH.format("duck.obj")))
     write(folder, "scene.yaml", "include: base.yaml\nname: desk")
-    text = "instruction: x\nscene: ../scenes/scene.yaml\nsuccess: [{present: duck}]"
+    write(folder.parent / "mine", "late.obj", "v 0 0 0")
+    text = "instruction: x\nscene: ../scenes/scene.yaml\nsuccess: [{present: duck}]\n"
+    text += "disturbance: {add: late, object: " + MESH.format("late.obj") + "}"
     task = write(folder.parent / "mine", "t.yaml", text)
     before = load_task(task).inputs
     scenes = [f"../scenes/{name}" for name in ("arm.yaml", "base.yaml", "duck.obj", "scene.yaml")]
-    assert list(before) == [*scenes, "t.yaml"]
-    write(folder, "duck.obj", "v 0 0 1")
-    after = load_task(task).inputs
-    assert {name for name in before if before[name] != after[name]} == {"../scenes/duck.obj"}
+    assert list(before) == [*scenes, "late.obj", "t.yaml"]
+    known = digest(load_task(task))
+    for changed in ("../scenes/duck.obj", "../scenes/arm.yaml", "late.obj"):
+        write(task.parent, changed, "x: 2")
+        loaded = load_task(task)
+        after = loaded.inputs
+        assert {name for name in before if before[name] != after[name]} == {changed}
+        assert digest(loaded) != known, "a run with it is not gone on with without it"
+        before, known = after, digest(loaded)

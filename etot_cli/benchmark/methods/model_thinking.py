@@ -48,6 +48,7 @@ class ModelThinking:
         total = self._session.account().total
         return {
             "model_calls": float(total.requests + total.cached),
+            "model_requests": float(total.requests),
             "input_tokens": float(total.input_tokens),
             "output_tokens": float(total.output_tokens),
             "cost": total.cost or 0.0,

@@ -40,6 +40,8 @@ class Manifest(BaseModel):
     draws: Annotated[list[tuple[Seed, int]], Field(max_length=MAX_TRIALS)]
     reasoner: str
     model: str
+    thinking: dict[str, str] = Field(default_factory=dict)
+    """What the model's answers depend on besides; empty without a model."""
     video: bool
     etot: str
     mujoco: str

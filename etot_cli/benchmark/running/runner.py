@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from typing import Protocol
 
 from etot_cli.benchmark.running.engine import Engine
 from etot_cli.benchmark.running.journal import Journal
+from etot_cli.benchmark.running.stopping import Budget, Ending, Outage
 from etot_cli.benchmark.trial import TrialKey, TrialResult, TrialStatus
 
 AHEAD = 2
@@ -47,10 +48,12 @@ def run_trials(
     journal: Journal,
     jobs: int,
     observer: RunObserver | None = None,
-) -> bool:
+    budget: Mapping[str, float] | None = None,
+) -> Ending:
     """Runs what the journal does not have yet, and writes every result to it at once.
 
-    A trial that stands there as an error is tried anew: what it lacked may be there by now.
+    A trial that stands there as an error is tried anew: what it lacked may be there by now. Once a
+    service is gone for good, trials of the methods that lack it are no longer begun.
 
     Ctrl-C (KeyboardInterrupt) does not escape: finished trials are kept, running ones are dropped.
 
@@ -61,29 +64,41 @@ def run_trials(
         journal: what has been done already, and where results go.
         jobs: calls that the engine runs at the same time.
         observer: told of every trial.
-
-    Returns:
-        Whether all trials are done; False when interrupted.
+        budget: the most that all trials together may cost, by names of ``COSTS``; no trial is
+            begun beyond it.
     """
     waiting = deque(left_to_do(work, journal))
     done = len(work) - len(waiting)
     clock = _Clock(len(waiting))
     running: dict[Future[TrialResult], TrialWork] = {}
+    outage, account = Outage(jobs), Budget(budget or {})
+    for known in journal.results.values():
+        account.book(known)
     try:
         while waiting or running:
+            if account.spent:
+                waiting.clear()
             while waiting and len(running) < AHEAD * jobs:
                 item = waiting.popleft()
-                running[engine.submit(perform, item)] = item
+                if not outage.over(item.key.method):
+                    running[engine.submit(perform, item)] = item
             finished, _ = wait(running, LOOK_S, FIRST_COMPLETED)
             for future in finished:
-                result = _result(future, running.pop(future))
+                item = running.pop(future)
+                outage.note(item.key.method, future.exception())
+                result = _result(future, item)
                 journal.add(result)
+                account.book(result)
                 clock.count += 1
                 if observer is not None:
                     observer.trial_finished(result, done + clock.count, len(work), clock.left_s())
     except KeyboardInterrupt:
-        return False
-    return True
+        return Ending("interrupted", "stopped before all trials were done")
+    if outage.reason:
+        return Ending("lost", outage.reason)
+    if account.spent and left_to_do(work, journal):
+        return Ending("limit", account.spent)
+    return Ending("success")
 
 
 def left_to_do(work: Sequence[TrialWork], journal: Journal) -> list[TrialWork]:

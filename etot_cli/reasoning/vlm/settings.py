@@ -6,6 +6,7 @@ folders, nothing in it is expanded, and a key from outside it never goes to a UR
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 from pathlib import Path
@@ -27,6 +28,12 @@ PROOFS = frozenset({"key", "headers"})
 RESERVED_HEADERS = frozenset({"host", "content-length", "content-type", "transfer-encoding",
                               "connection", "accept-encoding"})  # fmt: skip
 """Headers that say where a request goes and how long it is; the client alone sets them."""
+
+DECIDING = (
+    "judge", "max_tokens", "temperature", "reasoning_effort", "repairs", "images", "image_width",
+    "image_format", "image_detail", "marks", "hints", "prompts",
+)  # fmt: skip
+"""Settings that answers and verdicts depend on; the rest is how they are fetched."""
 
 Judge = Literal["state", "vlm", "both"]
 Positive = Annotated[float, Field(gt=0, le=86_400)]
@@ -229,6 +236,13 @@ class VlmSettings(BaseSettings):
             # The pair too: in base64 it stands in the header that is made of it.
             found += [parts.password, password, f"{unquote(parts.username or '')}:{password}"]
         return tuple(found)
+
+    @property
+    def deciding(self) -> dict[str, str]:
+        """What answers and verdicts depend on besides the model, free of secrets."""
+        found = {name: str(getattr(self, name)) for name in DECIDING}
+        body = json.dumps(self.body, sort_keys=True)
+        return {**found, "body": hashlib.sha256(body.encode()).hexdigest()}
 
     def prices(self) -> tuple[float, float] | None:
         """US dollars per million input and output tokens; None when unknown."""

@@ -1,0 +1,71 @@
+"""``etot bench --compare``: two reports, method by method."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from etot_cli.benchmark.statistics.paired import paired
+from etot_cli.errors import EtotError, SpecError
+from etot_cli.reporting.bench_report import BenchReport, CompareReport, paired_models
+from etot_cli.specs.reading import read_utf8
+
+MAX_REPORT_BYTES = 256 * 1024 * 1024
+"""A report of ten thousand trials is a tenth of it."""
+
+
+def compare(first: Path, second: Path) -> CompareReport:
+    """Compares two reports, method by method, on the trials that both have.
+
+    Raises:
+        SpecError: a file is no benchmark's report.
+        EtotError: they have no trial of the same method in common.
+    """
+    one, two = load_report(first), load_report(second)
+    outcomes = [
+        {
+            (row.method, row.task, row.number, row.seed, digests.get(row.task)): row.status
+            == "success"
+            for row in report.trials
+        }
+        for report in (one, two)
+        for digests in [{task.name: task.digest for task in report.tasks}]
+    ]
+    common = outcomes[0].keys() & outcomes[1].keys()
+    found = []
+    for method in [model.name for model in one.methods]:
+        own = {key for key in common if key[0] == method}
+        if own:
+            before, after = ({key: given[key] for key in own} for given in outcomes)
+            pairs = paired(before, after)
+            found.append((method, method, pairs))
+    if not found:
+        raise EtotError(
+            f"{first} and {second} have no trial in common; expected runs of the same tasks with "
+            "the same methods and seeds"
+        )
+    left_out = len(outcomes[0].keys() ^ outcomes[1].keys())
+    return CompareReport(
+        first=str(first), second=str(second), comparisons=paired_models(found), left_out=left_out
+    )
+
+
+def load_report(path: Path) -> BenchReport:
+    """Reads a benchmark's report, from its file or its folder.
+
+    Raises:
+        SpecError: it is none.
+    """
+    file = path / "report.json" if path.is_dir() else path
+    text = read_utf8(file, MAX_REPORT_BYTES, "a report of etot bench")
+    try:
+        return BenchReport.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"])
+        raise SpecError(
+            f"is no report of etot bench: {first['msg']}; expected schema etot.bench/1",
+            file=str(file),
+            path=where,
+        ) from None
