@@ -39,9 +39,11 @@ def check_services(reasoner: str, vlm: Mapping[str, Any], video_url: str | None)
     if reasoner == "builtin":
         return ModelTerms()
     from etot_cli.reasoning.vlm.client import ChatClient
+    from etot_cli.reasoning.vlm.session import usable_prompts
     from etot_cli.reasoning.vlm.settings import VlmSettings
 
     settings = VlmSettings.load(**vlm)
+    usable_prompts(settings)
     ChatClient(settings).close()
     limits = {"model_requests": settings.max_calls, "cost": settings.max_cost}
     budget = {name: float(most) for name, most in limits.items() if most is not None}

@@ -100,6 +100,8 @@ def test_more_trials_than_a_report_can_hold(tmp_path: Path, task: Path) -> None:
     ("flags", "code", "told"),
     [
         (["--reasoner", "vlm"], 3, "there is no key"),
+        (["--reasoner", "vlm", "--vlm-url", "http://h", "--model", "own", "--max-cost", "1"], 2,
+         "needs the price of own"),
         (["--reasoner", "vlm", "--vlm-url", "ftp://u:hidden@h"], 2, "no http(s) URL"),
         (["--video-url", "ftp://u:hidden@h/?key=hidden", "--reasoner", "vlm", "--vlm-url",
           "http://127.0.0.1:9"], 2, "--video-url"),

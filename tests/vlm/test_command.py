@@ -80,7 +80,7 @@ def etot(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) ->
         for old in Path("out").glob("*"):
             old.unlink()
         with FakeServer(script if callable(script) else Player(script)) as server:
-            given = ["--vlm-url", url or server.url]
+            given = [] if "builtin" in arguments else ["--vlm-url", url or server.url]
             code = run(
                 ["plan", "toy.yaml", "--reasoner", "vlm", "--out", "out", *given, *arguments]
             )

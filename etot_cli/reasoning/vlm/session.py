@@ -47,12 +47,7 @@ class VlmSession:
         state: Reasoner | None,
         through: Callable[[RenderedFrames], FrameSource] | None = None,
     ) -> None:
-        if settings.max_cost is not None and settings.prices() is None:
-            raise EtotError(
-                f"--max-cost needs the price of {settings.model}: set ETOT_VLM_PRICE_INPUT and "
-                "ETOT_VLM_PRICE_OUTPUT, in US dollars per million tokens"
-            )
-        prompts = Prompts(settings.prompts)
+        prompts = usable_prompts(settings)
         self._settings = settings
         self._prompts = prompts.versions
         self._notes = Notebook()
@@ -123,6 +118,20 @@ class VlmSession:
         self._client.close()
         if self._frames is not None:
             self._frames.close()
+
+
+def usable_prompts(settings: VlmSettings) -> Prompts:
+    """The prompts, where all that a session needs besides a server is there.
+
+    Raises:
+        EtotError: a template cannot be used, or a cost is bounded that cannot be told.
+    """
+    if settings.max_cost is not None and settings.prices() is None:
+        raise EtotError(
+            f"--max-cost needs the price of {settings.model}: set ETOT_VLM_PRICE_INPUT and "
+            "ETOT_VLM_PRICE_OUTPUT, in US dollars per million tokens"
+        )
+    return Prompts(settings.prompts)
 
 
 def open_vlm(
