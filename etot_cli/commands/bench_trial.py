@@ -26,7 +26,6 @@ from etot_cli.execution.protocols import Planner
 from etot_cli.execution.records import Trial
 from etot_cli.execution.trial import run_trial
 from etot_cli.planning.options import Limits
-from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.files import report_text, write_atomically
 from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
 from etot_cli.reporting.trial_report import trial_report
@@ -130,7 +129,6 @@ class _Bench:
         self._models.append(imagined)
         twin = _twin(self._setup.seed, scene, recorded=self._setup.reasoner != "builtin")
         means = Means(
-            assignment=Assignment(self._task.instruction, self._task.goal),
             thinking=thinking,
             world=twin.twin,
             physics=twin,

@@ -19,7 +19,6 @@ from etot_cli.execution.planner import TreePlanners
 from etot_cli.execution.records import Trial
 from etot_cli.execution.trial import run_trial
 from etot_cli.planning.options import Limits
-from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.execute_report import (
     ExecuteOptionsModel,
     ExecuteReport,
@@ -168,9 +167,7 @@ class Runner:
 
     def __init__(self, options: ExecuteOptions, task: Task) -> None:
         self._options, self._task = options, task
-        self._planners = TreePlanners(
-            Assignment(task.instruction, task.goal), seed=options.seed, limits=options.limits
-        )
+        self._planners = TreePlanners(seed=options.seed, limits=options.limits)
 
     def run(self, number: int, observer: TrialObserver | None = None) -> Trial:
         """One trial; its result does not depend on those before it."""

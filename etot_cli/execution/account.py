@@ -102,7 +102,7 @@ class Account:
         if ended is Ended.CARRIED_OUT and evaluation is not None:
             status = "success" if evaluation.success else "failure"
             if status == "failure":
-                reason = _unfulfilled(evaluation)
+                reason = _unfulfilled(evaluation, self._taken_away())
         return Trial(
             seed=self._options.seed,
             number=self._options.number,
@@ -129,17 +129,24 @@ class Account:
         if ended is Ended.CARRIED_OUT and self.scene is not None:
             # Nothing looked wrong: either the eyes were deceived, or the plan was no good.
             believed = evaluate(self._task.success, self.scene, HarmWatch())
-            return FailureClass.PERCEPTION if believed.success else FailureClass.PLANNING
-        last = self.carried[-1] if self.carried else None
-        if last is not None and last.failure_class is not None:
-            return last.failure_class
+            if believed.success:
+                return FailureClass.PERCEPTION
+        else:
+            last = self.carried[-1] if self.carried else None
+            if last is not None and last.failure_class is not None:
+                return last.failure_class
         # Nobody's failure where somebody took something away; what was moved can be planned for.
-        scene = self.scene
-        gone = scene is not None and any(state.lost for state in scene.states.values())
-        return None if self.happened and gone else FailureClass.PLANNING
+        return None if self._taken_away() else FailureClass.PLANNING
+
+    def _taken_away(self) -> list[str]:
+        """What is gone, where somebody else did something."""
+        if self.scene is None or not self.happened:
+            return []
+        return [name for name, state in self.scene.states.items() if state.lost]
 
 
-def _unfulfilled(evaluation: Evaluation) -> str:
+def _unfulfilled(evaluation: Evaluation, taken_away: list[str]) -> str:
     if evaluation.harm:
         return "; ".join(evaluation.harm)
-    return "the plan was carried out, but the task's conditions do not hold"
+    without = f" without {' and '.join(taken_away)}" if taken_away else ""
+    return f"the plan was carried out{without}, but the task's conditions do not hold"

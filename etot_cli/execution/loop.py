@@ -84,8 +84,7 @@ class Loop:
         account = self._account
         account.begin(self._cell.robot.connect())
         self._look("before planning")
-        asked = Assignment(self._task.instruction, self._task.goal)
-        self._forbidden = forbidden_by(asked, self._believed.scene)
+        self._forbidden = forbidden_by(self._asked, self._believed.scene)
         status = self._plan("the task begins")
         while True:
             if status.status != FEASIBLE and self._may_look_again():
@@ -157,15 +156,23 @@ class Loop:
 
     # -- planning -----------------------------------------------------------------------------
 
+    @property
+    def _asked(self) -> Assignment:
+        """The words of the task, which speak of what was seen first, and what was seen since."""
+        seen = [look.scene for look in self._account.looks[:-1] if look.scene is not None]
+        return Assignment(self._task.instruction, self._task.goal, tuple(seen))
+
     def _plan(self, reason: str) -> Planned:
         believed = self._believed
         with self._account.timed("planning") as spent:
             try:
-                planned = self._planner.plan(believed.snapshot, believed.scene, tuple(self._done))
+                planned = self._planner.plan(
+                    self._asked, believed.snapshot, believed.scene, tuple(self._done)
+                )
             except InstructionError as error:
                 if not self._account.plans:
                     raise
-                # What it speaks of is no longer there to be understood.
+                # What it speaks of is no longer there.
                 planned = Planned((), (), "infeasible", str(error))
         self._left = list(zip(planned.actions, planned.motions, strict=True))
         made = PlanMade(

@@ -30,26 +30,26 @@ class TreePlanner:
     """Implements :class:`etot_cli.execution.protocols.Planner`.
 
     Args:
-        assignment: what is asked for.
         scene: what the twin is built from; the twin is built when it is first needed.
         seed: of the motions' random choices.
         limits: of each search.
     """
 
-    assignment: Assignment
     scene: Scene
     seed: int = 0
     limits: Limits = field(default_factory=Limits)
     _simulator: ActionSimulator | None = None
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
-        """Searches for a plan from the believed state; nothing is assumed about what was done."""
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
+        """Searches for a plan from the believed state."""
         if self._simulator is None:
             self._simulator = open_simulator(
                 self.scene, seed=self.seed, jobs=1, worlds=1, record=False
             )
         self._simulator.begin_from(start, scene)
-        result = search(self.assignment, self._simulator, BuiltinReasoner(), limits=self.limits)
+        result = search(asked, self._simulator, BuiltinReasoner(), limits=self.limits)
         if result.status is SearchStatus.INTERRUPTED:
             raise KeyboardInterrupt
         path = () if result.leaf is None else result.leaf.path
@@ -91,15 +91,12 @@ class TreePlanners:
     """Makes tree planners for scenes, and keeps them: a twin is built once.
 
     Args:
-        assignment: what is asked for.
         seed: of the motions' random choices.
         limits: of each search.
     """
 
-    def __init__(
-        self, assignment: Assignment, *, seed: int = 0, limits: Limits | None = None
-    ) -> None:
-        self._assignment, self._seed, self._limits = assignment, seed, limits or Limits()
+    def __init__(self, *, seed: int = 0, limits: Limits | None = None) -> None:
+        self._seed, self._limits = seed, limits or Limits()
         self._made: list[TreePlanner] = []
 
     def __call__(self, scene: Scene) -> TreePlanner:
@@ -107,7 +104,7 @@ class TreePlanners:
         known = next((planner for planner in self._made if planner.scene == scene), None)
         if known is not None:
             return known
-        made = TreePlanner(self._assignment, scene, seed=self._seed, limits=self._limits)
+        made = TreePlanner(scene, seed=self._seed, limits=self._limits)
         self._made.append(made)
         for old in self._made[:-KEPT]:
             old.close()

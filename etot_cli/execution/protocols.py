@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from etot_cli.control.robot import Robot
 from etot_cli.execution.observation import Observation
+from etot_cli.reasoning.protocol import Assignment
 from etot_cli.skills.action import Action
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.world.snapshot import Snapshot
@@ -117,10 +118,13 @@ class Planned:
 class Planner(Protocol):
     """Plans from what is believed; everything else about a trial is the same for all planners."""
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
-        """Plans towards the trial's instruction.
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
+        """Plans towards what is asked for.
 
         Args:
+            asked: with what has been seen since it was given.
             start: the believed state of the planner's twin.
             scene: the same state as relations see it.
             done: the actions carried out so far in this trial, failed ones too.

@@ -20,10 +20,21 @@ from etot_cli.world.state import Cause, RolloutRecord, SceneState
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """What the planner is asked to do. ``goal``, when given, replaces the instruction."""
+    """What the planner is asked to do. ``goal``, when given, replaces the instruction.
+
+    ``past``: what has been seen since it was given, the first look first and without the scene at
+    hand; empty where it is planned for the first time. Words speak of the first look, whatever has
+    become of it: "the cup in the drawer" stays the same cup once it is in the hand, and what was
+    reached and has been left behind since is not to be done again.
+    """
 
     instruction: str
     goal: tuple[Condition, ...] | None = None
+    past: tuple[SceneState, ...] = ()
+
+    def given_in(self, scene: SceneState) -> SceneState:
+        """The scene that its words speak of, when a scene is at hand."""
+        return self.past[0] if self.past else scene
 
 
 @dataclass(frozen=True, slots=True)

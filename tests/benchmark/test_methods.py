@@ -40,6 +40,7 @@ TEXTS = st.lists(
     ),
     min_size=1, max_size=8,
 )  # fmt: skip
+ASKED = Assignment("Whatever.")
 NOWHERE = Snapshot(b"", Memory())
 
 
@@ -159,11 +160,13 @@ def test_what_is_wider_than_the_gripper_is_seen(tmp_path: Path) -> None:
 
 
 def test_a_plan_of_one_shot_and_a_recovery() -> None:
-    first = OneShotPlanner(lambda start, seen: Branch(parse_plan("[PICK UP, cup]")))
-    oracle = OneShotPlanner(lambda start, seen: Branch(parse_plan("[OPEN, box]")))
+    first = OneShotPlanner(lambda asked, start, seen: Branch(parse_plan("[PICK UP, cup]")))
+    oracle = OneShotPlanner(lambda asked, start, seen: Branch(parse_plan("[OPEN, box]")))
     planner = RecoveringPlanner(first, oracle)
-    begun = planner.plan(NOWHERE, scene(), ())
+    begun = planner.plan(ASKED, NOWHERE, scene(), ())
     assert format_plan(begun.actions) == "[PICK UP, cup]" and begun.motions == (None,)
-    assert format_plan(planner.plan(NOWHERE, scene(), begun.actions).actions) == "[OPEN, box]"
-    none = OneShotPlanner(lambda start, seen: None).plan(NOWHERE, scene(), ())
+    assert (
+        format_plan(planner.plan(ASKED, NOWHERE, scene(), begun.actions).actions) == "[OPEN, box]"
+    )
+    none = OneShotPlanner(lambda asked, start, seen: None).plan(ASKED, NOWHERE, scene(), ())
     assert none.status == "infeasible" and none.reason == "no plan was proposed"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from etot_cli.execution.protocols import Planned
+from etot_cli.reasoning.protocol import Assignment
 from etot_cli.skills.action import Action, parse_plan
 from etot_cli.specs.load import load_task
 from etot_cli.specs.scene import Scene
@@ -46,7 +47,9 @@ class Scripted:
         self.scenes.append(scene)
         return self
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
         """The next one."""
         self.asked.append((scene, tuple(done)))
         if len(self.asked) > len(self.plans):

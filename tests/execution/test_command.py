@@ -70,6 +70,24 @@ def test_trials_side_by_side_say_what_they_do_and_give_the_same(
     assert first != second  # another world each
 
 
+def test_words_keep_their_meaning_when_things_are_moved(tmp_path: Path) -> None:
+    """The left ball is brought to the right of the other one before the robot has begun."""
+    file = tmp_path / "balls.yaml"
+    file.write_text(
+        PICK.replace("the ball", "the left ball")
+        .replace(
+            "cup: {kind: cup, diameter: 0.095, height: 0.06,",
+            "other: {kind: sphere, diameter: 0.05,",
+        )
+        .replace("at: [0.38, -0.15]", "label: ball, at: [0.38, 0.0]")
+        + "disturbance: {when: planned, move: ball, by: [0.0, -0.26]}\n"
+    )
+    assert run(["execute", str(file), "--no-html", "-q", "--out", str(tmp_path / "out")]) == 0
+    (trial,) = checked(tmp_path / "out")["trials"]
+    assert trial["replans"] == 1 and "from where it was" in trial["plans"][1]["reason"]
+    assert [action["action"] for action in trial["actions"]] == ["[PICK UP, ball]"]
+
+
 def test_nothing_can_be_done(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     task = write(tmp_path, REMOVED)
     assert run(["execute", task, "--html", "--out", str(tmp_path / "out")]) == 1

@@ -20,7 +20,6 @@ from etot_cli.execution.records import FailureClass, Trial
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
 from etot_cli.execution.trial import run_trial
-from etot_cli.reasoning.protocol import Assignment
 from etot_cli.specs.task import Task
 from tests.execution.scripted import IN_TWO, Scripted, small_task
 
@@ -227,9 +226,8 @@ def test_the_world_and_the_twin_share_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_trials_do_not_depend_on_those_before_them(tmp_path: Path) -> None:
-    task = small_task(tmp_path)
-    pick = Assignment("Pick up the ball.")
-    planners = TreePlanners(pick)
+    task = small_task(tmp_path).model_copy(update={"instruction": "Pick up the ball."})
+    planners = TreePlanners()
     first = run_trial(task, planners, TrialOptions(number=1))
     run_trial(task, planners, TrialOptions(number=2))
     again = run_trial(task, planners, TrialOptions(number=1))
@@ -237,7 +235,7 @@ def test_trials_do_not_depend_on_those_before_them(tmp_path: Path) -> None:
     assert first.failure_class is FailureClass.PLANNING
     assert first.looks[-1].observation.objects == again.looks[-1].observation.objects
     assert first.robot_s == again.robot_s
-    other = run_trial(task, TreePlanners(pick), TrialOptions(number=2))
+    other = run_trial(task, TreePlanners(), TrialOptions(number=2))
     assert other.looks[0].observation.objects != first.looks[0].observation.objects
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -305,6 +306,27 @@ class Marked:
 
     def marks(self, scene: SceneState) -> dict[int, str]:
         return {1: "red_cup", 2: "red_cup"}
+
+
+def test_words_speak_of_the_arrangement_in_which_they_were_said(make_settings: Make) -> None:
+    later = scene_without("spoon", SCENE)
+    rules = [SCENE_RULE, rule("branches", '{"branches": [["[PICK UP, ball]"]]}')]
+    with model(make_settings, rules) as (reasoner, server, _):
+        reasoner.propose(ASSIGNMENT, SCENE)
+        first = [request.text for request in server.requests]
+        reasoner.propose(replace(ASSIGNMENT, past=(SCENE,)), later)
+        again = [request.text for request in server.requests[len(first) :]]
+    told = ("That was said before the robot began", "then understood as: The spoon has to end in")
+    for text in first:
+        assert not any(words in text for words in told)
+    assert all(told[0] in text and told[1] in text for text in again)
+    spoon = re.search(r"arrangement .*?\n- spoon: (.*?)\n", again[0], re.DOTALL)
+    assert spoon is not None and "lost" not in spoon[1]
+
+
+def scene_without(name: str, scene: SceneState) -> SceneState:
+    gone = replace(scene.states[name], lost=True, on=(), inside=None)
+    return replace(scene, states={**scene.states, name: gone})
 
 
 Planner = Callable[..., Branch | None]

@@ -17,7 +17,6 @@ from etot_cli.benchmark.methods.thinking import Thinking
 from etot_cli.errors import EtotError
 from etot_cli.execution.protocols import Planner
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.reasoning.protocol import Assignment
 from etot_cli.world.model import World
 
 
@@ -29,7 +28,6 @@ class Means:
     ``imagined``: a world model without contact dynamics.
     """
 
-    assignment: Assignment
     thinking: Thinking
     world: World
     physics: WorldModel
@@ -55,23 +53,21 @@ class Method:
 
 def _search(*without: Ablation) -> Callable[[Means], Planner]:
     def make(means: Means) -> Planner:
-        return SearchPlanner(
-            means.assignment, means.physics, means.thinking, means.limits, frozenset(without)
-        )
+        return SearchPlanner(means.physics, means.thinking, means.limits, frozenset(without))
 
     return make
 
 
 def _imagined(means: Means) -> Planner:
-    return SearchPlanner(means.assignment, means.imagined, means.thinking, means.limits)
+    return SearchPlanner(means.imagined, means.thinking, means.limits)
 
 
 def _at_once(means: Means) -> Planner:
-    return at_once(means.assignment, means.thinking)
+    return at_once(means.thinking)
 
 
 def _by_steps(means: Means) -> Planner:
-    return by_steps(means.assignment, means.thinking, means.world)
+    return by_steps(means.thinking, means.world)
 
 
 def _reflect(means: Means) -> Planner:

@@ -40,24 +40,24 @@ class SearchPlanner:
     """Implements :class:`etot_cli.execution.protocols.Planner` by the tree search.
 
     Args:
-        assignment: what is asked for.
         model: what actions are tried in.
         thinking: who proposes, judges and reflects.
         limits: of each search.
         without: mechanisms that the searches go without.
     """
 
-    assignment: Assignment
     model: WorldModel
     thinking: Thinking
     limits: Limits
     without: frozenset[Ablation] = frozenset()
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
-        """Searches from the believed state; nothing is assumed about what was done."""
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
+        """Searches from the believed state."""
         self.model.begin_from(start, scene)
         result = search(
-            self.assignment,
+            asked,
             self.thinking.watch(self.model),
             self.thinking.reasoner,
             limits=self.limits,
@@ -76,18 +76,20 @@ class OneShotPlanner:
     """Implements the same protocol with one plan that nothing has been tried for.
 
     Args:
-        choose: the plan for a believed state; None where there is none.
+        choose: the plan for what is asked for and a believed state; None where there is none.
     """
 
-    choose: Callable[[Snapshot, SceneState], Branch | None]
+    choose: Callable[[Assignment, Snapshot, SceneState], Branch | None]
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
         """The plan for what is believed now."""
         begun = time.monotonic()
         reason: str | None = None
         branch: Branch | None = None
         try:
-            branch = self.choose(start, scene)
+            branch = self.choose(asked, start, scene)
         except (InstructionError, ReasonerStopped) as error:
             if isinstance(error, ReasonerStopped) and error.reason is StopReason.SERVICE:
                 raise ServiceError(str(error)) from None
@@ -112,27 +114,28 @@ class RecoveringPlanner:
     first: Planner
     oracle: Planner
 
-    def plan(self, start: Snapshot, scene: SceneState, done: Sequence[Action]) -> Planned:
+    def plan(
+        self, asked: Assignment, start: Snapshot, scene: SceneState, done: Sequence[Action]
+    ) -> Planned:
         """The first plan, or a recovery once something has been done."""
-        return (self.oracle if done else self.first).plan(start, scene, done)
+        return (self.oracle if done else self.first).plan(asked, start, scene, done)
 
 
-def at_once(assignment: Assignment, thinking: Thinking) -> OneShotPlanner:
+def at_once(thinking: Thinking) -> OneShotPlanner:
     """One plan from the scene alone."""
-    return OneShotPlanner(lambda start, scene: thinking.at_once(assignment, scene))
+    return OneShotPlanner(lambda asked, start, scene: thinking.at_once(asked, scene))
 
 
-def by_steps(assignment: Assignment, thinking: Thinking, world: World) -> OneShotPlanner:
+def by_steps(thinking: Thinking, world: World) -> OneShotPlanner:
     """One plan after thinking about dependencies and hazards in the scene as it stands.
 
     Args:
-        assignment: what is asked for.
         thinking: who thinks.
         world: the twin, of which the geometry is read.
     """
 
-    def choose(start: Snapshot, scene: SceneState) -> Branch | None:
-        return thinking.by_steps(assignment, scene, StaticScene(world, start, scene))
+    def choose(asked: Assignment, start: Snapshot, scene: SceneState) -> Branch | None:
+        return thinking.by_steps(asked, scene, StaticScene(world, start, scene))
 
     return OneShotPlanner(choose)
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import reached
-from etot_cli.reasoning.builtin.conditions import goals_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Step
+from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
 from etot_cli.world.state import SceneState
 
@@ -17,28 +17,23 @@ Doubts = Callable[[SceneState], str]
 
 
 def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
-    """The check for an assignment, read in the scene where its plan starts.
+    """The check for an assignment and a plan that starts in a scene.
 
     An instruction beyond the language that is read here leaves nothing to check with.
     """
     try:
-        if assignment.goal is not None:
-            goals = goals_of(assignment.goal, start)
-        else:
-            # The grammar needs the parser, which only this check should pay for.
-            from etot_cli.reasoning.language.instructions import goal_of
-
-            goals = (goal_of(assignment.instruction, start),)
+        goals = goals_for(assignment, start)
     except InstructionError:
         return lambda scene: ""
     lasting = [replace(goal, steps=_lasting(goal.steps)) for goal in goals]
+    given = assignment.given_in(start)
     # Where to is not said of what is only to be taken away: anywhere else will do.
     removed = _removed(goals[0]) if len(goals) == 1 else ()
     asked = "the goal" if assignment.goal is not None else f"{assignment.instruction!r}"
 
     def doubt(scene: SceneState) -> str:
         missing = _missing(lasting, scene)
-        left = [name for name in removed if _place(scene, name) == _place(start, name)]
+        left = [name for name in removed if _place(scene, name) == _place(given, name)]
         if left:
             missing = f"to take {' and '.join(left)} away"
         return f"{asked} does not hold then: still to do is {missing}" if missing else ""

@@ -26,23 +26,27 @@ from etot_cli.reasoning.builtin.goal import (
     in_final_order,
 )
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
+from etot_cli.reasoning.builtin.resuming import Course, what_is_left
 from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
 from etot_cli.reasoning.protocol import Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action, GraspPose
-from etot_cli.world.state import STAYS_OPEN_AT, SceneState
+from etot_cli.world.state import STAYS_OPEN_AT, PartInfo, SceneState
 
 MAX_CHOICES = 4096
 """Ways of resolving a goal that are looked at: half a second's work, and more branches than could
 ever be simulated."""
 
 
-def branches_of(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch]:
+def branches_of(
+    goals: Sequence[Goal], scene: SceneState, past: Sequence[SceneState] = ()
+) -> Iterator[Branch]:
     """All branches that lead to any of the alternative goals, in the instruction's own order.
 
     Args:
         goals: alternatives, the preferred one first.
         scene: the state in which the branches start.
+        past: what was seen since the goals were understood, the first look first.
 
     Yields:
         Well-formed branches without duplicates, worked out one at a time; none when a goal
@@ -52,11 +56,15 @@ def branches_of(goals: Sequence[Goal], scene: SceneState) -> Iterator[Branch]:
         InstructionError: no well-formed plan can do what is asked for.
         ReasonerStopped: more choices are left than are looked at.
     """
-    if any(found is not None and not found.branch.actions for found in _looked_at(goals, scene)):
+    if past:
+        goals = what_is_left(goals, scene)
+    course = Course(past, scene)
+    looked_at = islice(_candidates(goals, scene, course), MAX_CHOICES)
+    if any(found is not None and not found.branch.actions for found in looked_at):
         return
     seen: set[tuple[Action, ...]] = set()
     objection = "nothing fits what was asked for"
-    for count, candidate in enumerate(_candidates(goals, scene)):
+    for count, candidate in enumerate(_candidates(goals, scene, course)):
         if count == MAX_CHOICES:
             raise ReasonerStopped(
                 StopReason.MAX_CHOICES,
@@ -98,26 +106,25 @@ def reached(goals: Sequence[Goal], scene: SceneState) -> Branch | None:
     Raises:
         InstructionError: the goals cannot be worked out in this scene.
     """
-    branches = [found.branch for found in _looked_at(goals, scene) if found is not None]
+    candidates = islice(_candidates(goals, scene, Course((), scene)), MAX_CHOICES)
+    branches = [found.branch for found in candidates if found is not None]
     return min(branches, key=lambda branch: len(branch.actions), default=None)
 
 
-def _looked_at(goals: Sequence[Goal], scene: SceneState) -> Iterator[_Candidate | None]:
-    return islice(_candidates(goals, scene), MAX_CHOICES)
-
-
-def _candidates(goals: Sequence[Goal], scene: SceneState) -> Iterator[_Candidate | None]:
+def _candidates(
+    goals: Sequence[Goal], scene: SceneState, course: Course
+) -> Iterator[_Candidate | None]:
     """One branch per choice; None where a choice makes no sense."""
     for goal in goals:
         ordered = replace(goal, steps=in_final_order(goal.steps))
         poses = [step.poses if isinstance(step, Pick | Put) else (None,) for step in ordered.steps]
-        for choice in choices(ordered, scene):
+        for choice in choices(ordered, scene, course.first):
             if choice is None:
                 yield None
                 continue
             for selected in product(*poses):
-                left_open = _left_open(ordered.steps, choice, scene)
-                branch = _branch(ordered.steps, choice, selected, scene, left_open)
+                left_open = _left_open(ordered.steps, choice, course.first)
+                branch = _branch(ordered.steps, choice, selected, scene, left_open, course)
                 yield _Candidate(branch, left_open, goal.constraints)
 
 
@@ -127,36 +134,67 @@ def _branch(
     poses: Sequence[GraspPose | None],
     scene: SceneState,
     left_open: tuple[str, ...],
+    course: Course,
 ) -> Branch:
-    """The actions of one way of resolving a goal."""
+    """The actions of one way of resolving a goal, as far as they are still to be done."""
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
     puts = _in_order(steps, choice, poses)
+    behind = course.behind(steps, choice)
+    lasting = {put.name: place for place, row in choice.placements.items() for put in row}
+    to_shut: dict[str, PartInfo] = {}
     for index, (step, pose) in enumerate(zip(steps, poses, strict=True)):
         if isinstance(step, Pick):
+            _shut(sketch, to_shut, in_hand)
             name = choice.object(step.what)
             sketch.pick_up(name, pose)
             words.append(f"take {name}" + (f" ({pose.value})" if pose else ""))
         elif isinstance(step, Put):
-            for placement, grasp in islice(puts, len(choice.placements[index])):
+            for place, placement, grasp in islice(puts, len(choice.placements[index])):
                 name, relation, target, where = placement
-                if step.aside:
-                    sketch.take_away(name, PUT_DOWN)
+                if (place, name) in behind:
                     continue
+                if step.aside:
+                    if _in_the_way(name, choice, sketch):
+                        sketch.take_away(name, PUT_DOWN)
+                    continue
+                if lasting[name] == place:
+                    shut = course.to_shut(placement)
+                    to_shut |= {p.address: p for p in shut if p.address not in left_open}
                 sketch.put(name, relation, target, grasp, where, left_open)
                 joint = "into" if relation is Relation.INSIDE else "on"
                 words.append(" ".join([name, joint, target, *map(str, where)]))
         elif isinstance(step, Open):
             for part in choice.parts(step, scene):
-                if not _opened_anyway(part.address, index, choice):
+                passed = (index, part.address) in behind
+                if not passed and not _opened_anyway(part.address, index, choice):
                     sketch.open(part)
                     words.append(f"open {part.address}")
         else:
             for part in choice.parts(step, scene):
-                sketch.close(part, in_hand)
-                words.append(f"close {part.address}")
+                if (index, part.address) not in behind:
+                    sketch.close(part, in_hand)
+                    words.append(f"close {part.address}")
+    _shut(sketch, to_shut, in_hand)
+    if not in_hand and course.fetched(scene.holding):
+        sketch.put_down()
     return Branch(tuple(sketch.actions), ", ".join(dict.fromkeys(words)))
+
+
+def _in_the_way(name: str, choice: Choice, sketch: Sketch) -> bool:
+    """Whether a thing stands where something else is to go."""
+    return any(
+        other != name and sketch.holds(name, relation, target, where)
+        for placements in choice.placements.values()
+        for other, relation, target, where in placements
+    )
+
+
+def _shut(sketch: Sketch, parts: dict[str, PartInfo], in_hand: Sequence[str]) -> None:
+    """Ends the insertions that a plan before this one has left unfinished."""
+    while parts:
+        sketch.close(parts.popitem()[1], in_hand)
 
 
 def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tuple[str, ...]:
@@ -174,18 +212,18 @@ def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tupl
 
 def _in_order(
     steps: Sequence[Step], choice: Choice, poses: Sequence[GraspPose | None]
-) -> Iterator[tuple[Placement, GraspPose | None]]:
-    """All placements of a choice, each with its grasp; of those that no word puts in an order
-    supports come before what stands on them.
+) -> Iterator[tuple[int, Placement, GraspPose | None]]:
+    """All placements of a choice, each with its step's place and its grasp; of those
+    that no word puts in an order supports come before what stands on them.
     """
-    runs: dict[int, list[tuple[Placement, GraspPose | None]]] = {}
+    runs: dict[int, list[tuple[int, Placement, GraspPose | None]]] = {}
     for index, placements in choice.placements.items():
         step = steps[index]
         assert isinstance(step, Put)  # only these have placements
         run = runs.setdefault(step.run, [])
-        run += [(placement, poses[index]) for placement in placements]
+        run += [(index, placement, poses[index]) for placement in placements]
     for given in runs.values():
-        yield from (given[index] for index in supports_first([item for item, _ in given]))
+        yield from (given[index] for index in supports_first([item for _, item, _ in given]))
 
 
 def _opened_anyway(address: str, index: int, choice: Choice) -> bool:

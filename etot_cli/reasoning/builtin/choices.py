@@ -54,20 +54,25 @@ class Choice:
         return tuple(found.values())
 
 
-def choices(goal: Goal, scene: SceneState) -> Iterator[Choice | None]:
+def choices(goal: Goal, scene: SceneState, first: SceneState) -> Iterator[Choice | None]:
     """All ways of resolving a goal; what comes first in the instruction varies slowest.
+
+    Args:
+        goal: what is asked for.
+        scene: where things are.
+        first: the scene that its words speak of.
 
     Yields:
         A way; None for a combination that makes no sense, so that looking at them can be bounded.
     """
-    referents = [_with_parts(goal, index, scene) for index in range(len(goal.referents))]
+    referents = [_with_parts(goal, index, first) for index in range(len(goal.referents))]
     puts = {index: step for index, step in enumerate(goal.steps) if isinstance(step, Put)}
     for things in product(*(referent.options for referent in referents)):
         if not _distinct(referents, things):
             yield None
             continue
         for placed in _combined(list(puts.values()), things, scene):
-            resting = None if placed is None else _resting(placed, scene)
+            resting = None if placed is None else _resting(placed, scene, first)
             if resting is None or not _consistent(resting):
                 yield None
             else:
@@ -203,7 +208,7 @@ def _whereabouts(
 
 
 def _resting(
-    placed: tuple[tuple[Placement, ...], ...], scene: SceneState
+    placed: tuple[tuple[Placement, ...], ...], scene: SceneState, first: SceneState
 ) -> tuple[tuple[Placement, ...], ...] | None:
     """The placements with the surface named that a landmark stands on by then; None where an
     object would be beside itself or its landmark stands on nothing.
@@ -211,6 +216,8 @@ def _resting(
     surfaces: dict[str, str | None] = {
         name: (state.on[0] if state.on and state.inside is None else None)
         for name, state in scene.states.items()
+        # What is in the hand has not been moved for its own sake yet.
+        for state in [first.states.get(name, state) if state.in_hand else state]
     }
     # What is fixed touches nothing that it stands on.
     fixed = (name for name, info in scene.infos.items() if not info.movable)

@@ -8,11 +8,11 @@ from dataclasses import replace
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
-from etot_cli.reasoning.builtin.conditions import goals_of
 from etot_cli.reasoning.builtin.constraints import broken_constraint, cause_of_breach
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
+from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.protocol import (
     Assignment,
@@ -43,8 +43,8 @@ class BuiltinReasoner:
             InstructionError: the assignment cannot be understood against this scene.
             ReasonerStopped: there are more choices than are looked at; raised behind the last one.
         """
-        self._goals = _goals(assignment, scene)
-        return branches_of(self._goals, scene)
+        self._goals = goals_for(assignment, scene)
+        return branches_of(self._goals, scene, assignment.past)
 
     @property
     def understanding(self) -> Understanding:
@@ -87,18 +87,9 @@ def forbidden_by(assignment: Assignment, scene: SceneState) -> tuple[Constraint,
         scene: the scene that its words speak of.
     """
     try:
-        return _constraints(_goals(assignment, scene))
+        return _constraints(goals_for(assignment, scene))
     except InstructionError:
         return ()
-
-
-def _goals(assignment: Assignment, scene: SceneState) -> tuple[Goal, ...]:
-    if assignment.goal is not None:
-        return goals_of(assignment.goal, scene)
-    # The grammar needs the parser, which only those who read should pay for.
-    from etot_cli.reasoning.language.instructions import goal_of
-
-    return (goal_of(assignment.instruction, scene),)
 
 
 def _constraints(goals: Iterable[Goal]) -> tuple[Constraint, ...]:

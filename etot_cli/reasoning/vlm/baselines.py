@@ -14,11 +14,11 @@ from etot_cli.reasoning.vlm.asking import Asker, Reading
 from etot_cli.reasoning.vlm.chat import Picture
 from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.grounding import ground
+from etot_cli.reasoning.vlm.instruction import as_given, instruction_of
 from etot_cli.reasoning.vlm.reading.names import Names
 from etot_cli.reasoning.vlm.reading.plans import ReadPlan, read_revision
 from etot_cli.reasoning.vlm.reading.states import read_scene
 from etot_cli.reasoning.vlm.reading.steps import read_pose
-from etot_cli.reasoning.vlm.reasoner import instruction_of
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.world.state import SceneState
 
@@ -66,10 +66,9 @@ class _Planner:
             marks = dict(frames.marks(scene))
             self._pictures = list(frames.view(scene, marks=True))
         self._names = Names.of_scene(scene, marks)
-        instruction = instruction_of(assignment)
-        self._poses = label_poses(instruction)
+        self._poses = label_poses(instruction_of(assignment))
         self._values = {
-            "instruction": instruction,
+            "instruction": as_given(assignment),
             "objects": describe.object_list(scene),
             "marks": describe.marks_line(marks),
         }

@@ -39,7 +39,7 @@ def object_list(scene: SceneState) -> str:
 
 def catalogue(scene: SceneState) -> str:
     """One line per object: name, what people call it, colour, size, position, what it affords."""
-    lines = [f"- {_entry(info, scene.states[info.name])}" for info in scene.infos.values()]
+    lines = [f"- {entry(info, scene.states[info.name])}" for info in scene.infos.values()]
     left, right, near, far = (f"{bound * 100:.0f}" for bound in scene.desk_bounds)
     top = f"{scene.desk_top * 100:.0f}"
     return "\n".join(
@@ -48,7 +48,8 @@ def catalogue(scene: SceneState) -> str:
     )  # fmt: skip
 
 
-def _entry(info: ObjectInfo, state: ObjectState) -> str:
+def entry(info: ObjectInfo, state: ObjectState) -> str:
+    """One object's line of the catalogue."""
     facts = []
     plain = info.name.replace("_", " ").lower()
     label = _one_line(info.label)

@@ -24,6 +24,7 @@ from etot_cli.reasoning.vlm.asking import Asker, Reading
 from etot_cli.reasoning.vlm.comparing import settle, verdict_of
 from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.grounding import ground
+from etot_cli.reasoning.vlm.instruction import as_given, instruction_of
 from etot_cli.reasoning.vlm.notes import NoteKind
 from etot_cli.reasoning.vlm.probe import check_sight
 from etot_cli.reasoning.vlm.reading.names import Names
@@ -34,7 +35,6 @@ from etot_cli.reasoning.vlm.reflecting import Reflection
 from etot_cli.reasoning.vlm.settings import Judge
 from etot_cli.reasoning.vlm.sight import Seen, Sight
 from etot_cli.skills.action import Action
-from etot_cli.specs.wording import describe as describe_condition
 from etot_cli.world.state import RolloutRecord, SceneState
 
 MAX_BRANCHES = 16
@@ -78,6 +78,7 @@ class VlmReasoner:
         self._sight = Sight(frames, count=asker.pictures, marks=marks, hints=hints)
         self._probe = probe and not self._sight.blind
         self._instruction = ""
+        self._understood = ""
         self._reflection = Reflection(asker, self._sight, hints=hints)
 
     # -- priori branching ----------------------------------------------------------------------
@@ -88,7 +89,7 @@ class VlmReasoner:
         Raises:
             ReasonerStopped: no usable branch came, a limit was reached, or the service is gone.
         """
-        self._instruction = instruction_of(assignment)
+        self._instruction = as_given(assignment, self._understood)
         if self._probe:
             check_sight(self._asker)
             self._probe = False
@@ -105,13 +106,18 @@ class VlmReasoner:
             return Reading(seen.understanding or None)
 
         understanding = self._asker.ask("scene", values, desk.pictures, schemas.SCENE, read_parse)
+        if not assignment.past:
+            self._understood = understanding or ""
         values["understanding"] = understanding or "(nothing was said)"
         doubt = doubts_of(assignment, scene)(scene)
         proposals = _Proposals(scene, names, doubt)
         self._asker.ask("branches", values, desk.pictures, schemas.BRANCHES, proposals.read,
                         objects=values["objects"])  # fmt: skip
         if proposals.branches:
-            return self._without_idle_poses(list(proposals.branches.values()))[:MAX_BRANCHES]
+            branches = list(proposals.branches.values())
+            if not names_pose(instruction_of(assignment)):
+                branches = self._without_idle_poses(branches)
+            return branches[:MAX_BRANCHES]
         if proposals.goal_holds:
             return []
         why = self._asker.notes.last("branches")
@@ -122,13 +128,11 @@ class VlmReasoner:
         )
 
     def _without_idle_poses(self, branches: list[Branch]) -> list[Branch]:
-        """Branches that differ in nothing but ways to hold become one, unless the task names such.
+        """Branches that differ in nothing but ways to hold, for which nobody asked, become one.
 
         A grasp that is left open is looked for in every pose; a branch for each would only
         simulate the same plan twice.
         """
-        if names_pose(self._instruction):
-            return branches
         groups: dict[tuple[Action, ...], list[Branch]] = {}
         for branch in branches:
             open_ended = tuple(replace(action, pose=None) for action in branch.actions)
@@ -245,10 +249,3 @@ class _Proposals:
         elif not self.branches and not reasons:
             reasons.append("there are no branches in it")
         return Reading(len(self.branches) or None, tuple(reasons))
-
-
-def instruction_of(assignment: Assignment) -> str:
-    """The task in words; a formal goal is written out."""
-    if assignment.goal is None:
-        return assignment.instruction
-    return "Reach this state: " + "; ".join(describe_condition(item) for item in assignment.goal)
