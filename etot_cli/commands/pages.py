@@ -30,7 +30,7 @@ from etot_cli.reporting.provenance import add_phase
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.state import RolloutRecord
-from etot_cli.world.studio import Progress, Shot, Studio, take
+from etot_cli.world.studio import Progress, Shot, Studio, alike, take
 
 PAGE_NAME = "report.html"
 PAGE_PICTURES_BYTES = 6_500_000
@@ -41,14 +41,15 @@ BYTES_PER_PIXEL = 0.06
 """Of a rendered desk as WebP of this quality, measured; a little above the mean."""
 QUALITY = 72
 RATIO = 16 / 10
-SAMPLES = ((40, 5), (120, 3), (10**9, 2))
+SAMPLES = ((40, 4), (10**9, 2))
 """Renders per picture for so many pictures: fewer pictures may each take longer."""
 RENDER_SECONDS = 120.0
 """Longest time for a page's pictures; what is left over is drawn from above."""
-REPLAY_RATE = 5.0
-"""Frames of a replay per second of film: single actions can be followed, at a fifth of a video."""
-MAX_REPLAY_FRAMES = 240
-"""Frames of a replay at most, so that they stay large enough to see something."""
+REPLAY_RATE = 3.0
+"""Frames of a replay per second of film: an arm at its 0.4 m/s is followed in steps of a hand's
+breadth. Who wants it smooth has ``--video``."""
+MAX_REPLAY_FRAMES = 120
+"""Frames of a replay at most: nobody steps through more, and each costs a tenth of a second."""
 AFTERMATH_S = 0.25
 """A failure is best seen when its effect shows, shortly after its cause [s]."""
 
@@ -118,12 +119,15 @@ def write_simulate_page(
         since = duration if cause is None or cause.time_s is None else cause.time_s
         moments = np.linspace(0.0, duration, max(2, round(duration * rate) + 1))
         for time_s in moments if whole else (0.0, duration):
-            key = f"f{len(frames)}"
+            key = f"f{len(wanted)}"
             shot = None
             if whole:
                 times = films[index].times - films[index].times[0]
                 row = int(np.argmin(np.abs(times - time_s)))
                 shot = Shot(films[index].qpos[row], culprits if time_s >= since else ())
+            last = wanted[-1].shot if wanted else None
+            if shot is not None and last is not None and alike(last, shot):
+                continue  # what stands still needs no second picture
             first = time_s < duration / 2
             wanted.append(_Plan(key, shot, record, first, () if first else culprits))
             frames.append((start + float(time_s), key))
@@ -180,7 +184,9 @@ def _frames_of(
         want(before, 0, True)
     if rows is not None and trajectory is not None:
         times = trajectory.times - trajectory.times[0]
-        moment = _key_moment(trajectory, failed_s, float(times[-1]))
+        # Of what went well and is no part of the plan, the end says enough.
+        told = failed_s is not None or number in planning.report.plan_nodes
+        moment = _key_moment(trajectory, failed_s, float(times[-1])) if told else None
         if moment is not None:
             row = int(np.argmin(np.abs(times - moment)))
             want(f"n{number}-key", row, False)

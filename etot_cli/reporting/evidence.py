@@ -12,6 +12,8 @@ from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord
 
 SEEN_MOVE_M = 0.005
 """Displacements below this are settling, which nobody sees [m]."""
+TOLD_MOVE_M = 0.0005
+"""Displacements below this would be told as 0.0 cm [m]."""
 MAX_CONTACTS = 8
 """Contacts in a report, the hardest of those that matter; more than a person reads."""
 RESTING_S, RESTING_N = 0.05, 5.0
@@ -72,6 +74,8 @@ def moved_text(item: MovedModel) -> str:
     """In words: from where to where, or how far where that stayed the same."""
     if item.before == item.after:
         swayed = item.moved_m < SEEN_MOVE_M < item.largest_m
+        if max(item.moved_m or 0.0, item.largest_m) < TOLD_MOVE_M:
+            return f"{item.object} stayed where it was"
         way = f"{100 * (item.largest_m if swayed else item.moved_m):.1f} cm"
         return f"{item.object} moved {way}{' and back' if swayed else ''}"
     return f"{item.object}: {item.before} → {item.after}"

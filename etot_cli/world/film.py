@@ -17,7 +17,7 @@ from etot_cli.specs.scene import Scene
 from etot_cli.specs.writing import replacing
 from etot_cli.world.pictures import Tone
 from etot_cli.world.recorder import Trajectory
-from etot_cli.world.studio import Progress, Shot, Studio, take
+from etot_cli.world.studio import Progress, Shot, Studio, alike, take
 
 STILL_WIDTH, STILL_HEIGHT, STILL_SAMPLES = 1280, 720, 8
 FILM_WIDTH, FILM_HEIGHT, FILM_SAMPLES = 960, 540, 3
@@ -26,8 +26,6 @@ FILM_RATE = 15
 """Frames per second: motion is smooth, and there are few enough frames to render in software."""
 FILM_QUALITY = 92
 """Of the frames on their way to the encoder; no loss that is seen beside the video's own."""
-SAME_POSE = 1e-3
-"""Joints and places that differ by less show the same picture [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +132,7 @@ def write_video(
     for part in film:
         for row in _even_rows(part.trajectory, rate):
             shot = part.shot(int(row))
-            if not shots or not _same(shots[-1], shot):
+            if not shots or not alike(shots[-1], shot):
                 shots.append(shot)
             shown.append(len(shots) - 1)
     _make_folder(path.parent)
@@ -162,14 +160,6 @@ def _encode(images: Sequence[object], path: Path, size: tuple[int, int], rate: i
             container.mux(stream.encode())
     except (FFmpegError, OSError, ValueError) as error:  # an unknown codec is a ValueError
         raise ServiceError(f"cannot write {path}: {error}") from error
-
-
-def _same(first: Shot, second: Shot) -> bool:
-    """Whether two pictures would look alike."""
-    told = (first.outlined, first.caption, first.tone) == (
-        second.outlined, second.caption, second.tone,
-    )  # fmt: skip
-    return told and float(np.abs(first.qpos - second.qpos).max()) < SAME_POSE
 
 
 def _make_folder(folder: Path) -> None:

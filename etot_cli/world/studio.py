@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 FEW = 6
 """So many pictures are drawn sooner here than processes and worlds come up."""
+SAME_POSE = 1e-3
+"""Joints and places that differ by less show the same picture [rad or m]."""
 PATIENCE_S = 0.5
 """How often the time limit is looked at while pictures are made [s]."""
 
@@ -43,6 +45,14 @@ class Shot:
     outlined: tuple[str, ...] = ()
     caption: str = ""
     tone: Tone = "plain"
+
+
+def alike(first: Shot, second: Shot) -> bool:
+    """Whether two pictures would look the same."""
+    told = (first.outlined, first.caption, first.tone) == (
+        second.outlined, second.caption, second.tone,
+    )  # fmt: skip
+    return told and float(np.abs(first.qpos - second.qpos).max()) < SAME_POSE
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,37 @@ FLAGS = (
     "--window-size=1400,1000",
 )
 
+FAINT = """
+const brush = Object.assign(document.createElement("canvas"), {width: 1, height: 1})
+  .getContext("2d", {willReadFrequently: true});
+const over = (colors) => {  // the colours, first ones below, as r g b
+  brush.clearRect(0, 0, 1, 1);
+  for (const color of colors) { brush.fillStyle = color; brush.fillRect(0, 0, 1, 1); }
+  return [...brush.getImageData(0, 0, 1, 1).data].slice(0, 3);
+};
+const light = (rgb) => rgb.map(v => v / 255)
+  .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+  .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+const found = [];
+for (const element of document.querySelectorAll("body *")) {
+  const text = [...element.childNodes].filter(n => n.nodeType === 3 && n.textContent.trim());
+  if (!text.length || !element.getClientRects().length || element.closest("script, svg")) continue;
+  const below = [];
+  let veil = 1;
+  for (let at = element; at; at = at.parentElement) {
+    const style = getComputedStyle(at);
+    below.unshift(style.backgroundColor);
+    veil *= style.opacity;
+  }
+  const ground = over(below), color = getComputedStyle(element).color;
+  const ink = over([`rgb(${ground})`, color]).map((v, i) => veil * v + (1 - veil) * ground[i]);
+  const [dim, bright] = [light(ink), light(ground)].sort((a, b) => a - b);
+  const ratio = (bright + 0.05) / (dim + 0.05);
+  if (ratio < 4.5) found.push(`${text[0].textContent.trim().slice(0, 40)}: ${ratio.toFixed(2)}`);
+}
+return [...new Set(found)];
+"""
+
 
 def missing() -> str:
     """Why there is no browser here; empty when there is one."""
@@ -92,9 +123,31 @@ class Browser:
         script = "const t = performance.getEntriesByType('navigation')[0]; return t.loadEventEnd"
         return float(self.run(script)) / 1000
 
-    def width_overflow(self) -> float:
-        """By how much the page is wider than its window [px]."""
-        return float(self.run("return document.documentElement.scrollWidth - innerWidth"))
+    def misfits(self) -> list[str]:
+        """What is wider than its place, as ``element: how wide > how much room`` [px].
+
+        The page itself, and whatever would have to be scrolled sideways to be seen; but a strip of
+        cards, which a finger is used to pushing.
+        """
+        script = """return [...document.querySelectorAll("*")].filter(e =>
+            e.clientWidth && e.scrollWidth > e.clientWidth + 1 && !e.matches(".strip")
+            && (e === document.documentElement
+              || ["auto", "scroll"].includes(getComputedStyle(e).overflowX)))
+          .map(e => `${e.tagName} ${e.className}: ${e.scrollWidth} > ${e.clientWidth}`)"""
+        return [str(found) for found in self.run(script)]
+
+    def faint(self) -> list[str]:
+        """Text of less than 4.5 : 1 contrast with what it stands on (WCAG 2, level AA)."""
+        return [str(found) for found in self.run(FAINT)]
+
+    def check_looks(self, page: Path) -> None:
+        """Opens a page wide and narrow, light and dark: all of it fits and can be read."""
+        for width in (1400, 390):
+            self.open(page, width=width)
+            assert self.misfits() == [], width
+        for dark in (False, True):
+            self.open(page, dark=dark)
+            assert self.faint() == [], "dark" if dark else "light"
 
     def screenshot(self) -> Any:
         """The window as an array (height, width, 3)."""

@@ -43,6 +43,24 @@ def large_report(nodes: int) -> PlanReport:
     return report
 
 
+def chain_report(depth: int) -> PlanReport:
+    """A tree that is one plan of so many actions."""
+    report = large_report(depth)
+    names = ("[PICK UP, white_holder] (horizontal)", "[PUT ON, desk]")
+    report.tree.nodes = [
+        node.model_copy(
+            update={
+                "parent": node.id - 1 if node.id > 1 else None, "status": "success",
+                "cause": None, "action": names[node.id % 2],
+            }
+        )
+        for node in report.tree.nodes
+    ]  # fmt: skip
+    report.plan_nodes = [node.id for node in report.tree.nodes]
+    report.plan = [node.action for node in report.tree.nodes]
+    return report
+
+
 def heavy_pictures(
     report: PlanReport, size: int
 ) -> tuple[dict[int, list[Frame]], dict[str, Picture]]:

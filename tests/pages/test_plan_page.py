@@ -12,7 +12,7 @@ from etot_cli.commands.pages import write_plan_page
 from etot_cli.reporting.page.plan_page import plan_page
 from etot_cli.reporting.page.topview import top_view
 from tests.pages.browser import Browser
-from tests.pages.reports import heavy_pictures, large_report, toy_planning
+from tests.pages.reports import chain_report, heavy_pictures, large_report, toy_planning
 from tests.planning.fakes import scene
 
 LARGE = 200
@@ -105,16 +105,42 @@ def test_frames_of_a_node_load(browser: Browser, page: Path) -> None:
     assert browser.complaints() == []
 
 
-@pytest.mark.parametrize(("width", "dark"), [(1400, False), (1400, True), (390, False)])
-def test_page_looks_like_something_everywhere(
-    browser: Browser, page: Path, width: int, dark: bool
+def test_page_looks_like_something_everywhere(browser: Browser, page: Path) -> None:
+    browser.check_looks(page)
+    for dark in (False, True):
+        browser.open(page, dark=dark)
+        picture = browser.screenshot()
+        corner = picture[-5:, -5:].mean()
+        assert (corner < 80) == dark
+        assert picture.std() > 12, "not a blank page"
+        browser.run("document.getElementById('removed').click()")
+        assert browser.faint() == []
+
+
+def test_faint_text_and_what_is_too_wide_are_noticed(browser: Browser, page: Path) -> None:
+    browser.open(page)
+    browser.run(
+        "document.querySelector('h1').style.color = '#aaa';"
+        "document.getElementById('node').style.whiteSpace = 'nowrap';"
+        "document.querySelector('#node h3').textContent = 'long '.repeat(60)"
+    )
+    assert any("Leave the cup alone" in found for found in browser.faint())
+    assert any("node" in found for found in browser.misfits())
+
+
+@pytest.mark.parametrize("pictured", [True, False])
+def test_trees_of_any_depth_need_no_pushing_sideways(
+    browser: Browser, tmp_path: Path, pictured: bool
 ) -> None:
-    browser.open(page, width=width, dark=dark)
-    assert browser.width_overflow() <= 0, "no sideways scrolling of the whole page"
-    picture = browser.screenshot()
-    corner = picture[-5:, -5:].mean()
-    assert (corner < 80) == dark
-    assert picture.std() > 12, "not a blank page"
+    for depth in (1, 4, 8, 14):
+        report = chain_report(depth)
+        frames, pictures = heavy_pictures(report, 1000) if pictured else ({}, {})
+        page = tmp_path / "report.html"
+        page.write_text(plan_page(report, frames, pictures), encoding="utf-8")
+        for width in (1400, 1000, 390):
+            browser.open(page, width=width)
+            assert browser.misfits() == [], (depth, width)
+            assert browser.run("return document.querySelectorAll('#tree .box b').length") == depth
 
 
 def test_large_tree_opens_quickly(browser: Browser, tmp_path: Path) -> None:

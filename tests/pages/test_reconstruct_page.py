@@ -54,6 +54,7 @@ def test_page_shows_twin_and_camera(browser: Browser, page: Path) -> None:
     assert "ball" in text and "sphere" in text and "block" in text
     assert browser.complaints() == []
     assert browser.fetched() == []
+    browser.check_looks(page)
 
 
 @pytest.mark.render
@@ -70,5 +71,3 @@ def test_view_in_three_dimensions_turns(browser: Browser, page: Path) -> None:
     assert browser.run(shot) == before + 3
     assert browser.screenshot().std() > 12
     assert browser.complaints() == []
-    browser.open(page, width=390, dark=True)
-    assert browser.width_overflow() <= 0

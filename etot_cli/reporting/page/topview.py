@@ -11,14 +11,17 @@ from math import hypot
 
 from etot_cli.world.state import ObjectInfo, ObjectState, SceneState
 
-WIDTH_PX = 640
+WIDTH_PX, HEIGHT_PX = 640, 400
+"""In the proportions of a page's cards, which show the whole of it then."""
 MARGIN_M = 0.06
 """Room around the desk, for what fell off it."""
+AROUND_M = 0.12
+"""Desk that is shown around what stands on it, with room for names."""
 ARROW_FROM_M = 0.03
 """Shorter moves get no arrow; it would be longer than the way."""
 ROUND = frozenset({"sphere", "cylinder", "cup", "bowl"})
-NAME_PX, NAME_WIDTH_PX = 19, 120
-"""Height of names, to be read in a picture of half the size, and the width of most."""
+NAME_PX, LETTER_PX = 22, 12
+"""Height of names, to be read in a picture of half the size, and the width of a letter."""
 BASE_RADIUS_M = 0.063
 """Half the width of a table-top arm's base, drawn at the frame's origin."""
 Project = Callable[[float, float], tuple[float, float]]
@@ -41,10 +44,7 @@ def top_view(
         culprits: objects drawn in red, with a mark.
     """
     x_min, x_max, y_min, y_max = scene.desk_bounds
-    x_low, x_high = min(x_min, -BASE_RADIUS_M) - MARGIN_M, x_max + MARGIN_M
-    y_low, y_high = y_min - MARGIN_M, y_max + MARGIN_M
-    scale = WIDTH_PX / max(y_high - y_low, 1e-3)
-    height = (x_high - x_low) * scale
+    x_high, y_high, scale = _window([scene, *([before] if before else [])])
 
     # The robot looks up the picture: base x is up, base y is left.
     def at(x: float, y: float) -> tuple[float, float]:
@@ -52,11 +52,11 @@ def top_view(
 
     left, top = at(x_max, y_max)
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH_PX} {height:.0f}" '
-        f'width="{WIDTH_PX}" height="{height:.0f}" font-family="sans-serif">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH_PX} {HEIGHT_PX}" '
+        f'width="{WIDTH_PX}" height="{HEIGHT_PX}" font-family="sans-serif">',
         '<defs><marker id="a" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" '
         'markerHeight="7" orient="auto"><path d="M0 0L8 4L0 8z" fill="#2457c5"/></marker></defs>',
-        f'<rect width="{WIDTH_PX}" height="{height:.0f}" fill="#e9eaed"/>',
+        f'<rect width="{WIDTH_PX}" height="{HEIGHT_PX}" fill="#e9eaed"/>',
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{(y_max - y_min) * scale:.1f}" '
         f'height="{(x_max - x_min) * scale:.1f}" fill="#ecd9b6" stroke="#b99a66" rx="4"/>',
         _robot(at(0.0, 0.0), BASE_RADIUS_M * scale),
@@ -72,9 +72,37 @@ def top_view(
             for name in names
             if name in before.states
         ]
-    parts += _labels([(name, at(*scene.states[name].position[:2])) for name in names], blamed)
+    below = {name: _half(scene, name) * scale for name in names}
+    parts += _labels(
+        [(name, at(*scene.states[name].position[:2]), below[name]) for name in names], blamed
+    )
     parts.append("</svg>")
     return "".join(parts).encode()
+
+
+def _window(scenes: Sequence[SceneState]) -> tuple[float, float, float]:
+    """What is shown, robot and things with some desk around them: the largest x and y of the base
+    frame [m], and the scale [px/m].
+    """
+    x_min, x_max, y_min, y_max = scenes[-1].desk_bounds
+    xs, ys = [-BASE_RADIUS_M], [-BASE_RADIUS_M, BASE_RADIUS_M]
+    for scene in scenes:
+        for name, state in scene.states.items():
+            half = _half(scene, name)
+            xs += [state.position[0] - half, state.position[0] + half]
+            ys += [state.position[1] - half, state.position[1] + half]
+    # What fell off and rolled away is beyond the picture's edge.
+    x_low = max(min(xs) - AROUND_M, min(x_min, -BASE_RADIUS_M) - MARGIN_M)
+    x_high = min(max(xs) + AROUND_M, x_max + MARGIN_M)
+    y_low = max(min(ys) - AROUND_M, y_min - MARGIN_M)
+    y_high = min(max(ys) + AROUND_M, y_max + MARGIN_M)
+    scale = min(WIDTH_PX / (y_high - y_low), HEIGHT_PX / (x_high - x_low))
+    return x_low + HEIGHT_PX / scale, (y_low + y_high + WIDTH_PX / scale) / 2, scale
+
+
+def _half(scene: SceneState, name: str) -> float:
+    """Half of what an object takes on the desk [m]."""
+    return max(scene.infos[name].size[:2]) / 2
 
 
 def _robot(center: tuple[float, float], radius: float) -> str:
@@ -169,17 +197,22 @@ def _way(before: ObjectState, after: ObjectState, at: Project) -> str:
     )
 
 
-def _labels(places: Sequence[tuple[str, tuple[float, float]]], blamed: set[str]) -> list[str]:
-    """Names beside their objects, those of things on top of each other one below the other."""
-    taken: list[tuple[float, float]] = []
+def _labels(
+    places: Sequence[tuple[str, tuple[float, float], float]], blamed: set[str]
+) -> list[str]:
+    """Names below their objects, which reach so far down, and none on another name."""
+    taken: list[tuple[float, float, float]] = []
     parts = []
-    for name, (x, y) in places:
-        line = y + 4
+    for name, (x, y), reach in places:
+        half = LETTER_PX * (len(name) + 2) / 2
+        x = min(max(x, half), WIDTH_PX - half)
+        line = min(y + reach + NAME_PX * 0.9, HEIGHT_PX - 6.0)
         while any(
-            abs(x - other) < NAME_WIDTH_PX and abs(line - row) < NAME_PX for other, row in taken
+            abs(x - other) < half + width and abs(line - row) < NAME_PX
+            for other, row, width in taken
         ):
             line += NAME_PX
-        taken.append((x, line))
+        taken.append((x, line, half))
         fill, weight = ("#c3160c", "bold") if name in blamed else ("#22242a", "normal")
         mark = " ⚠" if name in blamed else ""
         parts.append(

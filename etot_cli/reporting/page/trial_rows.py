@@ -26,7 +26,9 @@ def shown_trial(model: TrialModel, trial: Trial, pictures: dict[str, Picture]) -
     """
     keys = _draw(trial, pictures)
     chip = CHIPS.get(model.status, model.status)
-    return {"model": model, "chip": chip, "rows": _rows(model, keys)}
+    rows = _rows(model, keys)
+    views = [row for row in rows if row.get("picture")]
+    return {"model": model, "chip": chip, "rows": rows, "views": views}
 
 
 def _draw(trial: Trial, pictures: dict[str, Picture]) -> dict[int, str]:
@@ -47,36 +49,36 @@ def _draw(trial: Trial, pictures: dict[str, Picture]) -> dict[int, str]:
 
 def _rows(trial: TrialModel, keys: dict[int, str]) -> list[dict[str, Any]]:
     """Plans, looks, disturbances and actions in the order in which they came."""
-    # Four places for every look: what somebody did before it, itself, its plan, its action.
-    rows = [(look.index * 4, _look_row(look, keys.get(look.index))) for look in trial.looks]
+    # Four places for every look: what somebody did before it, the action that it comes after,
+    # itself, and what was made of it.
+    rows = [(look.index * 4 + 2, _look_row(look, keys.get(look.index))) for look in trial.looks]
     for plan in trial.plans:
         text = " ".join(plan.actions) or plan.stopped or "nothing is to be done"
-        row = _row("plan", plan.reason, text, plan.wall_s, "")
+        row = _row("plan", plan.reason, text, plan.wall_s)
         if plan.status != "feasible":
             row["status"] = "failure"
-        rows.append((plan.look * 4 + 1, row))
+        rows.append((plan.look * 4 + 3, row))
     for action in trial.actions:
         last = action.looks[-1] if action.looks else 0
+        looked_after = len(action.looks) > 1
         moved = "; ".join(map(moved_text, action.moved))
         text = moved if action.cause is None else action.cause.text
         row = _row("action", action.action, text, action.end_s - action.begin_s, action.status)
-        rows.append((last * 4 + 2, row))
+        rows.append((last * 4 + (1 if looked_after else 3), row))
     for item in trial.disturbances:
-        after = max((look.index for look in trial.looks if look.time_s <= item.time_s), default=0)
-        rows.append((after * 4 + 3, _row("somebody", item.text, "", 0.0, "")))
+        seen = (look.index for look in trial.looks if look.time_s >= item.time_s)
+        rows.append((min(seen, default=len(trial.looks)) * 4, _row("somebody", item.text)))
     return [row for _, row in sorted(rows, key=lambda entry: entry[0])]
 
 
-def _row(kind: str, what: str, text: str, spent_s: float, status: str) -> dict[str, Any]:
-    return {
-        "kind": kind, "what": what, "text": text, "seconds": spent_s, "status": status,
-        "picture": None,
-    }  # fmt: skip
+def _row(
+    kind: str, what: str, text: str = "", spent_s: float | None = None, status: str = ""
+) -> dict[str, Any]:
+    return {"kind": kind, "what": what, "text": text, "seconds": spent_s, "status": status}
 
 
 def _look_row(look: LookModel, key: str | None) -> dict[str, Any]:
     text = "; ".join(f"{item.object} {item.text}" for item in look.differs) or "as believed"
     unseen = [f"{item.object} {item.mark}" for item in look.objects if item.mark != "seen"]
-    row = _row("look", look.why, "; ".join([text, *unseen]), look.wall_s, "")
-    row["picture"] = key
-    return row
+    row = _row("look", look.why, "; ".join([text, *unseen]), look.wall_s)
+    return row | {"picture": key}

@@ -16,11 +16,16 @@
 
   function layout() {
     const shown = [];
-    const outline = host.clientWidth < 560;
     const count = data.nodes.filter(visible).length;
-    const thumbs = !outline && count <= THUMBS_UP_TO && Object.keys(pictures).length > 0;
-    const width = outline ? 0 : thumbs ? 176 : 208, height = thumbs ? 172 : 50;
-    const across = outline ? 18 : width + 40, down = outline ? 58 : height + 16;
+    const pictured = count <= THUMBS_UP_TO && Object.keys(pictures).length > 0;
+    // Columns as wide as they look well, down to where a name still fits; deeper trees become an outline.
+    const columns = Math.max(1, ...data.nodes.filter(visible).map(n => trail(n).length));
+    const left = 72, room = Math.floor((host.clientWidth - left - 14) / columns);
+    const outline = room < (pictured ? 108 : 176);
+    const thumbs = pictured && !outline;
+    const across = outline ? Math.max(1, Math.min(18, (host.clientWidth - 176) / columns)) : Math.min(room, thumbs ? 216 : 248), width = Math.round(across - Math.max(12, across * 0.14));
+    const small = thumbs && width < 150, shade = Math.round(width / 1.6);
+    const height = thumbs ? shade + (small ? 72 : 62) : 50, down = outline ? 58 : height + 16;
     let row = 0;
     const place = new Map(), stack = [];
     // Rows are given out depth first; a parent stands level with the middle of its children.
@@ -36,9 +41,9 @@
         place.set(node.id, [depth, (rows[0] + rows[rows.length - 1]) / 2]);
       }
     })(tops, 0);
-    const left = outline ? 10 : 86, top = 14;
-    const spot = node => { const [depth, line] = place.get(node.id); return [left + depth * across, top + line * down]; };
-    const wide = outline ? host.clientWidth - 4 : left + across * (1 + Math.max(0, ...shown.map(n => place.get(n.id)[0])));
+    const top = 14;
+    const spot = node => { const [depth, line] = place.get(node.id); return [(outline ? 10 : left) + depth * across, top + line * down]; };
+    const wide = outline ? host.clientWidth - 4 : left + across * columns;
     const tall = top + row * down + 6;
     host.replaceChildren();
     host.style.height = `${tall + 18}px`;
@@ -48,7 +53,7 @@
     host.append(svg);
     const middle = shown.length ? (() => { const ys = tops.filter(visible).map(n => spot(n)[1]); return ys.length ? (ys[0] + ys[ys.length - 1]) / 2 + height / 2 : height / 2; })() : 0;
     if (!outline) {
-      const start = make("div", { class: "box start", style: `left:12px;top:${middle - 18}px;width:52px;height:36px;padding:0` }, "start");
+      const start = make("div", { class: "box start", style: `left:10px;top:${middle - 18}px;width:52px;height:36px;padding:0` }, "start");
       host.append(start);
     }
     for (const node of shown) {
@@ -58,7 +63,7 @@
         const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
         if (outline) { const [px, py] = spot(parent); path.setAttribute("d", `M${px + 8} ${py + 46}V${y + 22}H${x}`); }
         else {
-          const [px, py] = parent ? [spot(parent)[0] + width, spot(parent)[1] + height / 2] : [64, middle];
+          const [px, py] = parent ? [spot(parent)[0] + width, spot(parent)[1] + height / 2] : [62, middle];
           const cy = y + height / 2, bend = (px + x) / 2;
           path.setAttribute("d", `M${px} ${py}C${bend} ${py} ${bend} ${cy} ${x} ${cy}`);
         }
@@ -70,14 +75,14 @@
         : (node.status === "unsafe" ? "! " : "✗ ") + (node.kind || node.status).replace("_", " ");
       const box = make("button", {
         type: "button", role: "treeitem", tabindex: "-1", "aria-selected": "false", "aria-level": String(place.get(node.id)[0] + 1),
-        class: ["box", thumbs ? "tall" : "", node.status, node.origin, inPlan.has(node.id) ? "plan" : ""].join(" "), title: node.action + (node.cause ? ": " + node.cause : ""),
-        style: `left:${x}px;top:${y}px;height:${outline ? 46 : height}px;width:${outline ? Math.max(150, wide - x - 12) : width}px`,
+        class: ["box", thumbs ? "tall" : "", small ? "small" : "", node.status, node.origin, inPlan.has(node.id) ? "plan" : ""].join(" "), title: node.action + (node.cause ? ": " + node.cause : ""),
+        style: `left:${x}px;top:${y}px;height:${outline ? 46 : height}px;width:${outline ? Math.min(560, Math.max(150, wide - x - 12)) : width}px`,
         onclick: () => choose(node.id, true),
       });
       if (thumbs) {
         const frame = node.frames[node.frames.length - 1];
         if (frame && frame.key in pictures) box.append(make("img", { alt: "", decoding: "async", src: pictures[frame.key] }));
-        else box.append(make("div", { style: "height:86px" }));
+        else box.append(make("div", { style: `height:${shade - 5}px` }));
       }
       box.append(make("b", {}, node.action + (node.safe ? " (safe place)" : "")), make("span", {}, note));
       boxes.set(node.id, box);
