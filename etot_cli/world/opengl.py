@@ -45,6 +45,12 @@ def open_context(width: int, height: int) -> Any:
     raise ServiceError(NO_OPENGL.format(reason="; ".join(reasons)))
 
 
+def untouched() -> bool:
+    """Whether nothing has loaded OpenGL in this process yet; a driver does not survive a fork."""
+    loaded = {".".join(name.split(".")[:2]) for name in sys.modules}
+    return "OpenGL" not in loaded and loaded.isdisjoint(f"mujoco.{kind}" for kind in NAMED)
+
+
 def _kinds() -> list[str]:
     """The libraries to try, in this order."""
     wanted = os.environ.get("MUJOCO_GL", "").strip().lower()

@@ -2,7 +2,8 @@
 
 Drawing in software keeps one processor core busy for a tenth of a second and more per picture, and
 an OpenGL context belongs to one thread; so every process has its own, and its own copy of the
-world. They are spawned, not forked: an OpenGL driver does not survive a fork.
+world. They are forked, which spares starting Python and its libraries, but only where no driver is
+loaded yet: an OpenGL driver does not survive a fork.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import ServiceError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.engine import import_mujoco
+from etot_cli.world.opengl import untouched
 from etot_cli.world.workers import WorkerLostError, WorkerPool
 
 if TYPE_CHECKING:
@@ -141,7 +143,7 @@ def _crew(studio: Studio, jobs: int, count: int) -> Iterator[Submit]:
         finally:
             worker.close()
         return
-    pool = WorkerPool(jobs, _begin, (studio,), method="spawn")
+    pool = WorkerPool(jobs, _begin, (studio,), method=None if untouched() else "spawn")
     try:
         yield lambda shot: pool.submit(_take, shot)
     finally:
@@ -182,7 +184,7 @@ class _Worker:
 
 
 _mine: list[_Worker | Exception] = []
-"""A spawned process's own worker, or why it has none."""
+"""A worker process's own worker, or why it has none."""
 
 
 def _begin(studio: Studio) -> None:
