@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -28,16 +28,12 @@ from etot_cli.reporting.models import TaskModel, seconds
 from etot_cli.reporting.plan_report import (
     PlanOptionsModel,
     PlanReport,
-    doubt_models,
     prefix_model,
-    statistics_model,
     success_model,
-    survival_model,
     understood_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.tree_report import tree_model
-from etot_cli.reporting.vlm_report import vlm_model
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
 from etot_cli.specs.look import Look
 from etot_cli.specs.reading import printable
@@ -211,35 +207,37 @@ def _report(
     understanding: Understanding | None,
 ) -> PlanReport:
     status = SearchStatus.INTERRUPTED if interrupted else result.status
-    return PlanReport(
-        status=status.value,
-        seed=options.seed,
-        interrupted=status is SearchStatus.INTERRUPTED,
-        versions=versions(),
-        timing=watch.timing(),
-        task=task_model(options.task, task),
-        files={},
-        options=PlanOptionsModel(
-            reasoner=options.reasoner,
-            vary=options.vary,
-            jobs=options.jobs,
-            worlds=options.worlds or (task.worlds if task else 1),
-            look=options.look.value,
-            without=[ablation.value for ablation in Ablation if ablation in options.without],
-            max_nodes=options.limits.max_nodes,
-            time_limit_s=options.limits.time_limit_s,
-        ),
-        plan=[str(action) for action in result.plan],
-        plan_nodes=[] if result.leaf is None else [node.id for node in result.leaf.path],
-        survival=survival_model(result.survival),
-        success=None if task is None else success_model(task.success, result.final),
-        prefix=prefix_model(result.prefix),
-        understood=understood_model(result.goal_holds, result.branches, understanding),
-        tree=tree_model(result),
-        statistics=statistics_model(result),
-        doubts=doubt_models(result),
-        stopped=result.stopped,
-        vlm=vlm_model(account),
+    return PlanReport.model_validate(
+        {
+            "status": status.value,
+            "seed": options.seed,
+            "interrupted": status is SearchStatus.INTERRUPTED,
+            "versions": versions(),
+            "timing": watch.timing(),
+            "task": task_model(options.task, task),
+            "files": {},
+            "options": PlanOptionsModel(
+                reasoner=options.reasoner,
+                vary=options.vary,
+                jobs=options.jobs,
+                worlds=options.worlds or (task.worlds if task else 1),
+                look=options.look.value,
+                without=[ablation.value for ablation in Ablation if ablation in options.without],
+                max_nodes=options.limits.max_nodes,
+                time_limit_s=options.limits.time_limit_s,
+            ),
+            "plan": [str(action) for action in result.plan],
+            "plan_nodes": [] if result.leaf is None else [node.id for node in result.leaf.path],
+            "survival": result.survival,
+            "success": None if task is None else success_model(task.success, result.final),
+            "prefix": prefix_model(result.prefix),
+            "understood": understood_model(result.goal_holds, result.branches, understanding),
+            "tree": tree_model(result),
+            "statistics": {**asdict(result.statistics), "limit": result.limit},
+            "doubts": [{"actions": actions, "why": why} for actions, why in result.doubts.items()],
+            "stopped": result.stopped,
+            "vlm": account,
+        }
     )
 
 

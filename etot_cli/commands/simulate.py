@@ -14,8 +14,7 @@ from etot_cli.control.simulated import Simulator
 from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.conditions import holds
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
-from etot_cli.reporting.evidence import contact_models, moved_models
-from etot_cli.reporting.models import action_fields, cause_model, seconds
+from etot_cli.reporting.evidence import judged_fields
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.recordings import RecordedPlan, recorded_plan
 from etot_cli.reporting.replay import plan_from_report
@@ -245,18 +244,13 @@ def _check_targets(plan: Sequence[Action], targets: Sequence[str]) -> None:
 def _step(
     index: int, action: Action, verdict: Verdict, record: RolloutRecord, wall_s: float
 ) -> StepModel:
-    blamed = verdict.cause.objects if verdict.cause is not None else verdict.changes
     return StepModel.model_validate(
         {
-            **action_fields(action),
+            **judged_fields(action, verdict, record),
             "index": index,
-            "status": verdict.outcome.value,
-            "cause": cause_model(verdict.cause),
-            "changes": list(verdict.changes),
-            "moved": moved_models(record, verdict.changes),
-            "contacts": contact_models(record, blamed),
-            "simulated_s": seconds(record.simulated_s),
-            "wall_s": seconds(wall_s),
+            "status": verdict.outcome,
+            "simulated_s": record.simulated_s,
+            "wall_s": wall_s,
         }
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -11,22 +12,22 @@ from etot_cli.benchmark.methods.catalogue import Method
 from etot_cli.benchmark.statistics.paired import Paired, holm
 from etot_cli.benchmark.statistics.table import averages, cells, comparisons
 from etot_cli.benchmark.trial import TrialResult
-from etot_cli.planning.survival import Interval
 from etot_cli.reporting.models import (
     Count,
     Model,
     Seconds,
-    Share,
     TimingModel,
     VersionsModel,
-    seconds,
+    rounded,
 )
 from etot_cli.specs.task import Task
 
-Signed = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
-Amount = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 DECIMALS = 4
-"""Of rates and p values: a trial in ten thousand."""
+"""Of rates: a trial in ten thousand."""
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False), rounded(DECIMALS)]
+Signed = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False), rounded(DECIMALS)]
+Amount = Annotated[float, Field(ge=0.0, allow_inf_nan=False), rounded(6)]
+Probability = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False), rounded(6)]
 
 
 class BenchTaskModel(Model):
@@ -58,7 +59,7 @@ class RowModel(Model):
     successes: Count
     trials: Count
     rate: Share
-    ci95: tuple[Share, Share]
+    ci95: tuple[Share, Share] = Field(validation_alias="interval")
     """Wilson's 95 % interval."""
     errors: Count
     """Trials that could not be carried out; they count as failed."""
@@ -74,7 +75,7 @@ class AverageModel(Model):
     trials: Count
     rate: Share
     """The mean of the tasks' rates."""
-    ci95: tuple[Share, Share]
+    ci95: tuple[Share, Share] = Field(validation_alias="interval")
     """Wilson's 95 % interval of all trials together: for these tasks, not for others."""
     failures: dict[str, Count]
     replans: Amount
@@ -106,9 +107,9 @@ class PairedModel(Model):
     """Rate of the second less rate of the first."""
     ci95: tuple[Signed, Signed]
     """Newcombe's 95 % interval for paired proportions."""
-    p_value: Share
+    p_value: Probability
     """McNemar's exact test, two-sided."""
-    p_adjusted: Share
+    p_adjusted: Probability
     """The same, adjusted by Holm for the number of comparisons."""
 
 
@@ -179,34 +180,11 @@ def row_models(
 ) -> tuple[list[RowModel], list[AverageModel], list[PairedModel]]:
     """Everything that is computed from trials: cells, averages, comparisons."""
     table = cells(results, methods, tasks)
-    rows = [
-        RowModel(
-            method=cell.method,
-            task=cell.task,
-            successes=cell.successes,
-            trials=cell.trials,
-            rate=round(cell.rate, DECIMALS),
-            ci95=_bounds(cell.interval),
-            errors=cell.errors,
-            failures=dict(cell.failures),
-        )
-        for cell in table
-    ]
-    means = [
-        AverageModel(
-            method=item.method,
-            successes=item.successes,
-            trials=item.trials,
-            rate=round(item.rate, DECIMALS),
-            ci95=_bounds(item.interval),
-            failures=dict(item.failures),
-            replans=round(item.replans, DECIMALS),
-            **{name: round(value, 6) for name, value in item.costs.items()},
-            wall_s=seconds(item.wall_s),
-            times={name: seconds(value) for name, value in item.times.items()},
-        )
-        for item in averages(table, results)
-    ]
+    rows = [RowModel.model_validate(cell) for cell in table]
+    means = []
+    for item in averages(table, results):
+        fields = asdict(item)
+        means.append(AverageModel.model_validate({**fields.pop("costs"), **fields}))
     first = [name for name in methods if name == "etot"] + [n for n in methods if n != "etot"]
     found = comparisons(results, first)
     return rows, means, paired_models([(c.first, c.second, c.pairs) for c in found])
@@ -224,10 +202,10 @@ def paired_models(found: Iterable[tuple[str, str, Paired]]) -> list[PairedModel]
             first_only=pairs.first_only,
             second_only=pairs.second_only,
             neither=pairs.neither,
-            difference=round(pairs.difference, DECIMALS),
-            ci95=_bounds(pairs.interval),
-            p_value=min(1.0, round(pairs.p_value, 6)),
-            p_adjusted=min(1.0, round(corrected, 6)),
+            difference=pairs.difference,
+            ci95=pairs.interval,
+            p_value=pairs.p_value,
+            p_adjusted=corrected,
         )
         for (first, second, pairs), corrected in zip(given, adjusted, strict=True)
     ]
@@ -247,7 +225,7 @@ def trial_rows(results: Iterable[TrialResult]) -> list[TrialRowModel]:
             replans=item.replans,
             actions=[taken.action for taken in item.actions],
             harm=list(item.harm),
-            wall_s=seconds(item.wall_s),
+            wall_s=item.wall_s,
             report=item.report,
         )
         for item in results
@@ -256,10 +234,7 @@ def trial_rows(results: Iterable[TrialResult]) -> list[TrialRowModel]:
 
 def method_models(methods: Iterable[Method]) -> list[MethodModel]:
     """The methods as they stand in reports."""
-    return [
-        MethodModel(name=m.name, title=m.title, summary=m.summary, replans=m.replans)
-        for m in methods
-    ]
+    return [MethodModel.model_validate(method) for method in methods]
 
 
 def task_models(tasks: Iterable[Task], digests: Mapping[str, str]) -> list[BenchTaskModel]:
@@ -270,7 +245,3 @@ def task_models(tasks: Iterable[Task], digests: Mapping[str, str]) -> list[Bench
         )
         for task in tasks
     ]
-
-
-def _bounds(interval: Interval) -> tuple[float, float]:
-    return round(interval.low, DECIMALS), round(interval.high, DECIMALS)

@@ -7,7 +7,16 @@ from math import dist
 
 from pydantic import Field
 
-from etot_cli.reporting.models import Metres, Model, Seconds
+from etot_cli.reasoning.protocol import Verdict
+from etot_cli.reporting.models import (
+    ActionModel,
+    CauseModel,
+    Metres,
+    Model,
+    Seconds,
+    action_fields,
+)
+from etot_cli.skills.action import Action
 from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord
 
 SEEN_MOVE_M = 0.005
@@ -46,6 +55,37 @@ class ContactModel(Model):
     """Largest normal force [N]."""
     impulse_ns: float = Field(ge=0.0)
     """Normal force integrated over the action [N s]."""
+
+
+class JudgedModel(ActionModel):
+    """An action that was judged, and what it did."""
+
+    cause: CauseModel | None
+    changes: list[str]
+    """Objects whose state changed."""
+    moved: list[MovedModel] = Field(default_factory=list)
+    """What moved or changed, the farthest first; of a node, in the nominal world."""
+    contacts: list[ContactModel] = Field(default_factory=list)
+    """Contacts that had to do with it, in order of time; of a node, in the nominal world."""
+    simulated_s: Seconds
+    """Physics time stepped for it, all worlds together."""
+    wall_s: Seconds
+
+
+def judged_fields(
+    action: Action, verdict: Verdict | None, record: RolloutRecord | None
+) -> dict[str, object]:
+    """The fields of :class:`JudgedModel` but for the times; ``record``: of the nominal world."""
+    cause = None if verdict is None else verdict.cause
+    changes = () if verdict is None else verdict.changes
+    blamed = changes if cause is None else cause.objects
+    return {
+        **action_fields(action),
+        "cause": cause,
+        "changes": changes,
+        "moved": [] if record is None else moved_models(record, changes),
+        "contacts": [] if record is None else contact_models(record, blamed),
+    }
 
 
 def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedModel]:

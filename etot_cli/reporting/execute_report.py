@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
 from etot_cli.reporting.evidence import MovedModel, moved_models
 from etot_cli.reporting.models import (
     ActionModel,
+    ActionText,
     CauseModel,
     Count,
     Metres,
@@ -17,18 +18,18 @@ from etot_cli.reporting.models import (
     Report,
     Seconds,
     action_fields,
-    cause_model,
-    seconds,
+    rounded,
 )
-from etot_cli.skills.motion.motion import Trace
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord
 
 if TYPE_CHECKING:  # every command's summary imports this module, and few execute
-    from etot_cli.execution.records import Carried, Difference, Look, PlanMade, Trial
+    from etot_cli.execution.records import Carried, Look, Trial
 
 FailureClassName = Literal["execution", "perception", "world_model", "planning"]
+Coordinate = Annotated[Metres, rounded(5)]
+"""To hundredths of a millimetre."""
 CLASSES: tuple[FailureClassName, ...] = ("execution", "perception", "world_model", "planning")
 
 
@@ -52,17 +53,17 @@ class ExecuteOptionsModel(Model):
 class DifferenceModel(Model):
     """An object that was not as it was before."""
 
-    object: str
+    object: str = Field(validation_alias="name")
     text: str
-    distance_m: Metres
+    distance_m: Annotated[Metres, rounded(4)] = Field(validation_alias="distance")
 
 
 class SightingModel(Model):
     """Where an object was seen: body pose, base frame."""
 
     object: str
-    position: tuple[Metres, Metres, Metres]
-    quaternion: tuple[float, float, float, float]
+    position: tuple[Coordinate, Coordinate, Coordinate]
+    quaternion: tuple[Coordinate, Coordinate, Coordinate, Coordinate]
     mark: Literal["seen", "held", "hidden", "lost"]
     error_m: Metres | None
     """From where it truly was; null where the truth is not known."""
@@ -76,7 +77,7 @@ class LookModel(Model):
     """The robot's time since the trial began."""
     why: str
     objects: list[SightingModel]
-    parts: dict[str, float]
+    parts: dict[str, Annotated[float, rounded(5)]]
     """Joint values of doors and drawers, m or rad."""
     differs: list[DifferenceModel]
     """What was not as it was believed to be before this look."""
@@ -91,7 +92,7 @@ class PhaseModel(Model):
     start_s: Seconds
     end_s: Seconds
     """Within the motion."""
-    opening_m: Metres
+    opening_m: Metres = Field(validation_alias="opening")
     """Of the gripper, sensed at the phase's end."""
 
 
@@ -133,8 +134,8 @@ class PlanMadeModel(Model):
     status: str
     stopped: str | None
     """Why there is no plan; null with one."""
-    actions: list[str]
-    account: dict[str, float]
+    actions: list[ActionText]
+    account: dict[str, Annotated[float, rounded(6)]]
     """The planner's numbers: nodes, reflections, simulated_s, …"""
     wall_s: Seconds
 
@@ -215,25 +216,20 @@ def trial_model(trial: Trial, success: Sequence[Condition]) -> TrialModel:
             "status": trial.status,
             "reason": trial.reason,
             "success": trial.success,
-            "harm": list(trial.harm),
-            "failure_class": None if trial.failure_class is None else trial.failure_class.value,
+            "harm": trial.harm,
+            "failure_class": trial.failure_class,
             "replans": trial.replans,
             "actions": [_carried(index, item) for index, item in enumerate(trial.actions)],
             "looks": [_look(index, item) for index, item in enumerate(trial.looks)],
-            "plans": [_plan(index, item) for index, item in enumerate(trial.plans)],
-            "disturbances": [
-                HappenedModel(
-                    text=item.text, after_actions=item.after_actions, time_s=seconds(item.time_s)
-                )
-                for item in trial.disturbances
-            ],
+            "plans": [{"index": index, **vars(item)} for index, item in enumerate(trial.plans)],
+            "disturbances": trial.disturbances,
             "conditions": [
                 ConditionModel(condition=describe(item), held=done)
                 for item, done in zip(success, held, strict=False)
             ],
             "device": trial.robot,
-            "robot_s": seconds(trial.robot_s),
-            "timing": {key: seconds(value) for key, value in trial.timing.items()},
+            "robot_s": trial.robot_s,
+            "timing": trial.timing,
         }
     )
 
@@ -258,70 +254,36 @@ def _carried(index: int, item: Carried) -> CarriedModel:
             "index": index,
             "plan": item.plan,
             "status": item.status,
-            "cause": cause_model(item.cause),
-            "changes": list(item.changes),
+            "cause": item.cause,
+            "changes": item.changes,
             "moved": moved,
-            "attempts": [AttemptModel(phases=_phases(trace)) for trace in item.traces],
-            "looks": list(item.looks),
-            "begin_s": seconds(item.begin_s),
-            "end_s": seconds(item.end_s),
-            "failure_class": None if item.failure_class is None else item.failure_class.value,
+            "attempts": item.traces,
+            "looks": item.looks,
+            "begin_s": item.begin_s,
+            "end_s": item.end_s,
+            "failure_class": item.failure_class,
         }
     )
 
 
-def _phases(trace: Trace) -> list[PhaseModel]:
-    return [
-        PhaseModel(
-            name=phase.name,
-            end=phase.end.value,
-            start_s=seconds(phase.start_s),
-            end_s=seconds(phase.end_s),
-            opening_m=phase.opening,
-        )
-        for phase in trace.phases
-    ]
-
-
 def _look(index: int, item: Look) -> LookModel:
-    return LookModel(
-        index=index,
-        time_s=seconds(item.time_s),
-        why=item.why,
-        objects=[
-            SightingModel(
-                object=name,
-                position=_rounded(seen.position),
-                quaternion=_rounded(seen.quaternion),
-                mark=seen.mark.value,
-                error_m=item.error_m.get(name),
-            )
-            for name, seen in item.observation.objects.items()
-        ],
-        parts={key: round(value, 5) for key, value in item.observation.parts.items()},
-        differs=[_difference(one) for one in item.differs],
-        wall_s=seconds(item.wall_s),
+    return LookModel.model_validate(
+        {
+            "index": index,
+            "time_s": item.time_s,
+            "why": item.why,
+            "objects": [
+                {
+                    "object": name,
+                    "position": seen.position,
+                    "quaternion": seen.quaternion,
+                    "mark": seen.mark,
+                    "error_m": item.error_m.get(name),
+                }
+                for name, seen in item.observation.objects.items()
+            ],
+            "parts": item.observation.parts,
+            "differs": item.differs,
+            "wall_s": item.wall_s,
+        }
     )
-
-
-def _difference(item: Difference) -> DifferenceModel:
-    return DifferenceModel(object=item.name, text=item.text, distance_m=round(item.distance, 4))
-
-
-def _plan(index: int, item: PlanMade) -> PlanMadeModel:
-    return PlanMadeModel(
-        index=index,
-        reason=item.reason,
-        after_actions=item.after_actions,
-        look=item.look,
-        status=item.status,
-        stopped=item.stopped,
-        actions=[str(action) for action in item.actions],
-        account={key: round(value, 6) for key, value in item.account.items()},
-        wall_s=seconds(item.wall_s),
-    )
-
-
-def _rounded(values: tuple[float, ...]) -> Any:
-    """To hundredths of a millimetre; as many as there were."""
-    return tuple(round(value, 5) for value in values)

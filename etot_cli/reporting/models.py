@@ -1,19 +1,46 @@
 """What all reports have in common: their head, and the pieces that several of them use.
 
 A report is the product of a command; its JSON form is a contract with the scripts that read it, so
-each model here is also a JSON Schema in ``docs/schemas/``. Times are in seconds.
+each model here is also a JSON Schema in ``docs/schemas/``. Times are in seconds. A model
+takes what the rooms below hand on as it is, by the names of its attributes.
 """
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from etot_cli.skills.action import Action, Keepout
-from etot_cli.world.state import Cause, CauseKind
+from etot_cli.skills.action import Action
+from etot_cli.world.state import CauseKind
 
-Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+DECIMALS = 6
+"""Microseconds are the finest a clock reading means."""
+
+
+def rounded(decimals: int) -> BeforeValidator:
+    """Makes a number's type one that is rounded for people."""
+    return BeforeValidator(
+        lambda value: round(value, decimals) if isinstance(value, float) else value
+    )
+
+
+def seconds(value: float) -> float:
+    """A time rounded for people and never negative [s]."""
+    return round(max(value, 0.0), DECIMALS)
+
+
+def _written(value: Any) -> Any:
+    return str(value) if isinstance(value, Action) else value
+
+
+ExactSeconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Seconds = Annotated[
+    ExactSeconds,
+    BeforeValidator(lambda value: seconds(value) if isinstance(value, float) else value),
+]
+ActionText = Annotated[str, BeforeValidator(_written)]
+"""As written in plans, e.g. [PUT ON, desk]."""
 Metres = Annotated[float, Field(allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Count = Annotated[int, Field(ge=0)]
@@ -23,9 +50,6 @@ Digest = Annotated[str, Field(pattern=HEX_DIGEST)]
 
 UNKNOWN = "unknown"
 """The version of a package that is not installed, or that an older report does not tell."""
-
-DECIMALS = 6
-"""Microseconds are the finest a clock reading means."""
 
 
 class Model(BaseModel):
@@ -38,6 +62,7 @@ class Model(BaseModel):
         validate_by_alias=True,
         serialize_by_alias=True,
         allow_inf_nan=False,
+        from_attributes=True,
     )
 
 
@@ -96,7 +121,7 @@ class KeepoutModel(Model):
 class ActionModel(Model):
     """An action, exactly enough to repeat it."""
 
-    action: str
+    action: ActionText
     """As written in plans, e.g. [PUT ON, desk]."""
     safe: bool
     """It looks for a place that stays clear of everything that moves, see keepout."""
@@ -131,29 +156,6 @@ class Report(Model):
     """Other files of this run by purpose, relative to the report's folder."""
 
 
-def cause_model(cause: Cause | None) -> CauseModel | None:
-    """A cause as it stands in reports."""
-    if cause is None:
-        return None
-    return CauseModel(
-        kind=cause.kind, objects=list(cause.objects), text=cause.text, time_s=cause.time_s
-    )
-
-
-def keepout_models(keepout: tuple[Keepout, ...]) -> list[KeepoutModel]:
-    """The discs of an action as they stand in reports."""
-    return [KeepoutModel(x=disc.x, y=disc.y, radius=disc.radius) for disc in keepout]
-
-
 def action_fields(action: Action) -> dict[str, object]:
     """The fields of :class:`ActionModel` for an action."""
-    return {
-        "action": str(action),
-        "safe": action.safe,
-        "keepout": keepout_models(action.keepout),
-    }
-
-
-def seconds(value: float) -> float:
-    """A time rounded for people and never negative [s]."""
-    return round(max(value, 0.0), DECIMALS)
+    return {"action": action, "safe": action.safe, "keepout": action.keepout}

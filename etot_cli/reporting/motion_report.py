@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from etot_cli.control.simulated import WorldOutcome
-from etot_cli.reporting.models import Count, Digest, Model, Seconds
-from etot_cli.skills.motion.motion import FramedPose, Motion, PhaseEnd, Trace
+from etot_cli.reporting.models import Count, Digest, ExactSeconds, Model, Seconds, rounded
+from etot_cli.skills.motion.motion import Motion, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, peaks
 from etot_cli.world.state import SceneState
 
@@ -49,7 +49,7 @@ class MotionModel(Model):
     """The tool where it closes on, or first touches, the object or part it is told in."""
     object_at: PoseModel | None
     """Where the held object is let go, in the frame of what it is put on or into."""
-    details: dict[str, float]
+    details: dict[str, Annotated[float, rounded(6)]]
     """Figures of the grasp or placement, SI units."""
     peaks: PeaksModel | None
     """Null where the arm did not move."""
@@ -66,13 +66,13 @@ class TrajectoryPhaseModel(Model):
     name: str
     end: PhaseEnd
     """How it ended."""
-    start_s: Seconds
-    end_s: Seconds
+    start_s: ExactSeconds
+    end_s: ExactSeconds
     opening: float | None
     """Distance between the pads that the gripper is sent to as the phase begins [m]."""
     targets: list[list[float]]
     """Joint targets [rad], one row for every control period."""
-    waited_s: Seconds
+    waited_s: ExactSeconds
     """Time held still after the targets."""
     holding: float | None
     """With an opening below this [m] what was held is gone; null with empty fingers."""
@@ -88,7 +88,7 @@ class TrajectoryModel(Model):
     """SHA-256 of the twin's model, to tell whether a scene is the one that this was planned in."""
     joints: list[str]
     """Names of the joints, in the order of each row of targets."""
-    control_period_s: Seconds
+    control_period_s: ExactSeconds
     phases: list[TrajectoryPhaseModel]
 
 
@@ -99,19 +99,21 @@ def motion_model(
     motion, trace = outcome.motion, outcome.trace
     if not isinstance(motion, Motion) or not isinstance(trace, Trace):
         return None
-    return MotionModel(
-        action=action,
-        node=node,
-        file=file,
-        sha256=sha256,
-        seconds=trace.seconds,
-        tool_at=_pose(motion.tool_at),
-        object_at=_pose(motion.object_at),
-        details={key: round(float(value), 6) for key, value in motion.details.items()},
-        peaks=_peaks(trace),
-        before=_poses(outcome.record.before),
-        after=_poses(outcome.record.after),
-        end_state=outcome.end_digest,
+    return MotionModel.model_validate(
+        {
+            "action": action,
+            "node": node,
+            "file": file,
+            "sha256": sha256,
+            "seconds": trace.seconds,
+            "tool_at": motion.tool_at,
+            "object_at": motion.object_at,
+            "details": motion.details,
+            "peaks": _peaks(trace),
+            "before": _poses(outcome.record.before),
+            "after": _poses(outcome.record.after),
+            "end_state": outcome.end_digest,
+        }
     )
 
 
@@ -139,12 +141,6 @@ def trajectory_model(
             for phase in trace.phases
         ],
     )
-
-
-def _pose(pose: FramedPose | None) -> PoseModel | None:
-    if pose is None:
-        return None
-    return PoseModel(frame=pose.frame, position=pose.position, quaternion=pose.quaternion)
 
 
 def _poses(scene: SceneState) -> dict[str, PoseModel]:

@@ -9,17 +9,15 @@ from pydantic import Field
 
 from etot_cli.planning.alternatives import Prefix
 from etot_cli.planning.conditions import holds
-from etot_cli.planning.result import SearchResult
-from etot_cli.planning.survival import Survival
 from etot_cli.reasoning.protocol import Branch, Understanding
 from etot_cli.reporting.models import (
+    ActionText,
     Count,
     Digest,
     Model,
     Report,
     Seconds,
     Share,
-    seconds,
 )
 from etot_cli.reporting.motion_report import MotionModel
 from etot_cli.reporting.tree_report import TreeModel
@@ -46,7 +44,7 @@ class PlanOptionsModel(Model):
 class BranchModel(Model):
     """A proposed action sequence and its purpose."""
 
-    actions: list[str]
+    actions: list[ActionText]
     reason: str
 
 
@@ -69,7 +67,7 @@ class SurvivalModel(Model):
     worlds: Count
     alive: Count
     probability: Share
-    ci95: tuple[Share, Share]
+    ci95: tuple[Share, Share] = Field(validation_alias="interval")
     """Wilson 95 % interval of the probability."""
 
 
@@ -103,7 +101,7 @@ class SuccessModel(Model):
 class DoubtModel(Model):
     """A plan that was refused: all its actions succeeded, and what was asked for was not done."""
 
-    actions: list[str]
+    actions: list[ActionText]
     why: str
 
 
@@ -179,34 +177,13 @@ def understood_model(
 ) -> UnderstoodModel:
     """What the reasoner understood and proposed, as it stands in reports."""
     understanding = understanding or Understanding()
-    return UnderstoodModel(
-        goal=understanding.goal,
-        choices=list(understanding.choices),
-        goal_holds=goal_holds,
-        branches=[
-            BranchModel(actions=[str(action) for action in branch.actions], reason=branch.reason)
-            for branch in branches
-        ],
-    )
-
-
-def doubt_models(result: SearchResult) -> list[DoubtModel]:
-    """Refused plans as they stand in reports."""
-    return [
-        DoubtModel(actions=[str(action) for action in actions], why=why)
-        for actions, why in result.doubts.items()
-    ]
-
-
-def survival_model(survival: Survival | None) -> SurvivalModel | None:
-    """A plan's survival as it stands in reports."""
-    if survival is None:
-        return None
-    return SurvivalModel(
-        worlds=survival.worlds,
-        alive=survival.alive,
-        probability=survival.probability,
-        ci95=survival.interval,
+    return UnderstoodModel.model_validate(
+        {
+            "goal": understanding.goal,
+            "choices": understanding.choices,
+            "goal_holds": goal_holds,
+            "branches": branches,
+        }
     )
 
 
@@ -232,19 +209,4 @@ def prefix_model(prefix: Prefix | None) -> PrefixModel | None:
         actions=[str(action) for action in prefix.last.actions],
         nodes=[node.id for node in prefix.last.path],
         missing=[str(node.action) for node in prefix.missing],
-    )
-
-
-def statistics_model(result: SearchResult) -> StatisticsModel:
-    """The search's cost as it stands in reports."""
-    cost = result.statistics
-    return StatisticsModel(
-        nodes_evaluated=cost.nodes_evaluated,
-        reflections=cost.reflections,
-        simulated_s=seconds(cost.simulated_s),
-        wall_s=seconds(cost.wall_s),
-        physics_s=seconds(cost.physics_s),
-        kinematics_s=seconds(cost.kinematics_s),
-        steps=cost.steps,
-        limit=None if result.limit is None else result.limit.value,
     )

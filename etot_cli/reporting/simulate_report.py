@@ -6,25 +6,16 @@ from typing import Literal
 
 from pydantic import Field
 
-from etot_cli.reporting.evidence import ContactModel, MovedModel
-from etot_cli.reporting.models import ActionModel, CauseModel, Count, Metres, Model, Report, Seconds
+from etot_cli.reporting.evidence import JudgedModel
+from etot_cli.reporting.models import Count, Metres, Model, Report
 
 
-class StepModel(ActionModel):
+class StepModel(JudgedModel):
     """One action of the plan, carried out."""
 
     index: Count
     """Its place in the plan, from 0."""
     status: Literal["success", "failure", "unsafe"]
-    cause: CauseModel | None
-    changes: list[str]
-    """Objects whose state changed."""
-    moved: list[MovedModel] = Field(default_factory=list)
-    """What moved or changed, the farthest first."""
-    contacts: list[ContactModel] = Field(default_factory=list)
-    """Contacts that had to do with it, in order of time."""
-    simulated_s: Seconds
-    wall_s: Seconds
 
 
 class ConditionModel(Model):

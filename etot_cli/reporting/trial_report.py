@@ -10,7 +10,7 @@ from etot_cli.benchmark.methods.catalogue import Method
 from etot_cli.benchmark.trial import TrialResult
 from etot_cli.execution.records import Trial
 from etot_cli.reporting.execute_report import TrialModel, trial_model
-from etot_cli.reporting.models import Count, Model, Seconds, TaskModel, VersionsModel, seconds
+from etot_cli.reporting.models import Count, Model, Seconds, TaskModel, VersionsModel
 from etot_cli.reporting.provenance import versions
 from etot_cli.specs.task import Task
 
@@ -56,6 +56,6 @@ def trial_report(task: Task, method: Method, trial: Trial, result: TrialResult) 
         reason=result.reason,
         trial=trial_model(trial, task.success),
         costs=dict(result.costs),
-        times={name: seconds(value) for name, value in result.times.items()},
-        wall_s=seconds(result.wall_s),
+        times=dict(result.times),
+        wall_s=result.wall_s,
     )

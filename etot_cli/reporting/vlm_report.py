@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reasoning.vlm.notes import NoteKind
 from etot_cli.reporting.models import Count, Model
 
@@ -56,22 +54,3 @@ class VlmModel(Model):
     roles: dict[str, VlmRoleModel]
     notes: list[VlmNoteModel]
     """Repairs, dropped branches, diagnoses, disagreements and what settled them, in order."""
-
-
-def vlm_model(account: VlmAccount | None) -> VlmModel | None:
-    """What a model was asked, as it stands in reports."""
-    if account is None:
-        return None
-    return VlmModel.model_validate(
-        {
-            "url": account.url,
-            "model": account.model,
-            "judge": account.judge,
-            "hints": account.hints,
-            "replayed": account.replayed,
-            "prompts": dict(account.prompts),
-            "total": asdict(account.total),
-            "roles": {role: asdict(part) for role, part in account.roles.items()},
-            "notes": [asdict(note) for note in account.notes],
-        }
-    )
