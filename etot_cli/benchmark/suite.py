@@ -26,6 +26,7 @@ from etot_cli.specs.task import Task
 
 SUFFIXES = (".yaml", ".yml")
 MAX_TASKS = 1000
+"""More is a slip of the keyboard."""
 RANDOM = re.compile(r"random:([0-9]{1,4})")
 """So many random problems."""
 MAX_SUITES = 8

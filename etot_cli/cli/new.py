@@ -12,9 +12,6 @@ import typer
 from etot_cli.cli.exits import NO, OK
 from etot_cli.cli.options import Json
 
-MAX_QUESTIONS = 64
-"""Objects asked for at most, as many as a scene may hold."""
-
 
 def new(
     file: Annotated[Path, typer.Argument(metavar="TASK.yaml", help="The file to write.")],
@@ -53,6 +50,7 @@ def new(
     """
     from etot_cli.commands.new import TEMPLATES, NewOptions, write_task
     from etot_cli.reporting.evidence import whereabouts
+    from etot_cli.specs.scene import MAX_OBJECTS
     from etot_cli.specs.shipped import shipped_files
 
     objects = list(add or [])
@@ -64,7 +62,7 @@ def new(
             scene = typer.prompt(f"Starting scene ({names}, or a file)", default="desk")
         if not objects:
             print(f"Objects: NAME=KIND@X,Y[,COLOR]; kinds: {', '.join(TEMPLATES)}")
-            for _ in range(MAX_QUESTIONS):
+            for _ in range(MAX_OBJECTS):
                 answer = typer.prompt(
                     "Another object (empty: no more)", default="", show_default=False
                 )

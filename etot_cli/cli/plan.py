@@ -45,6 +45,7 @@ from etot_cli.specs.look import Look
 EXPORTS = (".xml", ".pddl.txt", ".pddl", ".zip")
 """Endings of files that --export writes."""
 MAX_TIME_LIMIT_S = 366 * 24 * 3600.0
+"""A year: what is longer is no limit, and clocks cannot add just any number."""
 
 
 class Keep(StrEnum):

@@ -37,6 +37,7 @@ from etot_cli.reporting.provenance import Stopwatch, versions
 MAX_RUN = 100_000
 """Trials of a run, tasks and methods together; their report can still be read."""
 DEFAULT_TRIALS = 10
+"""As many as the paper's tables have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -40,7 +40,9 @@ WIDEST_PX, NARROWEST_PX = 800, 320
 BYTES_PER_PIXEL = 0.06
 """Of a rendered desk as WebP of this quality, measured; a little above the mean."""
 QUALITY = 72
+"""Of WebP, 0 to 100; what BYTES_PER_PIXEL was measured with."""
 RATIO = 16 / 10
+"""Of width to height: a desk from the front, with the arm above it."""
 SAMPLES = ((12, 4), (24, 3), (10**9, 2))
 """Renders per picture for so many pictures: a page's pictures take about as long as a short plan,
 3 s on two cores, and two samples already take the stairs off edges."""

@@ -32,7 +32,9 @@ MAX_REACH_M = 1.6
 BELOW_DESK_M = 0.05
 """Points this far below the desk's top are floor [m]."""
 MAX_TRIANGLES = 60_000
+"""Of a body on a page: at nine numbers each, what a browser still turns smoothly."""
 QUALITY = 82
+"""Of the embedded picture as WebP, 0 to 100: it is what the reconstruction is judged against."""
 
 
 def write_reconstruct_page(reconstruction: Reconstruction, folder: Path) -> Path:

@@ -30,6 +30,7 @@ DROP_HEIGHT = 0.08
 PART_SPEED = (0.3, 2.0)
 """A drawer [m/s] and a door [rad/s] moved by hand."""
 PART_TOLERANCE = 0.004
+"""A part this near to its goal is there [m or rad]: what a door turns by in a step of 2 ms."""
 TIP_S = 3.0
 """Something that does not fall over in this time is left alone [s]."""
 TIPPED_COSINE = 0.5

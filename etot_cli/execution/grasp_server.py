@@ -33,6 +33,7 @@ SAID = logging.getLogger(__name__)
 DEADLINE_S = 20.0
 """A reply takes no longer, retries included [s]: the robot waits for it."""
 MOST_GRASPS = 1000
+"""Grasps in a reply; only the first ones are looked at anyway."""
 MOST_TRIED = 20
 """Grasps that the twin looks at, best first: about a second's work."""
 LEAST_MASK = 30
@@ -42,6 +43,7 @@ ROOM = 0.03
 SAME = 0.001
 """A motion whose tool ends this near to a grasp is a motion to that grasp [m]."""
 RIGID = 0.02
+"""A matrix this far from a rotation is refused; digits lost in JSON leave far less."""
 LEVEL = 0.5
 """Sine of the approach's fall from which a grasp counts as from above."""
 

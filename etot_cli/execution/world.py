@@ -28,6 +28,7 @@ from etot_cli.world.state import SceneState
 AWAY = (3.0, 3.0)
 """What is not on the scene waits on the floor there, x y [m]: beyond every desk."""
 AWAY_SPACING = 1.0
+"""What is away lies this far apart [m], so that nothing touches."""
 
 
 class ExecutionWorld:

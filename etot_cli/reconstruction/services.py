@@ -26,6 +26,7 @@ DEADLINE = 120.0
 MAX_REPLY = 64 * 1024 * 1024
 """Largest reply in bytes."""
 MAX_MESH = 32 * 1024 * 1024
+"""Largest mesh [bytes], half of what a reply may hold."""
 
 
 @dataclass(frozen=True)

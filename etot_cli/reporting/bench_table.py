@@ -21,6 +21,7 @@ PIPE_WIDTH = 10_000
 GOOD, POOR = 0.8, 0.4
 """Rates from which a cell is green, and up to which it is red."""
 SIGNIFICANT = 0.05
+"""The usual level; p values are adjusted for the number of comparisons."""
 LEAST_TOLD = 1e-4
 """P values below this say nothing more."""
 

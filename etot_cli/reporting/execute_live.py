@@ -19,6 +19,7 @@ REFRESHES_PER_SECOND = 4
 EVENTS_KEPT = 8
 """Looks, replans and disturbances that stay in sight."""
 TRIALS_KEPT = 12
+"""Lines of finished trials that stay in sight."""
 
 
 class ExecutionLog:

@@ -17,6 +17,7 @@ from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unic
 REFRESHES_PER_SECOND = 4
 """Often enough for a running clock; drawing must not take time from the simulation."""
 FOOTER_LINES = 4
+"""Title, footer, the note on a narrow screen, and the line of the cursor."""
 NARROW = 64
 """On a narrower screen an action fills its line, and why it failed stands below it."""
 MIN_WORDS = 12

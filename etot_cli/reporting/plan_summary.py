@@ -17,6 +17,7 @@ from etot_cli.reporting.vlm_report import VlmModel
 MAX_FAILURES = 6
 """Different failures shown unless more detail is asked for, and fewer on a low screen."""
 LINES_PER_FAILURE = 2
+"""What was done, and why it did not work."""
 LINES_BESIDES = 10
 """Headline, numbers, files and the prompt: what else has to fit on the screen."""
 

@@ -24,7 +24,6 @@ ATTEMPTS = 4
 """Requests for one answer; what does not pass within three pauses does not pass soon."""
 FIRST_PAUSE = 0.5
 """Before the second attempt [s]; doubles with each."""
-LONGEST_PAUSE = 8.0
 TRANSIENT = frozenset({408, 409, 425, 429, 500, 502, 503, 504})
 """Statuses that may be others next time."""
 SHOWN = 200
@@ -73,7 +72,7 @@ class Endpoint:
         with self._wire(expected) as wire:
             for attempt in range(ATTEMPTS):
                 if attempt:
-                    pause = min(FIRST_PAUSE * 2 ** (attempt - 1), LONGEST_PAUSE)
+                    pause = FIRST_PAUSE * 2.0 ** (attempt - 1)
                     pause *= 0.5 + random.random()  # so that several clients do not come at once
                     if time.monotonic() + pause >= until:
                         break

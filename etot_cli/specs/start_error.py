@@ -11,6 +11,7 @@ from etot_cli.specs.scene import Scene, Variation
 METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0}
 DEGREES = {"deg": 1.0, "rad": 180.0 / math.pi}
 MAX_POSITION_M = 0.1
+"""More than a hand's breadth off is another scene."""
 MAX_YAW_DEG = 180.0
 """What a scene's variation may state."""
 EXPECTED = "expected a length and an angle such as 5mm,3deg (units mm, cm, m, deg, rad), or one"

@@ -28,9 +28,9 @@ OWN_SHARE = 0.3
 FRICTION_BOUNDS = (0.01, 3.0)
 MASS_BOUNDS = (0.0002, 100.0)
 MAX_ROLLING = 0.1
+"""What the models accept; draws are clipped to it."""
 MAX_JOINTS = 12
 """Of a robot."""
-"""What the models accept; draws are clipped to it."""
 
 
 @dataclass(frozen=True, slots=True)

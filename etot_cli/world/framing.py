@@ -15,6 +15,7 @@ from etot_cli.world.model import World
 FOV_DEG = 36.0
 """Vertical opening: as a photographer at a table would take, little distorted."""
 ELEVATION_DEG = -27.0
+"""As somebody standing before the desk looks down at it."""
 ASIDE_DEG = 27.0
 """The camera stands this far beside the line through the robot, so that the arm is seen bent."""
 FILLED = 0.95

@@ -22,6 +22,7 @@ from etot_cli.world.robot import RobotSpec, load_robot
 from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, actuate, add_robot, robot_index
 
 MASS_TOLERANCE = 1e-6
+"""Masses that differ by a smaller share are the same: the digits of a file."""
 SEEN_ONLY = ("cam", "light", "mat", "name", "nbuf", "nmat", "nname", "npath", "ntex", "path", "tex")
 """Beginnings of the model's fields that physics does not depend on."""
 

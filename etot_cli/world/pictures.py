@@ -21,6 +21,7 @@ TONES: dict[Tone, tuple[int, int, int]] = {
 }  # fmt: skip
 """Colours of a caption's edge, RGB."""
 CULPRIT = (235, 40, 25)
+"""Red, of outlines and tags, RGB."""
 INK, PAPER = (34, 36, 42), (250, 250, 248)
 SMALLEST_SEEN = 12
 """Objects of which fewer pixels are seen get no outline."""

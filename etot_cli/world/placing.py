@@ -18,6 +18,7 @@ from etot_cli.world.state import DESK
 GAP = 0.0005
 """Objects start this far above their support [m], and settle."""
 DROP_STEP = 0.002
+"""Things are raised and lowered by steps of this until they are free or touch [m]."""
 MAX_RAISE = 0.6
 """What is put where others are is lifted clear of them by this at most [m]: higher than any piece
 of furniture."""

@@ -19,6 +19,7 @@ MOVED = 0.01
 TRAIL_STEP = 0.05
 """Spacing of the points that an object's way is remembered by [m]."""
 MAX_TRAIL = 24
+"""Points of a way that are told: more than a metre of it."""
 PRESSED = 2.0
 """A contact that existed before the action matters only when it is pressed harder than this [N]."""
 FORCE_THRESHOLD = 0.05

@@ -30,6 +30,7 @@ depth."""
 UPRIGHT_COSINE = 0.5
 """A container tilted beyond this (cosine to the vertical) holds nothing."""
 CONTACT_DISTANCE = 0.001
+"""What is this near touches [m]: twice the gap over which things settle on their support."""
 SUPPORT_SLOPE = 0.3
 """A contact whose normal rises more than this (vertical component) supports."""
 LOST_BELOW = 0.02

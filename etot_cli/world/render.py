@@ -20,6 +20,7 @@ from etot_cli.world.offscreen import Image, OffscreenRenderer, Vector
 
 DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
 DEFAULT_FOV_DEG = 45.0
+"""MuJoCo's own default."""
 DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG = 180.0, -38.0
 """A scene without cameras is seen from the front, obliquely, towards the robot."""
 MIN_SIDE = 16

@@ -19,6 +19,8 @@ from etot_cli.benchmark.problems.things import between, mm
 from etot_cli.specs.footprint import Polygon, rectangle, shifted, turned
 
 WALL = 0.006
+"""Thickness of a shelf's and a chest's boards [m]: thin enough to leave the compartments their
+height."""
 FLOOR = 0.0055
 """A drawer's floor and its play take this much of the compartment's height [m]."""
 HANDLE = 0.04

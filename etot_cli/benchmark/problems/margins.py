@@ -30,6 +30,7 @@ NEAREST = 0.28
 FARTHEST = 0.54
 """Greatest such distance on the desk; the arm gets 0.1 m farther."""
 DESK_TOP = 0.13
+"""Height of the desk in all problems [m], as in the tasks of the paper."""
 HOME, HOME_RADIUS, HOME_HEIGHT = (0.268, 0.0), 0.105, 0.13
 """The hand waits at x y with its fingertips 0.159 m above the desk. What rises higher than 0.13 m
 stays out of this circle: 60 mm to the outside of an open finger, and 45 mm."""
@@ -38,6 +39,7 @@ LIFT = 0.09
 STRETCH = 0.61
 """Distance of the wrist from the shoulder that is used; the arm's is 0.64."""
 WRIST_OFFSET = 0.076
+"""The last joint's axis passes this far beside the wrist's [m], in the maker's description."""
 ABOVE_HANDLE = 0.065
 """A hand that takes a handle from above has the palm at 85 mm above it, over the furniture, which
 may rise this far above the handle."""

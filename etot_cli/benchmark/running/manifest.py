@@ -22,6 +22,7 @@ TRIALS = "trials"
 RESULTS = ("report.json", "report.html", "rows.csv", "trials.csv")
 """What a run leaves at its end; of a run that is thrown away it would tell of other trials."""
 MAX_BYTES = 8 * 1024 * 1024
+"""A bound on what is read: a manifest names tasks, methods and options."""
 
 
 class Manifest(BaseModel):

@@ -11,6 +11,7 @@ from etot_cli.execution.protocols import Frame
 from etot_cli.reconstruction.capture.folder import read_capture
 
 MOST_FRAMES = 10_000
+"""Captures of a folder that are looked at: hours of looks, and a bound on a wrong folder."""
 
 
 class FileCamera:

@@ -11,6 +11,7 @@ from etot_cli.errors import ServiceError
 from etot_cli.execution.protocols import Camera, Frame
 
 ATTEMPTS = 4
+"""Pictures asked for before the camera counts as gone."""
 PAUSE = 0.1
 """Time between attempts [s]: three frames of a camera of 30 Hz."""
 LEAST_READINGS = 0.02

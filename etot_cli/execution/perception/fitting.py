@@ -25,9 +25,11 @@ GRAZING = 0.15
 SIDEWAYS = 0.15
 """Weight of moving towards a reading along the surface, against moving along its normal."""
 MOST_READINGS = 400
+"""Readings that a pose is fitted to: six numbers need no more, and each costs time."""
 DAMPING = 1e-3
 """Keeps directions in which nothing is measured where they are."""
 OUTLINE_POINTS = 1500
+"""Points of a surface that its outline in the picture is made of."""
 OUTLINE_LEVELS, OUTLINE_ROUNDS = 4, 6
 """Moves are halved so often, and made so often before; from 12 mm down to 1.5 mm."""
 GATES = (0.03, 0.02, 0.012, 0.009, 0.007, 0.007)

@@ -26,6 +26,7 @@ from etot_cli.execution.perception.unseen import GONE
 PART_STEPS, PART_ROUNDS = 15, 3
 """Values of a part's joint that are compared, and how often between the two best ones."""
 PART_POINTS = 2500
+"""Points of a part's surface that are compared with the picture."""
 FIT_ROUNDS = 3
 """Body and parts are fitted in turn, so often at most: the second time mostly changes nothing."""
 SETTLED = 0.04

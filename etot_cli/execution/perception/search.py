@@ -14,7 +14,9 @@ from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
 
 HEADINGS = 8
+"""Turns that are tried: neighbours are 45° apart, and a fit finds the rest."""
 MOST_CLUSTERS = 6
+"""Groups of unexplained readings that are looked through, the largest first."""
 COARSE = (0.03, 0.03, 0.02, 0.02, 0.012)
 """Gates of the first fit of a guess [m]."""
 PROMISING = 3

@@ -36,6 +36,7 @@ JITTER = 2e-5
 REPORT_PORTS = {30001: 145, 30002: 587}
 """Bytes of a report by port."""
 STOPPED = 4
+"""State of an arm that takes no motion, in the maker's numbering; so are the codes below."""
 SERVO_MODE = 1
 VERSION = "6,6,XI130000000000,AC130000000000,v1.12.10"
 STATUS_ERROR, STATUS_NOT_READY = 0x40, 0x10

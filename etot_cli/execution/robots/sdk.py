@@ -24,9 +24,11 @@ from etot_cli.errors import RobotStoppedError, ServiceError
 Vector = NDArray[np.float64]
 
 CONTROL_PORT = 502
+"""On which the maker's controller takes commands (Modbus TCP)."""
 SERVO_MODE = 1
 """The controller's mode in which streamed joint targets are followed as they come."""
 STATE_READY = 0
+"""In the maker's numbering."""
 AXES = 6
 REPORTED_WITHIN = 2.0
 """Time for a change to come back in the controller's reports, five of which come a second [s]."""

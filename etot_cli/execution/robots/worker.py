@@ -40,7 +40,9 @@ STARTS_WITHIN = 60.0
 ANSWERS_WITHIN = 10.0
 """Time for a reply beyond the robot's own time [s]."""
 LOOKS_WITHIN = 30.0
+"""Time for a picture or a look [s]: for the first one a simulator may have to set up rendering."""
 STOPS_WITHIN = 3.0
+"""Time for a worker to stop or to close [s]; then its process is ended."""
 
 
 @dataclass(frozen=True)

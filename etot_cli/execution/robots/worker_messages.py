@@ -17,17 +17,17 @@ from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.skills.motion.motion import PhaseEnd, Press
 from etot_cli.specs.base import QUATERNION_TOLERANCE
+from etot_cli.specs.vary import MAX_JOINTS
 
 PROTOCOL = "etot.worker/1"
 FARTHEST = 100.0
 """Nothing in a robot's cell is farther away [m]; what is has another unit."""
-MOST_JOINTS = 12
 MOST_THINGS = 1000
 """Objects or parts in one look, at most."""
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Place = Annotated[float, Field(ge=-FARTHEST, le=FARTHEST, allow_inf_nan=False)]
-Joints = Annotated[list[Number], Field(min_length=1, max_length=MOST_JOINTS)]
+Joints = Annotated[list[Number], Field(min_length=1, max_length=MAX_JOINTS)]
 Short = Annotated[str, Field(max_length=200)]
 
 
@@ -42,7 +42,7 @@ class Hello(Message):
 
     protocol: str
     name: Short
-    joints: Annotated[int, Field(ge=1, le=MOST_JOINTS)]
+    joints: Annotated[int, Field(ge=1, le=MAX_JOINTS)]
     offers: Annotated[list[Literal["look", "frame"]], Field(max_length=2)] = []
     slower: Annotated[float, Field(gt=0.0, le=1000.0)] = 1.0
 

@@ -26,6 +26,7 @@ MAX_LINE = 64 * 1024 * 1024
 MAX_STALE = 16
 """Replies to requests that were given up; there is one at most for every stop."""
 CHUNK = 1 << 16
+"""Bytes at a time: as much as a pipe of Linux holds."""
 KEPT_ERRORS = 20
 """Lines of the worker's standard error that are kept for a message."""
 ENDS_WITHIN = 2.0

@@ -31,6 +31,7 @@ from etot_cli.world.state import DESK, SceneState
 BESIDE = "beside"
 """Stands for all keys on where an object is with respect to others."""
 _LAST = {BESIDE: 1, "upright": 2}
+"""Conditions on how something stands come after those on where."""
 _CONVERSE = {
     Nearby.LEFT: Nearby.RIGHT,
     Nearby.RIGHT: Nearby.LEFT,

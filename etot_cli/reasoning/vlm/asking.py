@@ -18,6 +18,7 @@ Value = TypeVar("Value")
 MAX_REASONS = 8
 """Of a reply with more mistakes, the first ones are sent back."""
 MAX_REASON = 400
+"""Of one reason [characters]: it may quote a step of the reply."""
 MAX_QUOTED = 6000
 """What is quoted back of a reply at most; a well-formed one is a fraction of it [characters]."""
 

@@ -24,6 +24,7 @@ from etot_cli.specs.reading import read_utf8
 SCHEMA = "etot.exchange/1"
 PICTURES = "pictures"
 PICTURE_BYTES = 400_000
+"""Of a recorded picture, for people to look at; the model saw the original."""
 MAX_EXCHANGE = 16 * 1024 * 1024
 """An exchange with all its repairs has some 100 kB."""
 EXPECTED = "a recorded exchange"

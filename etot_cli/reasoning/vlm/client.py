@@ -26,9 +26,11 @@ from etot_cli.services.redact import Redactor, public_url
 from etot_cli.services.wire import Wire, WireError
 
 MAX_BACKOFF_S = 30.0
+"""Longest pause between two attempts [s]: limits on requests are counted by the minute."""
 MAX_ADAPTATIONS = 12
 """Format rungs, refused parameters and smaller pictures, all of one question together."""
 CHARACTERS_PER_TOKEN = 4
+"""Rule of thumb for English text, where the server does not state its count."""
 TOKENS_PER_PICTURE = 800
 """For estimates where the server states no usage; about a 768 px frame of GPT-4o."""
 

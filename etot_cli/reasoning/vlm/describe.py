@@ -12,6 +12,7 @@ from etot_cli.skills.action import Action
 from etot_cli.world.state import DESK, ObjectInfo, ObjectState, RolloutRecord, SceneState
 
 MAX_EVENTS = 8
+"""Contacts that are told, the first ones."""
 MAX_LABEL = 80
 """Of a label in a question; it is a noun with a few words [characters]."""
 NOTABLE_FORCE = 0.1

@@ -32,6 +32,7 @@ _FEWER = re.compile(
 )
 _THOUGHTS = re.compile(r"(?is)<think(?:ing)?>.*?</think(?:ing)?>")
 EXCERPT = 240
+"""Characters of a server's words in a message: three lines of a terminal."""
 MAX_REPLY = 100_000
 """Longer replies are not read; a plan of 64 actions with a sentence each has 10,000 characters."""
 MARGIN = 4096

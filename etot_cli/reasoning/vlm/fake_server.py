@@ -22,6 +22,7 @@ from etot_cli.reasoning.vlm.player import Received, Reply, error_reply, load_pla
 
 REQUEST_ID = "X-Client-Request-Id"
 MAX_REQUEST = 64 * 1024 * 1024
+"""A request holds a few pictures of some hundred kilobytes; the rest is margin [bytes]."""
 
 
 Script = Callable[[Received], Reply]

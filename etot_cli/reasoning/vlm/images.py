@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import EtotError
 
 JPEG_QUALITIES = (88, 75, 60, 45)
+"""Tried in turn until a picture is small enough; then it is made smaller instead."""
 SHRINK = 0.75
 """Factor on the side lengths when the quality alone does not bring a frame below its limit."""
 SMALLEST_SIDE = 32

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 MAX_NOTES = 2000
+"""Of a run: a bound on what a report grows by."""
 MAX_TEXT = 800
+"""Of a note [characters]: two reasons of full length."""
 
 
 class NoteKind(StrEnum):

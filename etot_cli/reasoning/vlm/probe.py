@@ -17,6 +17,7 @@ COLORS = {
 }  # fmt: skip
 """Colours that nobody mixes up."""
 SIDE = 256
+"""Of the test picture [px]: large enough for two plain colours to be told apart."""
 
 
 def probe_picture(seed: int) -> tuple[Picture, tuple[str, str]]:

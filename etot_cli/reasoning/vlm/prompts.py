@@ -16,6 +16,7 @@ NAMES = (
     "cot_scene", "cot_attention", "cot_plan",
 )  # fmt: skip
 MAX_TEMPLATE = 50_000
+"""Longest template [bytes]."""
 _HEAD = re.compile(r"\A---\n(?P<head>.*?)\n---\n", re.DOTALL)
 _VERSION = re.compile(r"(?m)^version:\s*(?P<version>[\w.-]{1,40})\s*$")
 _FIELD = re.compile(r"\{\{\s*(\w+)\s*\}\}")

@@ -23,6 +23,7 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import DESK, CauseKind
 
 MAX_REASON = 300
+"""Characters of a diagnosis that go with a branch: two or three sentences."""
 NEITHER = "there is neither a plan in it nor the word none"
 
 

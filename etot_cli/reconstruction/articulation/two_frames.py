@@ -21,6 +21,7 @@ SAME_PLACE = 0.12
 MOVED = {"slide": 0.01, "hinge": 0.05}
 """Joint values that differ by less are the same state [m or rad]."""
 EXTRA_TRAVEL = 0.0005
+"""A drawer seen open that far can be there: the limit lies this far beyond it [m]."""
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,8 @@ WAVES = 5
 HIGHEST_WAVE = 0.01
 """More is no wave of the sensor [m]."""
 _TRIALS = 400
+"""Planes through three points that are tried. Where a third of the points is desk, one in 27 hits;
+that none of them does has a chance of 3e-7."""
 _ORDERS = np.nonzero(np.add.outer(np.arange(WAVES), np.arange(WAVES)) < WAVES)
 
 

@@ -16,6 +16,7 @@ from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.pictures import read_png
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.specs.reading import read_utf8
+from etot_cli.specs.scene import MAX_OBJECTS
 
 NEAREST, FARTHEST = 0.1, 5.0
 """The median depth of a desk scene lies between these [m]; else the unit is wrong."""
@@ -24,7 +25,8 @@ LEAST_READINGS = 0.02
 SCALES = (0.001, 0.0001, 0.00025, 0.01, 1.0)
 """Metres per unit that depth pictures are written with."""
 ROTATION_TOLERANCE = 0.02
-MAX_MASKS = 64
+"""A matrix this far from a rotation is refused; rounding to three digits leaves less."""
+MAX_MASKS = MAX_OBJECTS
 LEAST_MASK = 60
 """A smaller mask shows too little of an object [px]."""
 OVERLAP = 0.1
@@ -32,6 +34,7 @@ OVERLAP = 0.1
 OTHER_PICTURES = (".jpg", ".jpeg", ".PNG", ".bmp", ".tif", ".tiff", ".webp", ".npy")
 """Files that may be meant as masks but are not read."""
 MAX_JSON_BYTES = 1024 * 1024
+"""Calibrations have a few hundred bytes."""
 
 
 @dataclass(frozen=True)

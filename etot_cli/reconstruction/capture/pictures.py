@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import SpecError
 
 MAX_FILE_BYTES = 64 * 1024 * 1024
+"""What the largest picture takes uncompressed in 32 bits."""
 MAX_SIDE = 4096
 """Largest width and height of a picture [px]."""
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"

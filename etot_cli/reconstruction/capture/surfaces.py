@@ -14,18 +14,23 @@ from etot_cli.reconstruction.capture.view import Array, Mask
 JUMP = 0.012
 """Neighbouring pixels that differ by more than this in depth are not one surface [m]."""
 LEVEL_COSINE = 0.94
+"""Surfaces that lean by less than 20° are level."""
 FLUSH = 0.004
 """Two sides of a border are flush when they are out of line by less than this [m]."""
 FLUSH_COSINE = 0.9
+"""Two sides of a border that turn by less than 26° are one surface."""
 APART = 4
 """The two sides of a border are compared this far from it [px]."""
 SURROUNDINGS = (121, 121)
+"""The desk's colour at a place is its mean over so much around it [px]."""
 SHADOW_HUE = 7.0
 """A shadow keeps the desk's hue and saturation up to this distance."""
 DARKEST_SHADOW = 0.3
+"""A shadow leaves at least this share of the desk's lightness."""
 WIDEST_TEAR = 12.0
 """Farther than this from a reading nothing is known about steps [px]."""
 LEAST_BORDER = 12
+"""Shorter borders do not tell whether surfaces are flush [px]."""
 STRAIGHT = 3.0
 """Nine tenths of a straight border lie this near to a line [px]."""
 

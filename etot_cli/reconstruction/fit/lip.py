@@ -20,6 +20,7 @@ from etot_cli.reconstruction.capture.view import Array, Mask
 FRONT_DEG = 70.0
 """The wall is looked at so far to both sides of the direction to the camera."""
 COLUMNS = 71
+"""One for every two degrees."""
 STEP = 0.00025
 """Heights of the unrolled wall are so far apart [m]."""
 COARSE = 4
@@ -39,6 +40,7 @@ WIDEST = 0.25
 LEAST_CONTRAST = 2.5
 """Weaker edges are not believed (of 255)."""
 LEAST_COLUMNS = 8
+"""An edge that fewer columns show may be a pattern on the wall."""
 UNEXPLAINED = 0.04
 """With a larger share of the variance left by one edge, another one before it is looked for."""
 SECOND = 0.35

@@ -23,6 +23,7 @@ CONTAINED = 0.4
 CLOSE = 0.02
 """Surfaces this near to each other in depth may touch [m]."""
 HIGHER = 0.012
+"""Something is higher when its middle is by more than this [m]."""
 HIDING = 0.2
 """Of the border with something in front, the share from which it may hide a part."""
 SEAM = 4

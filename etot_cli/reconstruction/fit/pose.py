@@ -12,6 +12,7 @@ from etot_cli.reconstruction.fit.solver import TOLERANCE, minimize
 from etot_cli.reconstruction.shapes.base import Evidence, Family, convex_distance
 
 FREE_WEIGHT = 0.5
+"""Of a pixel inside the outline where nothing is, against an edge that is off by as much."""
 COARSE = (160, 160)
 """Edge and surface points while shapes are compared."""
 COMPARED = 1e-4

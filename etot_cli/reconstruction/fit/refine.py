@@ -13,6 +13,7 @@ from etot_cli.reconstruction.fit.pose import EXPLAINED_M, FINE, FINE_DEPTH, Fit,
 from etot_cli.reconstruction.shapes.upright import Cup
 
 FIRST_DEPTH = 0.006
+"""Trust in a sensor's depth before it is compared with silhouettes: half to twice this [m]."""
 CLEAN = 0.0002
 """A desk plane with a smaller residual comes from a renderer [m]."""
 LEAST_DEPTH = 0.0007
@@ -24,6 +25,7 @@ BIASED = 0.0025
 HIGHEST = 98
 """Percentile of the readings' heights that is a thing's top, a few stray ones left out."""
 REWEIGHTINGS = 3
+"""Fit and trust in depth are each a function of the other; so often they take turns."""
 RIVALS = 2
 """So many of the best shapes are fitted to all points."""
 BLUR = 4.0

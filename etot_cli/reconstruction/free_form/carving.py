@@ -29,6 +29,7 @@ ROOM = 6
 SMOOTHING = 0.7
 """Standard deviation over which full and empty are blurred [cells]."""
 LEAST_POINTS = 60
+"""Fewer do not show a surface."""
 BLUNT = 1.5
 """Mirrored points may lie before what is seen by so much [cells]."""
 EXACT = 0.0003

@@ -32,6 +32,7 @@ DOUBTFUL = 0.75
 POOR_EDGE = 5.0
 """… and so does one whose outline is off by more than this [px]."""
 LEAST_POINTS = 100
+"""With fewer readings of a thing there is nothing to complete."""
 
 
 def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:

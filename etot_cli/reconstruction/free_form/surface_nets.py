@@ -17,6 +17,7 @@ LEVEL = 0.5
 JUST_FULL = 0.6
 """What cells are filled up to, barely inside, so that the surface hardly moves."""
 ROUNDS = 12
+"""Filling a cell may pinch its neighbours, so all are looked at again, at most this often."""
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 _EDGES = [
     (a, b) for a in range(8) for b in range(a + 1, 8)

@@ -12,7 +12,9 @@ from etot_cli.reconstruction.capture.view import Array, Mask
 
 HEADINGS = 30
 OFFSETS = 21
+"""Planes tried first: six degrees apart, and so many side by side across the thing."""
 SAMPLES = 400
+"""Points that are mirrored to judge a plane."""
 NEAR = 2.0
 """Mirrored points this near to seen ones may be the same [cells] …"""
 SAME = 0.6
@@ -22,7 +24,9 @@ FACING = 0.15
 IMPOSSIBLE = 2.0
 """What it costs that mirrored points lie where nothing can be, for all of them."""
 ALLOWED_AT_FIRST = 0.75
+"""Share that suffices of a plane that is only nearly right."""
 FINALISTS = 8
+"""Planes of the first grid whose neighbours are looked at."""
 ALLOWED = 0.97
 """At least this share of the mirrored points must lie where something can be …"""
 SUPPORTED = 0.2

@@ -21,7 +21,9 @@ from etot_cli.specs import scene as specs
 from etot_cli.specs.scene import SceneObject
 
 HEADINGS = 8
+"""Turns that are tried, 45° apart; a fit finds the rest."""
 STEPS = 25
+"""Of the fit that only tells headings apart."""
 ALIKE = 0.1
 """Scores that differ by less are alike."""
 SCALED_BY_FILE = ("file", "scale")

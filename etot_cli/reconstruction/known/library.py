@@ -20,7 +20,9 @@ from etot_cli.specs.scene import Mesh, Scene, SceneObject
 from etot_cli.world.build.mesh_files import MeshFile, parse_mesh
 
 MOST_NAMES = 16
+"""That one entry goes by."""
 LONGEST_NAME = 60
+"""As long as the label of an object in a scene may be [characters]."""
 POSE_KEYS = ("at", "on", "inside", "yaw_deg", "quaternion")
 UNUSABLE = ("shelf", "mjcf")
 """Kinds that cannot be found in a picture."""

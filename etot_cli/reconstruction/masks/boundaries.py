@@ -26,8 +26,11 @@ UNLIKE = 14.0
 SAMPLES = 400
 """So many pixels show the colours of an object."""
 MARGIN = 40
+"""Of the window around a mask [px]; the colours beside a thing are learned there."""
 ROUNDS = 4
+"""Of GrabCut at once; what has not settled is refined again."""
 REFINEMENTS = 2
+"""The second time neighbours have their own better edges."""
 SETTLED = 0.05
 """A mask that changes by a smaller share is refined no further."""
 LEAST_KEPT, MOST_GROWN = 0.5, 2.2

@@ -35,7 +35,9 @@ FEET = 45
 COVERED = 0.6
 """What stands on the desk with its foot out of sight hides so much of its own footprint."""
 _CELLS = 400
+"""Along each side of a map of the desk: a few millimetres each."""
 _PROBES = 2000
+"""Points of a thing that are let down onto the desk."""
 
 
 def raised_pixels(seen: Calibrated, threshold: float, *, noisy: bool) -> tuple[Mask, Mask]:

@@ -38,6 +38,7 @@ INTERCHANGEABLE = {
 }
 """Kinds that a noun of a kind may be shown by."""
 _WHITE = 0.93
+"""The brightest channel of a well-lit thing is brought to this, never by more than half."""
 NEUTRAL = 0.2
 """Least saturation of a colour that is no grey."""
 DARK, LIGHT = 0.2, 0.58

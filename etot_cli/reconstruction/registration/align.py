@@ -22,11 +22,13 @@ REACH = 0.3
 SCAN = 450
 """Readings that small_gicp works on."""
 STEPS = 15
+"""Iterations of small_gicp at most; the precisions below end it earlier."""
 LEANING = 12.0
 """An alignment that leans by more does not stand on its support [deg]."""
 LEAST_POINTS = 20
 """With fewer readings there is nothing to align, and headings are compared as they are."""
 NEIGHBOURS = 12
+"""Points around a point that tell its normal."""
 TURN_PRECISION = 0.002
 """small_gicp stops when a step turns by less [rad] …"""
 SHIFT_PRECISION = 5e-5

@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.pose import FREE_WEIGHT
 from etot_cli.reconstruction.registration.evidence import Target
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.raster import outline_distance, read_distance
@@ -24,10 +25,10 @@ FARTHEST = 0.25
 """Readings farther from the surface than this share of the size are no part of it."""
 FARTHEST_PX = 14.0
 """… and edges of the mask farther from the outline than this are not the object's [px]."""
-FREE_WEIGHT = 0.5
 STILL = 2e-5
 """Rounds end when no parameter changes by more [m, rad]."""
 SCALE_RANGE = (0.6, 1.6)
+"""A scale that is fitted stays within these shares of the first guess."""
 
 
 def polish(

@@ -27,6 +27,7 @@ UPRIGHT_PRIOR = 0.02
 EDGE_COST = 0.05
 """Mismatch that a pixel between the mesh's outline and the mask's edge counts for."""
 WORST_EDGE = 10.0
+"""An outline that is farther off is equally wrong [px]."""
 WORST_DEPTH = 0.008
 """Depth is never taken to be worse than this [m]."""
 MISFIT = 0.35

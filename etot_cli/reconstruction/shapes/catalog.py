@@ -11,6 +11,7 @@ from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
 
 Tiers = list[list[Family]]
 MOST_DRAWERS = 3
+"""Drawers of a unit that are told apart; each more makes shapes to compare."""
 RODS = ("pen", "capsule")
 """Kinds whose names people use for each other: a stick may be pointed or not."""
 

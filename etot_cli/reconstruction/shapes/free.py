@@ -12,6 +12,7 @@ from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import Evidence, Family, own_frame, rotate
 
 SAMPLES = 4000
+"""Points drawn on a mesh's faces to stand for its surface."""
 MASSIVE = (0.1, 1.01)
 """Volumes that a closed mesh may have, as shares of its hull's."""
 USUAL = 0.8

@@ -27,6 +27,7 @@ ROUNDED = 0.001
 """What is fitted is written to a scene to within less than this [m]."""
 CABINET_WALL = 0.012
 DOOR_THICKNESS = 0.02
+"""What one picture does not show of a cabinet is taken as usual [m]."""
 DRAWER_SIDES = 0.6
 """Height of a drawer's sides as a share of its compartment."""
 Panel = tuple[list[float], list[float]]

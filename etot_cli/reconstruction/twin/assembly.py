@@ -21,12 +21,15 @@ from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects
 
 SETTLE_SECONDS = 1.0
+"""Time that a twin is stepped to see whether it lies still [s]."""
 SETTLE_MM = 2.0
 """An object of a twin at rest moves no more than this."""
 SETTLE_DEG = 1.0
+"""... and turns no more than this."""
 EDGE = 0.03
 """The desk reaches at least this far beyond every object's centre [m]."""
 DESK_LIMIT = 1.9
+"""A scene's lengths end at 2 m; the desk keeps clear of that [m]."""
 FURNITURE = ("drawer_unit", "cabinet")
 ROUND = ("sphere", "cylinder", "cup", "bowl")
 RIM_OVERLAP = 0.0006

@@ -49,6 +49,7 @@ WORLDS = 8
 """Plans for a twin are tried in so many worlds: masses and friction are guesses, and what works
 with one guess alone proves little."""
 LIGHTEST = 0.005
+"""Guessed masses are no smaller [kg]: a pen's few grams."""
 THICK_WALL = 0.005
 """Vessels with thicker walls are solid ware rather than light prints and foams [m]."""
 

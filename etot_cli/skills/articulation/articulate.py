@@ -30,8 +30,10 @@ Vector = NDArray[np.float64]
 ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
 """Shares of its travel from which on a part is left as it is."""
 TOOL_SPEED = 0.16
+"""Quiet [m/s]: fast motion is where the prototype lost things, see docs/physics.md."""
 GRIP_TIME, RELEASE_TIME = 0.45, 0.35
 SETTLE_TIME = 1.2
+"""Time for what stands in or on the part to come to rest, at most [s]."""
 PRESSED = 0.3
 """An object that the part presses on sideways harder than this is in its way [N]."""
 EXIT_SPACING = 3

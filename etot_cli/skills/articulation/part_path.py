@@ -19,6 +19,7 @@ from etot_cli.world.snapshot import copy_configuration
 Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
+"""Length of the straight way to the part and back [m], a hand's breadth."""
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 BEND = 0.15

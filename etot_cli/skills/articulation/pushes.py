@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
-from etot_cli.skills.motion.kinematics import Pose, cross, rotation_from_axes
+from etot_cli.skills.motion.kinematics import UP, Pose, cross, rotation_from_axes
 from etot_cli.world.index import Face, Part
 from etot_cli.world.robot_index import RobotIndex
 
 Vector = NDArray[np.float64]
-UP = np.array([0.0, 0.0, 1.0])
 
 FACE_GAP, WIDEST_GAP = 0.004, 0.02
 """Distance from the face before the push [m], and the most at which the hand comes there. In
@@ -27,6 +26,7 @@ EDGE_DEPTHS = (0.035, 0.012)
 SHARES = (0.86, 0.72, 0.58, 0.45, 0.32)
 """Where along a door to push, as shares of its width from the hinge."""
 SIDE_SHARES = (0.0, 0.45, -0.45, 0.85, -0.85)
+"""Where across a panel's half width to push, the middle first."""
 TILTS = tuple(float(tilt) for tilt in np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
 """Leans of the hand along a push [rad], looked at in turn until one goes."""
 LEAN_CHANGES = (0.0, 0.15, -0.15, 0.3)

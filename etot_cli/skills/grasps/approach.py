@@ -11,13 +11,12 @@ from numpy.typing import NDArray
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.candidates import Grasp
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import Pose, straight
+from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.relations import to_region
 
 Vector = NDArray[np.float64]
 
-UP = np.array([0.0, 0.0, 1.0])
 STANDOFF = 0.09
 """Length of the straight approach [m]."""
 LIFT = 0.10

@@ -21,6 +21,7 @@ from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
 LIFT_SPEED = 0.15
+"""Quiet [m/s]: fast motion is where the prototype lost things, see docs/physics.md."""
 SETTLE_TIME = 0.08
 """Time for the arm to come to rest before the fingers close [s]."""
 GRIP_TIME = 0.45
@@ -33,6 +34,7 @@ way by up to half a thin wall's thickness, and empty fingers close to nothing.""
 MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
 MAX_RANKED = 48
+"""Of those, the ones whose whole way is looked at."""
 MAX_SUSPECTS = 4
 """Objects that are taken away one at a time to see whether that helps ..."""
 MAX_TRIED_AGAIN = 48

@@ -24,11 +24,13 @@ POSITION_TOLERANCE = 8e-4
 ANGLE_TOLERANCE = 8e-3
 """Accepted orientation error of a solution [rad]."""
 MAX_ITERATIONS = 25
+"""Of a descent; one that stalls stops earlier."""
 MAX_SOLVED = 8192
 """Answers that are kept: whoever looks for what is in the way asks the same again."""
 MAX_STEP = 0.6
 """Largest joint change in one iteration [rad]."""
 IK_DAMPING = 1e-7
+"""Keeps the equations solvable where the arm is stretched, and changes nothing elsewhere."""
 JUMP = 0.35
 """Largest joint change between neighbouring points of a straight line [rad]; more is a change of
 the arm's branch in the middle of a path."""
@@ -43,6 +45,8 @@ FAR, TELLING_SEEDS = 0.05, 2
 DISTINCT = 0.3
 """Joint difference from which two solutions count as different [rad]."""
 _LIMIT_MARGIN = 0.01
+"""Descents begin this far inside the limits [rad], so that the first step can go either way."""
+UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)

@@ -21,9 +21,11 @@ Free = Callable[[Vector], bool]
 EDGE_STEP = 0.08
 """Spacing of collision checks along a path [rad]."""
 RRT_STEP = 0.35
+"""Longest edge of a search tree [rad]: four to five checks of collision."""
 RRT_ITERATIONS = 400
 """Samples of a search, and steps of one link: the bound of both loops."""
 SHORTCUTS = 40
+"""Attempts to leave out what lies between two nodes; paths have few of them."""
 LIFTS = (0.08, 0.16)
 """Heights [m] by which a way over what stands between is tried first, the lower one first."""
 

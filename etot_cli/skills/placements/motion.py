@@ -21,6 +21,8 @@ Vector = NDArray[np.float64]
 
 LOWER_SPEED = 0.12
 BACK_SPEED = 1.5 * LOWER_SPEED
+"""Lowering is slow [m/s], as the grasp carries the shock of contact; an empty hand may be
+quicker."""
 LOWERED_TIME, RELEASE_TIME = 0.1, 0.35
 SETTLE_TIME = 1.6
 """Time for what was put down to come to rest, at most [s]."""

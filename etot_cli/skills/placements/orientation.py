@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import turn_about
+from etot_cli.skills.motion.kinematics import UP, turn_about
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.relations import standing_axis
 
 Vector = NDArray[np.float64]
 
-UP = np.array([0.0, 0.0, 1.0])
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
 TURNS_AT_ONCE = 4
@@ -26,6 +25,8 @@ MAX_LAID = 2
 """Ways to lie that are tried."""
 INWARD_TURNS = tuple(np.radians((0, 20, -20, 40, -40)))
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
+"""Turns about the vertical that are tried, 30° apart; and of a hand that reaches in, smaller
+ones."""
 
 
 def resting_rotation(belief: Belief, attached: Attached) -> Vector:

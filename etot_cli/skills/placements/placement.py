@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import Pose, straight
+from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.placements.judging import Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
@@ -18,7 +18,6 @@ from etot_cli.world.model import World
 
 Vector = NDArray[np.float64]
 
-UP = np.array([0.0, 0.0, 1.0])
 HOVER = 0.06
 """Height above a surface from which an object is lowered straight [m]."""
 MOUTH_CLEARANCE = 0.02
@@ -36,6 +35,7 @@ RELEASES = (0.024, 0.016, 0.010, 0.006, 0.003)
 """How far the fingers open to let go [m]: the widest that touches nothing but the object. 12 mm a
 side are clear of what leans over; 1.5 mm a side still let go."""
 CLEARANCE = 0.001
+"""Distance that hand and object keep from everything on the way down [m]."""
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
 """Higher up the hand may be able to open where it cannot at the bottom [m]."""
 MAX_TRIES, TRIES_AGAIN = 40, 8

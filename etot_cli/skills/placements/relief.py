@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.skills.motion.kinematics import UP, Pose
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.snapshot import copy_configuration
 
@@ -37,7 +37,6 @@ BUMP = 0.004
 floor at a slant, and boxes that stand askew on a grain of noise do not."""
 CHUNK = 400_000
 """Cells that are looked up at once: a few megabytes."""
-_UP = np.array([[0.0, 0.0, 1.0]])
 
 
 @dataclass(frozen=True)
@@ -333,7 +332,7 @@ class _Canvas:
         grid = np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
         places = self.origin + ((grid - self.counts) * self.cell) @ self.axes
         origins = np.concatenate([places, np.zeros((len(places), 1))], axis=1)
-        low, high = solids.span(shape.geom, pose.position, pose.rotation, origins, _UP, margin)
+        low, high = solids.span(shape.geom, pose.position, pose.rotation, origins, UP[None], margin)
         size = (len(rows), len(columns))
         window = (slice(first[0], last[0] + 1), slice(first[1], last[1] + 1))
         return window, low.reshape(size), high.reshape(size)

@@ -30,6 +30,7 @@ ones look the same (0.2 of 255 levels apart) and take 1.4 times as long."""
 BLACKEST = 0.07
 """Nothing real is blacker; with less, a black cup is a hole in the picture."""
 TEXTURE_PX = 512
+"""Side of a texture: a grain of some millimetres on a desk of a metre."""
 LEG_M, INSET_M = 0.05, 0.04
 """Thickness of the desk's legs, and how far they stand in from its edge [m]."""
 WALL_BEHIND_M = 0.55

@@ -15,7 +15,9 @@ from etot_cli.specs.objects import ROLLING_DEFAULT
 
 SOLREF = [0.005, 1.0]
 SOLIMP = [0.95, 0.99, 0.001, 0.5, 2.0]
+"""Stiff contacts; docs/physics.md tells what softer ones do."""
 TORSION = 0.005
+"""MuJoCo's own default: a pad turns on a thing as on a disc of 5 mm [m]."""
 
 
 @dataclass(frozen=True)

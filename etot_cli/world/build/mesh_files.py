@@ -20,12 +20,15 @@ from etot_cli.errors import SpecError
 Array = NDArray[np.float64]
 
 MAX_FACES = 200_000
+"""A scan of a hand-sized thing has fewer; the collision pieces are made from all of them."""
 MAX_BYTES = 50 * 1024 * 1024
+"""So many faces take 10 MB as binary STL, and some five times that as text."""
 SUFFIXES = {".glb": "glb", ".obj": "obj", ".stl": "stl"}
 MAX_VALUES = 6 * MAX_FACES
 """Entries in one accessor of a GLB file; a mesh has three indices for each face."""
 MAX_ACCESSORS = 512
 MAX_NODES = 512
+"""Parts of a GLB file; a household thing has a handful."""
 _GLB_MAGIC, _JSON_CHUNK = 0x46546C67, 0x4E4F534A
 """The letters ``glTF`` and ``JSON`` as little-endian numbers, as the format demands."""
 

@@ -14,13 +14,14 @@ from xml.etree.ElementTree import Element
 
 from etot_cli.errors import SpecError, WorldError
 from etot_cli.specs.reading import read_bytes
-from etot_cli.world.build.mesh_files import check_size
+from etot_cli.world.build.mesh_files import MAX_BYTES, check_size
 
 MAX_XML_BYTES = 4 * 1024 * 1024
 """A robot with all its parts has some 50 kB."""
 MAX_INCLUDES = 32
 """Files that a model may consist of."""
 MAX_DEPTH = 64
+"""Elements in elements; an arm of seven joints has some ten."""
 MAX_ELEMENTS = 20_000
 """Elements of a model, the copies of ``replicate`` counted."""
 MAX_GRID = 1024 * 1024
@@ -175,10 +176,10 @@ def _check_file(target: Path, tag: str, file: Path) -> None:
         if tag == "mesh":
             if target.suffix.lower() not in MESHES:
                 raise SpecError(f"expected a mesh file ending in {' or '.join(MESHES)}")
-            check_size(read_bytes(target, MAX_MESH_BYTES, "a mesh"), target.suffix[1:].lower(),
+            check_size(read_bytes(target, MAX_BYTES, "a mesh"), target.suffix[1:].lower(),
                        target.name)  # fmt: skip
         else:
-            _check_picture(read_bytes(target, MAX_MESH_BYTES, "a PNG picture"), target)
+            _check_picture(read_bytes(target, MAX_BYTES, "a PNG picture"), target)
     except SpecError as error:
         raise WorldError(f"{file.name}: {error}") from None
 
@@ -191,10 +192,6 @@ def _check_picture(data: bytes, target: Path) -> None:
         raise SpecError(
             f"is {width} × {height} pixels; expected at most {MAX_PIXELS}", file=target.name
         )
-
-
-MAX_MESH_BYTES = 50 * 1024 * 1024
-"""As for the files that scenes name themselves."""
 
 
 def _number(element: Element, key: str, file: Path) -> float:

@@ -17,6 +17,7 @@ from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.state import DESK, ObjectInfo
 
 DEFAULT_COLOR = (0.62, 0.64, 0.66)
+"""Where a scene gives no colour: a light grey, seen against wood and against shadow."""
 
 
 def add_object(

@@ -18,6 +18,7 @@ from etot_cli.world.workers import WorkerLostError, WorkerPool
 COACD_THRESHOLD = 0.08
 """Concavity at which CoACD stops splitting; finer pieces cost stepping time."""
 MAX_PIECES = 48
+"""Of one mesh: every one costs at each step."""
 COACD_SEARCH = {"mcts_iterations": 60, "mcts_nodes": 10, "preprocess_resolution": 40}
 """How long CoACD looks for cuts: as many pieces as with its own defaults, in a third of the time.
 A mug of 116 mm takes 20 s of processor time."""
@@ -28,6 +29,7 @@ MEMORY_BYTES = 4 * 2**30
 CONVEX_ENOUGH = 0.97
 """Volume over hull volume from which a mesh is taken as convex."""
 MAX_CACHED_BYTES = 20 * 1024 * 1024
+"""Of a cache file; 48 pieces of some hundred vertices have less than a megabyte."""
 
 Vertices = NDArray[np.float64]
 Faces = NDArray[np.int64]

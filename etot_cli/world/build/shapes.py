@@ -77,4 +77,5 @@ def add_pen(mj: mujoco.MjSpec, body: Any, spec: specs.Pen, look: Look, name: str
 
 
 _CONE_SIDES = 12
+"""Of a pen's point: round enough to slide off a rim."""
 _Z_TO_X = [math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0]

@@ -17,6 +17,7 @@ UNPAINTED = (0.5, 0.5, 0.5, 1.0)
 ENDLESS_M = 4.0
 """Side of a plane without an end [m]."""
 THIN_M = 0.002
+"""A plane is drawn as a box this thick [m]."""
 ROUND = 2
 """Subdivisions of a ball: 320 faces."""
 

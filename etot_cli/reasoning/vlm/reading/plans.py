@@ -21,6 +21,7 @@ from etot_cli.reasoning.vlm.reading.text import Line, lines_of
 from etot_cli.skills.action import MAX_PLAN_ACTIONS
 
 MAX_PLANS = 64
+"""Of one reply, more than any is asked for; a bound on what a runaway reply costs."""
 _PLAN_WORD = r"(?:plans?|branch(?:es)?|sequences?|steps?|attempts?|actions?|subtasks?|task plan)"
 _REJECTED = re.compile(
     r"(?i)\b(?:original|previous|initial|failed|failing|wrong|incorrect|old|rejected|current|given|"

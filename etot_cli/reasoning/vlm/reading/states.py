@@ -13,6 +13,7 @@ from etot_cli.reasoning.vlm.reading.text import bare, lines_of, words
 
 UNSURE = "unsure"
 MAX_STATES = 200
+"""Of one reply: three for each of the 64 objects that a scene may have."""
 _SECTION = re.compile(
     r"(?i)^(?:the\s+)?(?:states?\s+|status\s+)?(?P<when>before|after)\b[^:]{0,40}:?\s*(?P<rest>.*)$"
 )

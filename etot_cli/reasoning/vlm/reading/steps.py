@@ -43,7 +43,9 @@ _PROSE = re.compile(
 )
 _SHOUTED = re.compile(r"^[A-Z][A-Z _-]{2,30}$")
 MAX_NOTE_WORDS = 24
+"""Longer notes beside a step are cut: they go into reports, and nothing is read from the rest."""
 _LOOSE_NOTE_WORDS = 9
+"""An unmarked line with more words beside a step is prose, and no step."""
 
 
 @dataclass(frozen=True, slots=True)

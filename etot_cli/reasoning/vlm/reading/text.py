@@ -9,6 +9,7 @@ from typing import NamedTuple
 MAX_TEXT = 20_000
 """Of a longer reply only the end is read: models conclude there [characters]."""
 MAX_LINE = 600
+"""Characters of a line that are read; a step with its note has far fewer."""
 
 _OPENING = "([{<⟨【「『〔［｛（《«"
 _CLOSING = ")]}>⟩】」』〕］｝）》»"
