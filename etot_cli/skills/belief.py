@@ -17,6 +17,7 @@ from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
 from etot_cli.skills.motion.transit import plan_transit
+from etot_cli.world.carrying import carried_by
 from etot_cli.world.model import World
 from etot_cli.world.state import SceneState
 
@@ -105,6 +106,10 @@ class Belief:
     def held(self) -> str | None:
         """The object in the hand, if any."""
         return self.scene.holding
+
+    def riders(self, name: str) -> frozenset[str]:
+        """What moves along with an object, so that it is in nobody's way then."""
+        return carried_by(self.scene, name)
 
     def plan_transit(
         self,

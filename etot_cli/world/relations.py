@@ -83,7 +83,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
             toppled.add(name)
         container = None
         if entry.free:
-            container = _container(world, data, entry, memory.inside.get(name))
+            container = _container(world, data, entry, memory.inside.get(name), supports)
         if container is not None:
             inside[name] = container
         openness, is_open = _openness(data, entry, memory)
@@ -188,17 +188,40 @@ def _tilt_deg(rotation: NDArray[np.float64], up: tuple[float, float, float]) -> 
 
 
 def _container(
-    world: World, data: mujoco.MjData, entry: ObjectEntry, last: str | None
+    world: World,
+    data: mujoco.MjData,
+    entry: ObjectEntry,
+    last: str | None,
+    supports: dict[str, set[str]],
 ) -> str | None:
-    """The smallest container that the object lies in."""
+    """The smallest container that the object lies in.
+
+    A bowl's middle may be in the smaller bowl that lies in it; who bears a container is not in it.
+    """
     found: list[tuple[float, str]] = []
     for address, region in world.regions.items():
-        if region.body == entry.body or address.split(".")[0] == entry.info.name:
+        owner = address.split(".")[0]
+        if region.body == entry.body or owner == entry.info.name:
+            continue
+        if _bears(supports, entry.info.name, owner) and not _bears(
+            supports, owner, entry.info.name
+        ):
             continue
         margin = INSIDE_MARGIN if address == last else 0.0
         if _within(world, data, entry, region, margin):
             found.append((region.half[0] * region.half[1] * region.half[2], address))
     return min(found)[1] if found else None
+
+
+def _bears(supports: dict[str, set[str]], one: str, other: str) -> bool:
+    """Whether one object holds another up, through whatever is between them."""
+    below, found = {other}, {other}
+    while below and one not in found:
+        below = {
+            support.split(".")[0] for name in below for support in supports.get(name, ())
+        } - found
+        found |= below
+    return one in found
 
 
 def _within(

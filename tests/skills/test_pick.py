@@ -84,19 +84,6 @@ def test_thing_in_a_closed_drawer_is_not() -> None:
     assert record.displacement["box"] < 0.01
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_covered_cup_is_blamed_on_what_covers_it(seed: int) -> None:
-    """A ball as wide as the mouth blocks every grasp of the rim."""
-    apple = BALL | {"diameter": 0.1, "on": "cup", "mass": 0.2}
-    apple.pop("at")
-    cup = CUP | {"diameter": 0.105, "slippery": True, "friction": 0.2}
-    record = episode(seed, cup=cup, apple=apple).do("[PICK UP, cup]").record
-    if record.effect:
-        pytest.fail("the rim was grasped in spite of the ball on it")
-    assert record.cause is not None
-    assert "apple" in record.cause.objects or record.cause.kind is CauseKind.SLIP
-
-
 @pytest.mark.parametrize(
     ("thing", "kind"),
     [

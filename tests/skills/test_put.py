@@ -249,6 +249,12 @@ def test_put_beside_things(where: str) -> None:
     assert after.states["box"].on == ("desk",)
 
 
+def test_a_deep_cup_is_carried_with_what_is_in_it() -> None:
+    ball = BALL | {"inside": "cup", "diameter": 0.06, "at": None}
+    after = episode(cup=CUP, ball=ball).must("[PICK UP, cup]", "[PUT ON, desk]")
+    assert after.states["cup"].on == ("desk",) and after.states["ball"].inside == "cup"
+
+
 def test_what_slips_its_last_centimetres_into_place_is_there() -> None:
     """Placements are told by where the object is; a slip elsewhere stays a failure."""
     run = episode(ball=BALL, cup=CUP)

@@ -1,5 +1,5 @@
-"""Why something cannot be put down. A cause holds: without those it names the action works, with
-them it fails.
+"""Why something cannot be picked up or put down. A cause holds: without those it names the action
+works, with them it fails.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from etot_cli.world.state import Cause, CauseKind
-from tests.skills.helpers import BOX, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, UNIT, drawers, episode
 
 BLOCK = {"kind": "box", "size": [0.04, 0.04, 0.04], "mass": 0.06}
 HELD = BLOCK | {"at": [0.33, 0.22]}
@@ -75,6 +75,46 @@ def test_no_room_names_who_fills_it(
     named = set(cause.objects) - {"held"}
     assert named and named <= guilty, cause
     assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
+
+
+OPEN_OVEN = OVEN | {"size": [0.25, 0.28, 0.28], "at": [0.6, 0.0], "yaw_deg": 180,
+                    "door": {"open_deg": 100}}  # fmt: skip
+SMALL_CUP = CUP | {"diameter": 0.07}
+
+
+@pytest.mark.parametrize(
+    ("action", "scene", "guilty"),
+    [
+        (
+            "[PICK UP, thing]",
+            {"thing": CUP | {"diameter": 0.105, "slippery": True, "friction": 0.2},
+             "ball": BALL | {"diameter": 0.1, "on": "thing", "at": None}},
+            ["ball"],
+        ),
+        (
+            "[PICK UP, thing]",
+            {"thing": BLOCK | {"at": [0.4, -0.2]}, "middle": TOP | {"on": "thing", "at": None},
+             "upper": TOP | {"on": "middle", "at": None}},
+            ["middle", "upper"],
+        ),
+        (
+            "[PICK UP, thing] (horizontal)",
+            {"oven": OPEN_OVEN, "cup": SMALL_CUP | {"inside": "oven", "at": [0.55, 0.0]},
+             "thing": {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "inside": "oven",
+                       "at": [0.63, 0.0]}},
+            ["cup"],
+        ),
+    ],
+    ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof"],
+)  # fmt: skip
+def test_no_grasp_names_who_is_in_the_way(
+    action: str, scene: dict[str, dict[str, Any]], guilty: list[str]
+) -> None:
+    cause = episode(**scene).do(action).record.cause
+    assert cause is not None and cause.kind is CauseKind.NO_GRASP
+    assert sorted(cause.objects[: len(guilty)]) == guilty, "what can be moved comes first"
+    assert set(cause.objects) <= {*guilty, "oven", "thing"}
+    episode(**without(scene, tuple(guilty))).must(action)
 
 
 @pytest.mark.slow

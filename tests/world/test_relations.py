@@ -101,6 +101,24 @@ def test_what_stands_in_a_bowl_is_inside_though_its_middle_is_above_the_rim() ->
     assert stage.see("box").inside == "bowl"
 
 
+def test_the_outer_of_nested_bowls_is_in_none() -> None:
+    """Though its middle is where the inner ones take things in."""
+    outer, middle, inner = (
+        {"kind": "bowl", "diameter": diameter, "height": height, "mass": 0.2}
+        for diameter, height in ((0.22, 0.08), (0.15, 0.055), (0.09, 0.04))
+    )
+    stage = set_up_stage(
+        make_scene(
+            outer=outer | {"at": [0.4, 0.1]},
+            middle=middle | {"inside": "outer"},
+            inner=inner | {"inside": "middle"},
+        ),
+        settle=0.3,
+    )
+    found = {name: state.inside for name, state in stage.look().states.items()}
+    assert found == {"outer": None, "middle": "outer", "inner": "middle"}
+
+
 def test_pen_across_a_cups_mouth_is_not_inside() -> None:
     stage = set_up_stage(make_scene(cup=CUP | {"at": [0.4, 0.1]}, pen=PEN | {"inside": "cup"}))
     stage.memory = type(stage.memory)(up=stage.memory.up)

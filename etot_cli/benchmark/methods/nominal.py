@@ -9,9 +9,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.relations import carried_by, container_address, owner_of, radius
+from etot_cli.reasoning.builtin.relations import container_address, owner_of, radius
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world import spatial
+from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import DESK, ObjectState, SceneState
 
 LIFT = 0.25

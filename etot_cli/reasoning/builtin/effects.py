@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.builtin.relations import (
-    carried_by,
     container_address,
     is_closed,
     is_inside,
@@ -14,6 +13,7 @@ from etot_cli.reasoning.builtin.relations import (
 )
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world import spatial
+from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import RolloutRecord
 
 

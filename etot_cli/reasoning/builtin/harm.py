@@ -13,12 +13,12 @@ from enum import IntEnum
 from etot_cli.reasoning.builtin.effects import acted_object, carried_along
 from etot_cli.reasoning.builtin.relations import (
     can_topple,
-    carried_by,
     contents,
     enclosing,
     owner_of,
 )
 from etot_cli.skills.action import Action, Verb
+from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord
 
 SHOVED = 0.03

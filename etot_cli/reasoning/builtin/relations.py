@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import (
     CLOSED_AT,
     DESK,
@@ -81,23 +82,6 @@ def is_on(scene: SceneState, name: str, surface: str) -> bool:
 def contents(scene: SceneState, address: str) -> tuple[str, ...]:
     """Objects in a container, at any depth, in scene order."""
     return tuple(name for name in scene.states if is_inside(scene, name, address))
-
-
-def carried_by(scene: SceneState, name: str) -> frozenset[str]:
-    """Objects that move along when an object does: what is in it, on it, or on those in turn."""
-    moving = {name}
-    grew = True
-    while grew:
-        grew = False
-        for other, state in scene.states.items():
-            if other in moving or not scene.infos[other].movable:
-                continue
-            supports = {owner_of(support) for support in state.on}
-            inside = owner_of(state.inside) if state.inside is not None else None
-            if inside in moving or (supports and supports <= moving):
-                moving.add(other)
-                grew = True
-    return frozenset(moving - {name})
 
 
 def rides_on_part(scene: SceneState, part: PartInfo) -> frozenset[str]:

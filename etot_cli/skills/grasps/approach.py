@@ -90,7 +90,8 @@ def _lift(
     belief: Belief, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
 ) -> tuple[Vector, float] | None:
     """Joint values of the way up with the object and its length [m], or None when it would hit
-    something. From under a roof a level hand takes the object out through the front.
+    something. From under a roof a level hand takes the object out through the front: raised inside
+    it would come to stand between floor and roof, with no way to anywhere.
     """
     checker = belief.checker
     checker.set_fingers(min(grasp.width, grasp.opening))
@@ -104,6 +105,7 @@ def _lift(
                 path = _carried(belief, name, grasp, out, joints, blockers, thorough=True)
                 if path is not None:
                     return path, CLEAR + length
+            return None
         up = straight(grasp.tool, grasp.tool.moved(LIFT * UP))
         path = _carried(belief, name, grasp, up, joints, blockers, thorough=False)
         return None if path is None else (path, LIFT)
@@ -142,13 +144,14 @@ def _carried(
     if count < (len(poses) if thorough else 2):
         return None
     resting = {*_supports(belief, name)}
-    for row in path if thorough else (path[-1], path[len(path) // 2]):
-        hits = checker.hits(
-            row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
-        )
-        if hits:
-            blockers.add(hits)
-            return None
+    with checker.without(belief.riders(name)):
+        for row in path if thorough else (path[-1], path[len(path) // 2]):
+            hits = checker.hits(
+                row, attached, clearance=CONTACT_CLEARANCE, allow={name}, allow_attached=resting
+            )
+            if hits:
+                blockers.add(hits)
+                return None
     return path
 
 

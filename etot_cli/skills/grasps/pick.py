@@ -215,9 +215,7 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
             [name],
             f"no two opposed surfaces of {name} fit the gripper (opening {opening * 1000:.0f} mm)",
         )
-    guilty = [one for one in suspects if _goes_without(belief, name, found, [one])]
-    if not guilty and len(suspects) > 1 and _goes_without(belief, name, found, suspects):
-        guilty = list(suspects)
+    guilty = _guilty(belief, name, found, suspects)
     if guilty:
         return failed(
             CauseKind.NO_GRASP,
@@ -240,6 +238,25 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
     )
 
 
+def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str]) -> Sequence[str]:
+    """Whose absence lets some grasp go, what can be moved first: each one's that does alone, else
+    all those together that turn up one behind the other, as in a pile.
+    """
+    blockers = Blockers(belief.world)
+    guilty = [one for one in suspects if _goes_without(belief, name, found, [one], blockers)]
+    if guilty:
+        return sorted(guilty, key=lambda one: not belief.world.entries[one].info.movable)
+    absent = list(suspects)
+    for _ in range(MAX_SUSPECTS):
+        if len(absent) > 1 and _goes_without(belief, name, found, absent, blockers):
+            return absent
+        behind = blockers.evidence().most(excluding=[name, *absent])
+        if not behind or len(absent) >= MAX_SUSPECTS:
+            break
+        absent += behind[: MAX_SUSPECTS - len(absent)]
+    return []
+
+
 def _too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
     """``width`` and ``opening`` in metres."""
     return failed(
@@ -251,12 +268,14 @@ def _too_wide(name: str, width: float, opening: float, time_s: float | None = No
     )
 
 
-def _goes_without(belief: Belief, name: str, found: GraspSet, absent: Sequence[str]) -> bool:
-    """Whether some grasp goes once these objects are taken away."""
+def _goes_without(
+    belief: Belief, name: str, found: GraspSet, absent: Sequence[str], blockers: Blockers
+) -> bool:
+    """Whether some grasp goes once these objects are taken away; notes who is in the way then."""
     with belief.checker.without(absent):
         for candidate in islice(_variants(found), MAX_TRIED_AGAIN):
             belief.checker.freeze(belief.data)
-            result = prepare_grasp(belief, name, candidate, Blockers(belief.world))
+            result = prepare_grasp(belief, name, candidate, blockers)
             if isinstance(result, PreparedGrasp):
                 return True
     return False

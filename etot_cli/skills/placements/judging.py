@@ -90,7 +90,7 @@ class Request:
         strict: also stay clear of all that doors and drawers pass over.
         preference: extra cost of places.
         at: places x, y that are looked at besides those of a grid, base frame [m].
-        absent: objects taken for not being there.
+        absent: objects taken for not being there, such as what the held one carries.
         rehearsed: where it was let go in a scene much like this one; looked at first.
         upright: it has to stand.
     """

@@ -65,7 +65,8 @@ def _motion(
     belief: Belief, action: Action, attached: Attached, placement: Placement
 ) -> Motion | None:
     belief.checker.set_fingers(belief.opening)
-    transit = belief.plan_transit(placement.before, attached)
+    with belief.checker.without(belief.riders(attached.name)):
+        transit = belief.plan_transit(placement.before, attached)
     if transit is None:
         return None
     holding = HOLDING_SHARE * belief.opening

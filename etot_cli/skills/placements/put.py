@@ -38,6 +38,7 @@ def placements_on(
         belief.attach(name),
         support,
         action.keepout,
+        absent=belief.riders(name),
         strict=action.safe,
         preference=_preference(belief, action, name),
         at=tuple(
@@ -59,10 +60,14 @@ def placements_into(
         text = "lies on its side and takes nothing in" if lies else "is no container"
         yield failed(CauseKind.PRECONDITION, [action.target], f"{action.target} {text}")
         return
-    attached = belief.attach(name)
-    yield from _placements(
-        belief, Request(attached, support, rehearsed=rehearsed, upright=_is_upright(action))
+    request = Request(
+        belief.attach(name),
+        support,
+        absent=belief.riders(name),
+        rehearsed=rehearsed,
+        upright=_is_upright(action),
     )
+    yield from _placements(belief, request)
 
 
 def _is_upright(action: Action) -> bool:

@@ -39,7 +39,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
 
     def helps(absent: Iterable[str]) -> bool:
         """Whether there is a place once some objects are taken away."""
-        without = replace(request, absent=frozenset(absent))
+        without = replace(request, absent=request.absent.union(absent))
         return next(placements(belief, without, Tally(belief.world), stamps), None) is not None
 
     guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
