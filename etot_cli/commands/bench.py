@@ -142,7 +142,7 @@ def run_bench(
         finished = journal.results
     results = [finished[item.key] for item in work if item.key in finished]
     report = _report(options, run, results, watch, ending)
-    report.files.update(write_csv(report, results, folder))
+    report.files.update(write_csv(report.rows, results, folder))
     report.files["lines"] = JOURNAL
     return report
 

@@ -8,13 +8,15 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from etot_cli.benchmark.trial import COSTS, TIMES, TrialResult
-from etot_cli.reporting.bench_report import BenchReport
+from etot_cli.reporting.bench_report import RowModel
 from etot_cli.reporting.files import write_atomically
 
 ROWS, TRIALS = "rows.csv", "trials.csv"
 
 
-def write_csv(report: BenchReport, results: Sequence[TrialResult], folder: Path) -> dict[str, str]:
+def write_csv(
+    cells: Iterable[RowModel], results: Sequence[TrialResult], folder: Path
+) -> dict[str, str]:
     """Writes both files into a folder.
 
     Returns:
@@ -23,9 +25,7 @@ def write_csv(report: BenchReport, results: Sequence[TrialResult], folder: Path)
     Raises:
         EtotError: the file system refuses.
     """
-    rows = [
-        (r.method, r.task, r.successes, r.trials, r.rate, *r.ci95, r.errors) for r in report.rows
-    ]
+    rows = [(r.method, r.task, r.successes, r.trials, r.rate, *r.ci95, r.errors) for r in cells]
     heads = ("method", "task", "successes", "trials", "rate", "ci95_low", "ci95_high", "errors")
     write_atomically(folder / ROWS, _text(heads, rows))
     trials = [
@@ -47,7 +47,8 @@ def write_csv(report: BenchReport, results: Sequence[TrialResult], folder: Path)
 
 def _text(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
+    # Every text in quotes: a carriage return alone, from a model's reply, would end the line.
+    writer = csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC, lineterminator="\n")
     writer.writerow(heads)
     writer.writerows(rows)
     return stream.getvalue()

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import csv
 import math
-from itertools import product
+from itertools import combinations, product
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binomtest, multinomial
 
 from etot_cli.benchmark.statistics.paired import Paired, holm, paired
 from etot_cli.benchmark.statistics.table import averages, cells, comparisons
 from etot_cli.benchmark.trial import TrialKey, TrialResult, TrialStatus
+from etot_cli.planning.survival import wilson
+from etot_cli.reporting.bench_csv import write_csv
+from etot_cli.reporting.bench_report import row_models
 
 COUNTS = st.integers(0, 60)
 TABLES = st.builds(Paired, COUNTS, COUNTS, COUNTS, COUNTS)
@@ -56,12 +60,17 @@ def test_exchanging_the_methods_changes_the_sign_alone(table: Paired) -> None:
     assert tuple(other.interval) == pytest.approx([-bound for bound in reversed(table.interval)])
 
 
-def test_mcnemar_counts_what_differs_alone() -> None:
-    table = Paired(both=50, first_only=9, second_only=1, neither=20)
-    by_hand = 2 * sum(math.comb(10, k) for k in range(2)) / 2**10
-    assert table.p_value == pytest.approx(by_hand)
-    assert Paired(9, 0, 0, 1).p_value == 1.0
-    assert binomtest(1, 10).pvalue == pytest.approx(by_hand)
+@given(TABLES)
+def test_mcnemar_is_a_fair_coin_on_what_differs_alone(table: Paired) -> None:
+    few, many = sorted((table.first_only, table.second_only))
+    tail = sum(math.comb(few + many, heads) for heads in range(few + 1)) / 2 ** (few + many)
+    assert table.p_value == pytest.approx(min(1.0, 2 * tail))
+
+
+@given(st.integers(1, 10_000).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
+def test_wilsons_interval_is_that_of_scipy(counts: tuple[int, int]) -> None:
+    theirs = binomtest(*counts).proportion_ci(method="wilson")
+    assert tuple(wilson(*counts)) == pytest.approx((theirs.low, theirs.high), abs=1e-9)
 
 
 def test_only_trials_that_both_had_are_compared() -> None:
@@ -69,13 +78,17 @@ def test_only_trials_that_both_had_are_compared() -> None:
     assert table == Paired(both=0, first_only=1, second_only=0, neither=1)
 
 
-@given(st.lists(st.floats(0, 1), max_size=12))
-def test_holm_never_lowers_a_p_value(values: list[float]) -> None:
-    adjusted = holm(values)
-    assert all(1.0 >= new >= old for new, old in zip(adjusted, values, strict=True))
-    if values:
-        smallest = min(values)
-        assert adjusted[values.index(smallest)] == min(1.0, len(values) * smallest)
+@given(st.lists(st.floats(0, 1), max_size=6))
+def test_holm_is_the_closure_of_bonferroni(values: list[float]) -> None:
+    """No smaller level refutes a hypothesis together with all sets of hypotheses that it is in."""
+    names = range(len(values))
+    for name, found in zip(names, holm(values), strict=True):
+        sets = [chosen for size in names for chosen in combinations(names, size + 1)]
+        largest = max(
+            len(chosen) * min(values[other] for other in chosen)
+            for chosen in sets if name in chosen
+        )  # fmt: skip
+        assert found == pytest.approx(min(1.0, largest))
 
 
 def test_a_table_of_trials() -> None:
@@ -97,3 +110,21 @@ def test_a_table_of_trials() -> None:
     assert dict(second.failures) == {"execution": 10}
     (comparison,) = comparisons(results, ["a", "b"])
     assert comparison.pairs == Paired(both=0, first_only=9, second_only=0, neither=2)
+
+
+@settings(max_examples=20)
+@given(st.lists(st.text(st.characters(exclude_categories=["Cs"]), max_size=8), max_size=4))
+def test_tables_hold_any_text(tmp_path_factory: pytest.TempPathFactory, texts: list[str]) -> None:
+    texts = ["a\rb", "a\r\nb", '"q",', *texts]
+    results = [
+        trial("a", "one", number, True, reason=text, failure_class=text)
+        for number, text in enumerate(texts)
+    ]
+    folder = tmp_path_factory.mktemp("tables")
+    rows, means, pairs = row_models(results, ["a"], ["one"])
+    write_csv(rows, results, folder)
+    with (folder / "trials.csv").open(encoding="utf-8", newline="") as stream:
+        found = list(csv.DictReader(stream, strict=True))
+    assert [row["reason"] for row in found] == texts
+    assert [row["failure_class"] for row in found] == texts
+    assert not pairs and means[0].successes == rows[0].successes == len(texts)
