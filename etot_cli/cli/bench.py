@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import NO, OK
+from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
     MAX_JOBS,
     Force,
@@ -166,6 +167,8 @@ def bench(
         force=force or resume is not None,
     )  # fmt: skip
     from etot_cli.commands.bench import BenchOptions, run_bench
+
+    heed()
 
     options = BenchOptions(
         inputs=tuple(tasks or ()),

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
     MAX_JOBS,
     Force,
@@ -108,6 +109,8 @@ def execute(
         "execute", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
     from etot_cli.commands.execute import ExecuteOptions, run_execute
+
+    heed()
 
     options = ExecuteOptions(
         task=task,

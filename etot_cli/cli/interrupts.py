@@ -37,6 +37,16 @@ def asked_to_stop() -> bool:
     return bool(_signals)
 
 
+def heed() -> None:
+    """Stops now where a signal came and a library that was being loaded kept it to itself.
+
+    Raises:
+        Stopped: one came.
+    """
+    if asked_to_stop():
+        raise Stopped
+
+
 def listen() -> None:
     """Answers the signals from now on. To be called from the main thread."""
     first = _signals

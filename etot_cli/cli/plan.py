@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import NO, OK
+from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
     MAX_JOBS,
     Force,
@@ -155,6 +156,8 @@ def plan(
             check_place(file)
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
+
+    heed()
 
     options = PlanOptions(
         task=task,

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import INTERRUPTED, NO, OK
+from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, Verbose
 from etot_cli.cli.session import Session
 
@@ -73,6 +74,8 @@ def reconstruct(
     unusable; 3: a server is not there.
     """
     from etot_cli.commands.reconstruct import Options, reconstruct_capture
+
+    heed()
     from etot_cli.reporting.files import report_text
 
     session = Session(

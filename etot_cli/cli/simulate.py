@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from etot_cli.cli.exits import OK
+from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
     Force,
     Html,
@@ -112,6 +113,8 @@ def simulate(
     from etot_cli.commands.pages import cores, write_simulate_page
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
+
+    heed()
 
     options = SimulateOptions(
         task=task,

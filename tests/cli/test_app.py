@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli.cli import interrupts
 from etot_cli.cli.app import run
 from etot_cli.commands import rooms
 from etot_cli.errors import ServiceError, SpecError
@@ -359,3 +360,18 @@ def test_export_needs_a_known_ending(etot: Etot, tmp_path: Path) -> None:
 def test_report_tells_how_long_the_reasoner_took(etot: Etot) -> None:
     cost = etot("plan", "toy.yaml", "--json").report["statistics"]
     assert isinstance(cost, dict) and 0 <= cost["reasoning_s"] <= cost["wall_s"] + 0.01
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["plan"], ["bench", "--methods", "rekep"], ["execute"], ["simulate", "--plan", "[OPEN, x]"],
+     ["reconstruct"]],
+    ids=lambda words: words[0],
+)  # fmt: skip
+def test_a_signal_that_a_library_kept_to_itself_is_heeded(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(interrupts, "_signals", [0.0])
+    out = tmp_path / "out"
+    assert run([words[0], "tasks/task3.yaml", *words[1:], "--out", str(out)]) == 130
+    assert not out.exists()
