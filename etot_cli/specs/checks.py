@@ -48,14 +48,12 @@ BASE_RADIUS = 0.10
 """Within this radius stands the robot's own base [m]."""
 
 
-def check_scene(scene: Scene, node: Node | None = None, reach: float | None = None) -> None:
+def check_scene(scene: Scene, node: Node | None = None) -> None:
     """Checks a whole scene.
 
     Args:
         scene: a validated scene.
         node: the document that it was read from, so that errors name file and line.
-        reach: how far from its base axis the robot gets [m]; None takes :data:`DEFAULT_REACH` for
-            a built-in robot and leaves a robot of another file unchecked.
 
     Raises:
         SpecError: the first finding in reading order, and how many more there are.
@@ -65,15 +63,15 @@ def check_scene(scene: Scene, node: Node | None = None, reach: float | None = No
         problems = list(findings(scene))
         if problems:
             raise first_error(node, problems)
-    problems = list(placement_problems(scene, reach))
+    problems = list(placement_problems(scene))
     if problems:
         raise first_error(node, problems)
 
 
-def placement_problems(scene: Scene, reach: float | None = None) -> Iterator[Problem]:
+def placement_problems(scene: Scene) -> Iterator[Problem]:
     """The geometric findings alone; names and dimensions must have been checked before."""
-    if reach is None and not is_robot_file(scene.robot):
-        reach = DEFAULT_REACH
+    # How far a robot of another file reaches is not known.
+    reach = math.inf if is_robot_file(scene.robot) else DEFAULT_REACH
     placed = place_all(scene)
     for name, item in scene.objects.items():
         place = placed[name]
@@ -99,9 +97,7 @@ def is_movable(item: ObjectBase) -> bool:
     return not isinstance(item, FURNITURE) if item.fixed is None else not item.fixed
 
 
-def _reachable(
-    name: str, item: ObjectBase, place: Placed, reach: float | None
-) -> Iterator[Problem]:
+def _reachable(name: str, item: ObjectBase, place: Placed, reach: float) -> Iterator[Problem]:
     distance = math.hypot(place.x, place.y)
     path = ("objects", name, "at")
     if distance < BASE_RADIUS:
@@ -110,8 +106,6 @@ def _reachable(
             f"unreachable placement: {distance:.3g} m from the robot's axis is where its base "
             f"stands; expected at least {BASE_RADIUS:g} m",
         )
-    if reach is None:
-        return
     limit = reach if is_movable(item) else reach + FURNITURE_BEYOND
     if distance > limit:
         yield Problem(

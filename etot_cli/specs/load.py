@@ -16,12 +16,11 @@ from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 
 
-def load_scene(path: str | Path, *, reach: float | None = None) -> Scene:
+def load_scene(path: str | Path) -> Scene:
     """Loads a scene file, includes resolved, everything checked.
 
     Args:
         path: the YAML file.
-        reach: how far the robot gets from its base axis [m]; None for a built-in robot's.
 
     Raises:
         SpecError: the file is unusable; the message says where, what was found and what is
@@ -30,16 +29,15 @@ def load_scene(path: str | Path, *, reach: float | None = None) -> Scene:
     file = Path(path)
     node = expand(_named(read_document(file), file), file, project_root(file))
     scene = resolve_files(validate(Scene, node), node, file.parent)
-    check_scene(scene, node, reach)
+    check_scene(scene, node)
     return scene
 
 
-def load_task(path: str | Path, *, reach: float | None = None) -> Task:
+def load_task(path: str | Path) -> Task:
     """Loads a task file and its scene, everything checked.
 
     Args:
         path: the YAML file.
-        reach: how far the robot gets from its base axis [m]; None for a built-in robot's.
 
     Raises:
         SpecError: the task or its scene is unusable; the message says where, what was found and
@@ -64,7 +62,7 @@ def load_task(path: str | Path, *, reach: float | None = None) -> Task:
     task = task.model_copy(update={"scene": scene, "file": str(path), "disturbance": added})
     inputs = input_digests(node, scene, file, task.added_objects)
     task = task.model_copy(update={"inputs": inputs})
-    check_scene(scene, scene_node, reach)
+    check_scene(scene, scene_node)
     problems = task_problems(task)
     if problems:
         raise first_error(node, problems)

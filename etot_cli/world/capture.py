@@ -87,7 +87,6 @@ def capture(
     camera: str | None = None,
     joints: dict[str, float] | None = None,
     settle: bool = True,
-    show_robot: bool = False,
 ) -> Picture:
     """Renders a scene at rest from one of its cameras.
 
@@ -96,7 +95,6 @@ def capture(
         camera: name of the camera; by default the scene's first, or :data:`DEFAULT_CAMERA`.
         joints: joint values by ``object.part`` [m or rad] instead of the scene's.
         settle: let the objects come to rest first.
-        show_robot: leave the robot in the picture, in its home pose.
 
     Raises:
         SpecError: there is no such camera, or its picture is too large.
@@ -118,7 +116,7 @@ def capture(
     mujoco.mj_forward(world.model, data)
     if settle:
         _settle(world, data)
-    color, depth, ids = _render(world, data, name, seen, show_robot=show_robot)
+    color, depth, ids = _render(world, data, name, seen)
     owners = np.array([*world.geom_object, ""])
     labels = owners[ids]
     masks = {item: labels == item for item in scene.objects}
@@ -153,18 +151,17 @@ def _settle(world: World, data: mujoco.MjData) -> None:
 
 
 def _render(
-    world: World, data: mujoco.MjData, name: str, camera: Camera, *, show_robot: bool
+    world: World, data: mujoco.MjData, name: str, camera: Camera
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.int32]]:
-    """Colour, depth and geom ids (−1 for none), each (h, w)."""
+    """Colour, depth and geom ids (−1 for none), each (h, w), without the robot."""
     model = world.model
     # Rounder balls than the viewer's: the truth is a ball, not its tessellation.
     model.vis.quality.numslices = 96
     model.vis.quality.numstacks = 48
-    if not show_robot:
-        for geom, owner in enumerate(world.geom_object):
-            if owner in ("robot", "gripper"):
-                model.geom_rgba[geom, 3] = 0.0
-                model.geom_group[geom] = 5
+    for geom, owner in enumerate(world.geom_object):
+        if owner in ("robot", "gripper"):
+            model.geom_rgba[geom, 3] = 0.0
+            model.geom_group[geom] = 5
     aim(model, name, camera)
     view = mujoco.MjvCamera()
     view.type = mujoco.mjtCamera.mjCAMERA_FIXED

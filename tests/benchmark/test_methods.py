@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from etot_cli.benchmark.methods.attention import StaticScene, considered
-from etot_cli.benchmark.methods.keypoints import actions_of, shortest, stages, way_of_the_hand
+from etot_cli.benchmark.methods.keypoints import shortest, way_of_the_hand
 from etot_cli.benchmark.methods.kinematic import KinematicSimulator
 from etot_cli.benchmark.methods.nominal import predicted
 from etot_cli.benchmark.methods.planners import OneShotPlanner, RecoveringPlanner
@@ -51,20 +51,12 @@ def world(tmp_path: Path, instruction: str, thing: str, *objects: str) -> Simula
     return SimulatedWorld(load_task(path).scene, keep_frames=False)
 
 
-@given(TEXTS)
-def test_stages_and_actions_say_the_same(texts: list[str]) -> None:
-    actions = parse_plan(" ".join(texts))
-    assert actions_of(stages(actions, scene())) == actions
-
-
 def test_the_shortest_way_is_taken_and_of_equals_the_first() -> None:
     short, long = parse_plan("[PICK UP, cup]"), parse_plan("[PICK UP, cup] [PUT ON, box]")
     branches = [Branch(long, "long"), Branch(short, "short"), Branch(short, "again")]
     chosen = shortest(branches, scene())
     assert chosen is not None and chosen.reason == "short"
-    assert way_of_the_hand(stages(long, scene())) == pytest.approx(
-        (0.2**2 + 0.1**2 + 0.25**2) ** 0.5
-    )
+    assert way_of_the_hand(long, scene()) == pytest.approx((0.2**2 + 0.1**2 + 0.25**2) ** 0.5)
     assert shortest([], scene()) is None
 
 

@@ -15,6 +15,14 @@ from etot_cli.reconstruction.shapes.rod import Capsule, Pen
 from etot_cli.reconstruction.shapes.upright import ConicalCup
 from tests.reconstruction.traced import DESK, observed, seen_as, trace
 
+
+def fitted(families, observation, evidence):
+    """The best shape, fitted to all that is seen of it."""
+    best = best_fit(families, observation, evidence, np.random.default_rng(0))[0]
+    params = fit_shape(best.family, observation, best.params)
+    return judge(best.family, observation, params)
+
+
 RODS = [
     (Capsule(), [0.42, 0.03, DESK, 0.7, 0.16, 0.025]),
     (Pen(), [0.42, 0.03, DESK, 0.7, 0.16, 0.018, 0.02]),
@@ -26,7 +34,7 @@ RODS = [
 def test_rods_are_told_apart_by_their_ends_whatever_their_name(family, values, hint) -> None:
     truth = np.array(values)
     observation, evidence = observed(*trace(family, truth))
-    best = best_fit(tiers(hint), observation, evidence, np.random.default_rng(0))[0]
+    best = fitted(tiers(hint), observation, evidence)
     assert best.family.kind == family.kind
     assert np.linalg.norm(best.params[:2] - truth[:2]) < 0.001
     assert best.params[4] == pytest.approx(truth[4], rel=0.02)
@@ -79,7 +87,7 @@ def test_a_drawer_that_stands_open_a_little_is_seen_despite_noise() -> None:
     truth = np.array([0.40, 0.02, DESK, 2.0, 0.211, 0.178, 0.155, 0.026])
     mask, depth = trace(OpenUnit(2, 0), truth)
     observation, evidence = observed(mask, depth, sigma=0.0032, edge=0.8)
-    best = best_fit(tiers(), observation, evidence, np.random.default_rng(0))[0]
+    best = fitted(tiers(), observation, evidence)
     assert isinstance(best.family, OpenUnit)
     assert best.params[7] == pytest.approx(0.026, abs=0.004)
     assert best.params[4:7] == pytest.approx(truth[4:7], rel=0.03)
@@ -91,7 +99,6 @@ def test_gross_errors_do_not_decide_between_shapes() -> None:
     rng = np.random.default_rng(1)
     depth = np.where(mask & (rng.random(mask.shape) < 0.04), depth - 0.2, depth)
     observation, evidence = observed(mask, depth)
-    best = best_fit([[Block(), *tiers()[0]]], observation, evidence, rng)[0]
+    best = fitted([[Block(), *tiers()[0]]], observation, evidence)
     assert best.family.kind == "box"
-    params = fit_shape(Block(), observation, best.params)
-    assert sorted(params[4:7]) == pytest.approx(sorted(truth[4:7]), rel=0.03)
+    assert sorted(best.params[4:7]) == pytest.approx(sorted(truth[4:7]), rel=0.03)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Protocol
 
 from etot_cli.benchmark.methods.attention import StaticScene, considered
-from etot_cli.benchmark.methods.keypoints import shortest, stages, way_of_the_hand
+from etot_cli.benchmark.methods.keypoints import shortest, way_of_the_hand
 from etot_cli.control.simulated import Simulator
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment, Branch, Reasoner
@@ -81,11 +81,9 @@ class BuiltinThinking:
         plans = considered(proposed, static, scene, self.reasoner)
         best = min(
             plans,
-            key=lambda item: (
-                item.open_points, way_of_the_hand(stages(item.branch.actions, scene))
-            ),
+            key=lambda item: (item.open_points, way_of_the_hand(item.branch.actions, scene)),
             default=None,
-        )  # fmt: skip
+        )
         return None if best is None else best.branch
 
     def costs(self) -> Mapping[str, float]:

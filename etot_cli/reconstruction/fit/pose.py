@@ -176,11 +176,11 @@ def _promising(family: Family, seen: Observation, guesses: list[Array]) -> list[
     return sorted(guesses, key=lambda guess: judge(family, seen, guess).score)[:MOST_STARTS]
 
 
-def trimmed_rms(values: Array, share: float = 0.95) -> float:
-    """Root mean square of the smallest share of values."""
+def trimmed_rms(values: Array) -> float:
+    """Root mean square of values but for the largest twentieth."""
     if not len(values):
         return 0.0
-    kept = np.sort(values)[: max(1, int(share * len(values)))]
+    kept = np.sort(values)[: max(1, int(0.95 * len(values)))]
     return float(np.sqrt(np.mean(kept**2)))
 
 
@@ -189,10 +189,8 @@ def best_fit(
     seen: Observation,
     evidence: Evidence,
     rng: np.random.Generator,
-    *,
-    thorough: bool = True,
 ) -> list[Fit]:
-    """Fits of several shapes, the best first.
+    """Fits of several shapes to some of what is seen, the best first.
 
     Args:
         families: tiers from simple to involved; a later tier is tried only when nothing before
@@ -200,13 +198,11 @@ def best_fit(
         seen: the observation.
         evidence: what first guesses are made from.
         rng: draws the samples.
-        thorough: fit the best two again to more points.
 
     Returns:
         at least one fit, unless no family has a guess.
     """
     coarse = seen.thinned(*COARSE, rng)
-    fine = seen.thinned(*FINE, rng)
     fits: list[Fit] = []
     for tier in families:
         plain = min(fits, key=lambda fit: fit.score, default=None)
@@ -222,8 +218,4 @@ def best_fit(
                 # An involved shape must explain much that a simple one leaves open.
                 if plain is None or best_option.misfit < INVOLVED * plain.misfit:
                     fits.append(best_option)
-    fits.sort(key=lambda fit: fit.score)
-    if not thorough:
-        return fits
-    best = [judge(fit.family, fine, fit_shape(fit.family, fine, fit.params)) for fit in fits[:2]]
-    return sorted(best, key=lambda fit: fit.score) + fits[2:]
+    return sorted(fits, key=lambda fit: fit.score)

@@ -240,7 +240,7 @@ def _choose(
         evidence = _evidence(seen, placed)
         # In a mouth of a cup only balls rest.
         tried = tiers("sphere" if support.relation == "rim" else hint)
-        fits = best_fit(tried, placed, evidence, rng, thorough=False)
+        fits = best_fit(tried, placed, evidence, rng)
         if fits:
             choices.append((fits, support, placed))
     if not choices:

@@ -206,19 +206,17 @@ class Arm:
         mujoco.mju_cholSolve(step, hessian, step)
         return step
 
-    def reach(
-        self, target: Pose, near: Vector, *, free_spin: bool = False, tries: int = 4
-    ) -> IkResult:
+    def reach(self, target: Pose, near: Vector, *, tries: int = 4) -> IkResult:
         """Inverse kinematics from a few fixed seeds, nearest to ``near`` first.
 
         The seeds are ``near`` and the home pose turned towards the target, so the answer depends
         on nothing but the arguments.
         """
-        result = self.solve(target, near, free_spin=free_spin)
+        result = self.solve(target, near)
         if result.reached:
             return result
         for rank, seed in enumerate(self._seeds(target)[: tries - 1], 2):
-            other = self.solve(target, seed, free_spin=free_spin)
+            other = self.solve(target, seed)
             if other.reached:
                 return other
             if other.position_error < result.position_error:
