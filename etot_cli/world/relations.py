@@ -234,12 +234,14 @@ def _within(
         return True
     shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
     if entry.axis is None:
+        if not _in_bounds(center, region, margin):
+            return False
         # What stands in a container may be taller than that is deep.
         lowest = data.body(entry.body).xpos.copy()
         lowest[2] = object_bounds(world, data, entry.info.name)[0][2]
         local = to_region(data, region, lowest)
         depth = (region.half[2] - local[2]) / (2 * region.half[2])
-        return _in_bounds(center, region, margin) and shallow <= depth <= 1.1
+        return bool(shallow <= depth <= 1.1)
     axis = data.body(entry.body).xmat.reshape(3, 3) @ np.array(entry.axis)
     for sign in (-1.0, 1.0):
         end = data.body(entry.body).xpos + sign * axis * entry.info.size[0] / 2

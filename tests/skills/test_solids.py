@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes
 from tests.world.helpers import BALL, BOX, CUP, Stage, make_scene, set_up
 
 TURNED = BOX | {"at": [0.4, -0.3], "yaw_deg": 37}
@@ -113,3 +114,27 @@ def test_many_lines_at_once_agree_with_one_at_a_time(stage: Stage) -> None:
         for one, other in zip(together[i], alone[0], strict=True):
             assert (one.start, one.end) == pytest.approx((other.start, other.end))
     assert sum(len(line) for line in together) > 10
+
+
+@pytest.mark.parametrize("name", ["ball", "box", "rod", "capsule", "cup"])
+def test_columns_are_lines_that_stand_upright(stage: Stage, name: str) -> None:
+    """Of solids turned any way, by a grid that is turned itself; a margin makes them larger."""
+    solids, data = Solids(stage.world), stage.data
+    geom = int(stage.world.geoms_of(name)[0])
+    turn = rotation_from_axes(np.array([0.3, -0.5, 0.8]), np.array([0.9, 0.2, 0.1]))
+    pose = Pose(data.geom_xpos[geom], turn @ data.geom_xmat[geom].reshape(3, 3))
+    sides = np.array([[0.003, 0.004], [-0.004, 0.003]])
+    corner = pose.position[:2] - 12 * sides.sum(axis=0)
+    low, high = solids.columns(geom, pose, corner, sides, np.array([25, 25]), 0.0)
+    index = np.indices((25, 25)).reshape(2, -1).T
+    origins = np.column_stack([corner + index @ sides, np.zeros(625)])
+    enters, leaves, *_ = solids._crossings(
+        geom, pose.position, pose.rotation, origins, np.array([[0.0, 0.0, 1.0]])
+    )
+    met = leaves - enters > 1e-6
+    assert 20 < met.sum() < 620
+    assert np.array_equal((high - low > 1e-6).ravel(), met)
+    assert low.ravel()[met] == pytest.approx(enters[met], abs=1e-9)
+    assert high.ravel()[met] == pytest.approx(leaves[met], abs=1e-9)
+    wider = solids.columns(geom, pose, corner, sides, np.array([25, 25]), 0.002)
+    assert ((wider[1] - wider[0])[high > low] > (high - low)[high > low] + 0.003).all()

@@ -12,12 +12,17 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
 
 Vector = NDArray[np.float64]
+Cells = NDArray[np.int64]
 
 _SIDES = 24
 """Faces that stand for a round side; the polygon is circumscribed, so widths err by < 1 %."""
+
+PARALLEL = 1e-9
+"""A line that comes nearer to a plane by less than this share of its way never crosses it."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +82,7 @@ class Solids:
         spans = [
             self._crossings(
                 int(geom), data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3),
-                origins, directions, 0.0,
+                origins, directions,
             )
             for geom in self._world.geoms_of(name)
         ]  # fmt: skip
@@ -100,30 +105,46 @@ class Solids:
             lines.append([Interval(start, end, min(ends)) for start, end, *ends in merged])
         return lines
 
-    def span(
-        self,
-        geom: int,
-        position: Vector,
-        rotation: Vector,
-        origins: Vector,
-        directions: Vector,
-        margin: float = 0.0,
+    def columns(
+        self, geom: int, pose: Pose, corner: Vector, sides: Vector, counts: Cells, margin: float
     ) -> tuple[Vector, Vector]:
-        """Where lines enter and leave one geom.
+        """How high the vertical lines of a grid enter and leave one geom.
 
         Args:
             geom: its id.
-            position: (3,) where it is [m].
-            rotation: (3, 3) how it is turned.
-            origins: (m, 3) points of the lines.
-            directions: (m, 3) unit vectors, or one (1, 3) for all.
+            pose: where it is.
+            corner: (2,) of the first line [m].
+            sides: (2, 2) from one line to the next along the rows and the columns [m].
+            counts: (2,) lines along both.
             margin: how much larger than it is the geom is taken to be on all sides [m].
 
         Returns:
-            Distances (m,), (m,) along the lines [m]; a line misses where the second is smaller.
+            Heights (a, b), (a, b) [m]; a line misses where the second is smaller.
         """
-        low, high, *_ = self._crossings(geom, position, rotation, origins, directions, margin)
-        return low, high
+        model, offset = self._world.model, corner - pose.position[:2]
+        rows, columns = np.arange(counts[0])[:, None], np.arange(counts[1])
+        if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
+            x, y = (offset[i] + sides[0, i] * rows + sides[1, i] * columns for i in range(2))
+            radius = model.geom_size[geom, 0] + margin
+            half = np.sqrt(np.maximum(radius**2 - x**2 - y**2, 0.0))
+            return pose.position[2] - half, pose.position[2] + half
+        own, offsets = self.planes(geom)
+        normals = own @ pose.rotation.T
+        # How far inside of each plane the lines pass at the geom's own height, row by row and
+        # column by column; the solid is convex.
+        first = offsets + margin - normals[:, :2] @ offset
+        along, across = (normals[:, :2] @ side for side in sides)
+        rise = normals[:, 2]
+
+        def inside(planes: NDArray[np.bool_], scale: Vector | float) -> Vector:
+            a, b, c = ((term[planes] / scale)[:, None, None] for term in (first, along, across))
+            return np.asarray(a - b * rows - c * columns)
+
+        below, above = rise < -PARALLEL, rise > PARALLEL
+        low = inside(below, rise[below]).max(axis=0, initial=-np.inf)
+        high = inside(above, rise[above]).min(axis=0, initial=np.inf)
+        outside = (inside(~(below | above), 1.0) < 0.0).any(axis=0)
+        return low + pose.position[2], np.where(outside, low, high) + pose.position[2]
 
     def _crossings(
         self,
@@ -132,27 +153,29 @@ class Solids:
         rotation: Vector,
         origins: Vector,
         directions: Vector,
-        margin: float,
     ) -> tuple[Vector, Vector, Vector, Vector]:
-        """As :meth:`span`, and the cosines between line and surface normal at both crossings."""
+        """Where lines enter and leave one geom at ``position`` (3,), turned by ``rotation`` (3, 3):
+        distances (m,), (m,) along them [m], the second smaller where a line misses; and the cosines
+        between line and surface normal at both crossings.
+        """
         model = self._world.model
         local = (origins - position) @ rotation
         along = directions @ rotation
         if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
             middle = -(local * along).sum(axis=1)
-            radius = model.geom_size[geom, 0] + margin
+            radius = model.geom_size[geom, 0]
             squared = radius**2 - (np.einsum("ij,ij->i", local, local) - middle**2)
             half = np.sqrt(np.maximum(squared, 0.0))
             return middle - half, middle + half, half / radius, half / radius
         normals, offsets = self.planes(geom)
         rate = along @ normals.T
-        slack = offsets + margin - local @ normals.T
+        slack = offsets - local @ normals.T
         with np.errstate(divide="ignore", invalid="ignore"):
             crossing = slack / rate
-        entering = np.where(rate < -1e-9, crossing, -np.inf)
-        leaving = np.where(rate > 1e-9, crossing, np.inf)
+        entering = np.where(rate < -PARALLEL, crossing, -np.inf)
+        leaving = np.where(rate > PARALLEL, crossing, np.inf)
         low, high = entering.max(axis=1), leaving.min(axis=1)
-        outside = ((np.abs(rate) <= 1e-9) & (slack < 0)).any(axis=1)
+        outside = ((np.abs(rate) <= PARALLEL) & (slack < 0)).any(axis=1)
         high = np.where(outside, low, high)
         rows = np.arange(len(rate))
         entry = -rate[rows, entering.argmax(axis=1)]

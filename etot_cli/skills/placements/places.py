@@ -33,8 +33,9 @@ MAX_PILED = 150
 NEAR = 0.02
 """A rehearsed place that no longer does is moved by so much at most [m]: what was drawn and seen
 wrongly together; farther away another place may be better."""
-DIRECTIONS = 16
-"""Sides from which that is looked at."""
+_TURNS = np.arange(16) * (2 * np.pi / 16)
+SIDES = np.stack([np.cos(_TURNS), np.sin(_TURNS)])
+"""Unit vectors (2, 16) to the sides from which that is looked at."""
 NEXT_ROOM = 1.1
 """Room for another of its kind is left with so many times its own half width."""
 NO_ROOM_COST = 0.2
@@ -150,11 +151,9 @@ class PlaceFinder:
         pose = belief.object_pose(name)
         mass = belief.data.subtree_com[belief.world.model.body(name).id] - pose.position
         mass = self._support.axes @ (turned.rotation @ pose.rotation.T @ mass)[:2]
-        angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
-        sides = np.stack([np.cos(angles), np.sin(angles)])
-        reach = (turned.object.cells[touching] * self._relief.cell @ sides).max(axis=0)
+        reach = (turned.object.cells[touching] * self._relief.cell @ SIDES).max(axis=0)
         half = float(np.ptp(turned.object.cells, axis=0).min()) * self._relief.cell / 2
-        return bool((reach >= mass @ sides + max(STABLE, STABLE_SHARE * half)).all())
+        return bool((reach >= mass @ SIDES + max(STABLE, STABLE_SHARE * half)).all())
 
     def _room_left(
         self, table: Sequence[Judged], found: Sequence[tuple[float, int, int]]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
-from etot_cli.skills.motion.kinematics import UP, Pose
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.snapshot import copy_configuration
 
@@ -280,8 +280,11 @@ def least(field: Vector, outside: float, stamp: Stamp, places: Cells) -> Vector:
 
 def under(field: Vector | Cells, outside: float, stamp: Stamp, place: Cells) -> Vector:
     """The values (k,) of a field (a, b) under a stamp's cells at one place (2,)."""
-    ((_, seen),) = _under(field, outside, stamp, place[None])
-    return np.asarray(seen[0])
+    rows, columns = (stamp.cells + place).T
+    height, width = field.shape
+    within = (rows >= 0) & (columns >= 0) & (rows < height) & (columns < width)
+    seen = field[np.where(within, rows, 0), np.where(within, columns, 0)]
+    return np.asarray(np.where(within, seen, outside))
 
 
 def free_distance(blocked: NDArray[np.bool_], cell: float) -> Vector:
@@ -328,11 +331,9 @@ class _Canvas:
         first, last = np.maximum(first, 0), np.minimum(last, 2 * self.counts)
         if (last < first).any():
             return None
-        rows, columns = np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1)
-        grid = np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
-        places = self.origin + ((grid - self.counts) * self.cell) @ self.axes
-        origins = np.concatenate([places, np.zeros((len(places), 1))], axis=1)
-        low, high = solids.span(shape.geom, pose.position, pose.rotation, origins, UP[None], margin)
-        size = (len(rows), len(columns))
+        corner = self.origin + ((first - self.counts) * self.cell) @ self.axes
+        low, high = solids.columns(
+            shape.geom, pose, corner, self.axes * self.cell, last - first + 1, margin
+        )
         window = (slice(first[0], last[0] + 1), slice(first[1], last[1] + 1))
-        return window, low.reshape(size), high.reshape(size)
+        return window, low, high
