@@ -19,7 +19,7 @@ from etot_cli.benchmark.running.runner import (
     left_to_do,
     run_trials,
 )
-from etot_cli.benchmark.running.stopping import Ending
+from etot_cli.benchmark.running.stopping import INTERRUPTED, Ending
 from etot_cli.benchmark.suite import Selection, digest, seeds_of, select
 from etot_cli.benchmark.trial import TrialKey, TrialResult
 from etot_cli.commands.bench_services import ModelTerms, check_services
@@ -132,19 +132,22 @@ def run_bench(
         _check_seeds(work, journal)
         ending = Ending("success")
         if left_to_do(work, journal):
-            engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
             try:
-                ending = run_trials(
-                    work, carry_out, engine, journal, options.jobs, observer, terms.budget
-                )
-            finally:
-                engine.close()
+                engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
+                try:
+                    ending = run_trials(
+                        work, carry_out, engine, journal, options.jobs, observer, terms.budget
+                    )
+                finally:
+                    engine.close()
+            except KeyboardInterrupt:  # while processes were started or ended
+                ending = INTERRUPTED
         finished = journal.results
     results = [finished[item.key] for item in work if item.key in finished]
-    report = _report(options, run, results, watch, ending)
-    report.files.update(write_csv(report.rows, results, folder))
-    report.files["lines"] = JOURNAL
-    return report
+    try:
+        return _report(options, run, results, watch, ending, folder)
+    except KeyboardInterrupt:  # further ones are held off for longer than this takes
+        return _report(options, run, results, watch, INTERRUPTED, folder)
 
 
 def _check_seeds(work: Sequence[TrialWork], journal: Journal) -> None:
@@ -212,10 +215,12 @@ def _report(
     results: Sequence[TrialResult],
     watch: Stopwatch,
     ending: Ending,
+    folder: Path,
 ) -> BenchReport:
+    """The report, with its tables written beside it."""
     names = [method.name for method in run.methods]
     rows, means, pairs = row_models(results, names, [task.name for task in run.selection.tasks])
-    return BenchReport(
+    report = BenchReport(
         status=ending.status,
         reason=ending.reason,
         seed=run.seed,
@@ -234,5 +239,10 @@ def _report(
         averages=means,
         comparisons=pairs,
         trials=trial_rows(results),
-        files={},
+        files={"lines": JOURNAL},
     )
+    try:
+        report.files.update(write_csv(rows, results, folder))
+    except EtotError as error:  # the trials are there; the report must not be lost for a table
+        report.status, report.reason = "lost", report.reason or str(error)
+    return report

@@ -20,7 +20,7 @@ from etot_cli.benchmark.running.manifest import TRIALS
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import COSTS, ActionTaken, TrialResult, TrialStatus
 from etot_cli.control.simulator import ActionSimulator, open_simulator
-from etot_cli.errors import ServiceError
+from etot_cli.errors import EtotError, ServiceError
 from etot_cli.execution.cell import TrialOptions
 from etot_cli.execution.protocols import Planner
 from etot_cli.execution.records import Trial
@@ -80,7 +80,8 @@ def perform(work: TrialWork) -> TrialResult:
     """Carries a trial out and writes its report.
 
     Raises:
-        EtotError: the task cannot be understood, its world cannot be built, or a service is gone.
+        EtotError: the task cannot be understood, or its world cannot be built.
+        ServiceError: a service is gone, or the run's folder takes no more files.
     """
     setup = _shared.setup
     assert setup is not None  # every worker has begun
@@ -103,14 +104,18 @@ def perform(work: TrialWork) -> TrialResult:
     wall_s = time.monotonic() - begun
     report = f"{TRIALS}/{work.key.name}.json"
     result = bench.result(work, trial, wall_s, report)
-    path = Path(setup.folder) / report
-    path.parent.mkdir(parents=True, exist_ok=True)
     told = trial_report(task, method, trial, result)
-    write_atomically(path, report_text(told))
-    if setup.pages:
-        repeatable = setup.reasoner == "builtin" and setup.seed == work.seed
-        page = trial_page(told, trial, method.title, repeatable=repeatable)
-        write_atomically(path.with_suffix(SUFFIX), page)
+    path = Path(setup.folder) / report
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(path, report_text(told))
+        if setup.pages:
+            repeatable = setup.reasoner == "builtin" and setup.seed == work.seed
+            page = trial_page(told, trial, method.title, repeatable=repeatable)
+            write_atomically(path.with_suffix(SUFFIX), page)
+    except (EtotError, OSError) as error:
+        # A full disk: no trial's fault, and no further one would fare better.
+        raise ServiceError(str(error)) from None
     return result
 
 

@@ -14,6 +14,7 @@ import pytest
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import TrialResult, TrialStatus
 from etot_cli.cli.app import run
+from etot_cli.commands import bench
 from etot_cli.commands.bench import BenchOptions, run_bench
 from etot_cli.commands.bench_compare import compare
 from etot_cli.errors import EtotError, SpecError
@@ -140,6 +141,31 @@ def test_a_report_keeps_to_its_schema(tmp_path: Path, task: Path) -> None:
     assert [row["success"] for row in rows] == [
         str(int(trial.status == "success")) for trial in report.trials
     ]
+
+
+def test_a_table_that_cannot_be_written_does_not_cost_the_report(
+    tmp_path: Path, task: Path
+) -> None:
+    folder = made(tmp_path / "out")
+    (folder / "rows.csv").mkdir()
+    report = run_bench(options(task), folder, perform=TOYS)
+    assert report.status == "lost" and "rows.csv" in report.reason and len(report.trials) == 8
+
+
+@pytest.mark.parametrize("where", ["open_engine", "write_csv"])
+def test_ctrl_c_at_any_moment_of_a_run_keeps_its_trials(
+    tmp_path: Path, task: Path, where: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = made(tmp_path / "out")
+    genuine = getattr(bench, where)
+
+    def once(*given: object) -> object:
+        monkeypatch.setattr(bench, where, genuine)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(bench, where, once)
+    report = run_bench(options(task), folder, perform=TOYS)
+    assert report.interrupted and len(report.trials) == (8 if where == "write_csv" else 0)
 
 
 def test_a_run_is_gone_on_with_and_not_begun_anew(tmp_path: Path, task: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import random
@@ -209,6 +210,24 @@ def test_no_trial_is_begun_beyond_the_budget_of_the_run(tmp_path: Path) -> None:
     engine = open_engine(EngineName.LOCAL, 1, toys.begin, (str(tmp_path),))
     with Journal(tmp_path) as journal:
         assert run_trials(work, toys.perform, engine, journal, 1, budget={"nodes": 1e3}) == DONE
+    engine.close()
+
+
+def test_a_disk_that_takes_no_more_ends_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engine = open_engine(EngineName.LOCAL, 1, toys.begin, (str(tmp_path),))
+    with Journal(tmp_path) as journal:
+        kept = journal.add
+
+        def full(result: TrialResult) -> None:
+            if len(journal.results) == 2:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            kept(result)
+
+        monkeypatch.setattr(journal, "add", full)
+        ended = run_trials(toys.work(), toys.perform, engine, journal, 1)
+        assert ended.status == "lost" and ended.reason.endswith(f"{NAME}: No space left on device")
     engine.close()
 
 

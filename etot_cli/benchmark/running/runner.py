@@ -11,7 +11,7 @@ from typing import Protocol
 
 from etot_cli.benchmark.running.engine import Engine
 from etot_cli.benchmark.running.journal import Journal
-from etot_cli.benchmark.running.stopping import Budget, Ending, Outage
+from etot_cli.benchmark.running.stopping import INTERRUPTED, Budget, Ending, Outage
 from etot_cli.benchmark.trial import TrialKey, TrialResult, TrialStatus
 
 AHEAD = 2
@@ -93,7 +93,9 @@ def run_trials(
                 if observer is not None:
                     observer.trial_finished(result, done + clock.count, len(work), clock.left_s())
     except KeyboardInterrupt:
-        return Ending("interrupted", "stopped before all trials were done")
+        return INTERRUPTED
+    except OSError as error:  # of the journal: a trial that nobody knows of was for nothing
+        return Ending("lost", f"cannot write {journal.path}: {error.strerror or error}")
     if outage.reason:
         return Ending("lost", outage.reason)
     if account.spent and left_to_do(work, journal):

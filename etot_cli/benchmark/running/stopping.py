@@ -25,6 +25,9 @@ class Ending:
     reason: str = ""
 
 
+INTERRUPTED = Ending("interrupted", "stopped before all trials were done")
+
+
 @dataclass(slots=True)
 class Outage:
     """Tells a service that is gone from one that was away for a moment.
