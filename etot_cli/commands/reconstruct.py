@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import yaml
 
-from etot_cli.errors import EtotError, SpecError
+from etot_cli.errors import EtotError, SpecError, WorldError
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct, settle_twin
@@ -177,16 +177,12 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
         file = meshes / f"{solid.name}.obj"
         free_form_mesh(solid, color_of(color, solid.segment.mask)).export(file)
         twin.document["objects"][solid.name].update(file=f"{MESHES}/{file.name}", scale=1.0)
-        import trimesh
-
-        # As the world will read it: the digits that are written decide what the cache knows.
-        mesh: Any = trimesh.load(file, force="mesh")
-        vertices = np.asarray(mesh.vertices, dtype=np.float64)
-        middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
-        parts = convex_pieces(vertices - middle, np.asarray(mesh.faces, dtype=np.int64))
-        volume = sum(trimesh.convex.convex_hull(part).volume for part in parts)
-        error = volume / max(float(mesh.volume), 1e-12) - 1
-        pieces.append(PiecesModel(object=solid.name, count=len(parts), volume_error=error))
+        try:
+            pieces.append(_pieces(solid.name, file))
+        except WorldError as error:
+            _hull_instead(file)
+            twin.warnings.append(f"{solid.name}: {error}; its convex hull stands in for it")
+            pieces.append(_pieces(solid.name, file))
     notes = twin.warnings + [f"{s.name}: {text}" for s in twin.solids for text in s.warnings]
     write_atomically(folder / SCENE, assembly.scene_text(twin.document, notes))
     files["scene"] = SCENE
@@ -209,6 +205,34 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
         export_twin(scene, colors, meshes, folder / MJCF)
         files["mjcf"], files["meshes"] = MJCF, MESHES
     return files, pieces
+
+
+def _pieces(name: str, file: Path) -> PiecesModel:
+    """How the world will take a mesh apart.
+
+    Raises:
+        WorldError: it cannot be taken apart.
+    """
+    import trimesh
+
+    # As the world will read it: the digits that are written decide what the cache knows.
+    mesh: Any = trimesh.load(file, force="mesh")
+    vertices = np.asarray(mesh.vertices, dtype=np.float64)
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    parts = convex_pieces(vertices - middle, np.asarray(mesh.faces, dtype=np.int64))
+    volume = sum(trimesh.convex.convex_hull(part).volume for part in parts)
+    error = volume / max(float(mesh.volume), 1e-12) - 1
+    return PiecesModel(object=name, count=len(parts), volume_error=error)
+
+
+def _hull_instead(file: Path) -> None:
+    """Puts a mesh's convex hull in its place: one ragged thing must not make the desk unusable."""
+    import trimesh
+
+    mesh: Any = trimesh.load(file, force="mesh")
+    hull = mesh.convex_hull
+    hull.visual.vertex_colors = np.tile(mesh.visual.vertex_colors[0], (len(hull.vertices), 1))
+    hull.export(file)
 
 
 def _task_text(twin: Twin, instruction: str) -> str:

@@ -12,6 +12,7 @@ import pytest
 import trimesh
 
 from etot_cli.cli.app import run
+from etot_cli.commands.reconstruct import _hull_instead, _pieces
 from etot_cli.reconstruction.capture.calibration import calibrate
 from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.free_form.carving import carve
@@ -233,3 +234,14 @@ def test_prisms_of_these_tests_are_closed() -> None:
     assert prism([(0, 0), (1, 0), (0, 1)], [(0, 1, 2)], 1.0).volume == pytest.approx(0.5)
     assert angle_block().is_watertight and roof().is_watertight
     assert roof().volume > 0
+
+
+def test_what_cannot_be_taken_apart_stands_as_its_hull(tmp_path: Path) -> None:
+    file = tmp_path / "ragged.obj"
+    angle_block().export(file)
+    _hull_instead(file)
+    told = _pieces("ragged", file)
+    assert told.count == 1 and abs(told.volume_error) < 0.01
+    assert np.ptp(trimesh.load(file, force="mesh").vertices, axis=0) == pytest.approx(
+        np.ptp(angle_block().vertices, axis=0), abs=1e-5
+    )

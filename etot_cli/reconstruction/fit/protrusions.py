@@ -6,21 +6,27 @@ import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.reconstruction.masks.labels import label_components, opened
+from etot_cli.reconstruction.masks.labels import label_components
 
 THIN = 0.4
-"""What is thinner than this share of a thing's thickest place stands out of it."""
+"""What is thinner than this share of a thing's thickest place stands out of it: handles measure 0.1
+to 0.25 of their mugs, the necks of bottles, which do not, a half."""
 LEAST_SHARE = 0.03
-"""Smaller shares of a mask are its corners, which no disc fills."""
+"""Smaller shares of a mask are its corners, which no disc fills: a right angle loses 0.01, one of
+sixty degrees 0.02."""
 MOST_SHARE = 0.35
-"""With a larger share it is no handle that stands out but most of the thing."""
+"""With a larger share it is no handle that stands out but most of the thing: of a mug seen from the
+side its handle is at most a third."""
 
 
 def without_protrusions(mask: Mask) -> Mask | None:
     """A mask (h, w) without what stands out of it; None where nothing does."""
     inscribed = float(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5).max())
     size = int(mask.sum())
-    thick = opened(mask, round(THIN * 2 * inscribed))
+    # A disc, so that what stands out does not hang on how the thing is turned. Its side is odd:
+    # OpenCV's opening moves a mask by a pixel otherwise.
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(THIN * inscribed) + 1,) * 2)
+    thick = cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_OPEN, disc) > 0
     thin = label_components(mask & ~thick, round(LEAST_SHARE * size))
     body = mask & (thin == 0)
     if not (1 - MOST_SHARE) * size < body.sum() < size:

@@ -15,7 +15,7 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.reconstruction.fit.observation import convex_hull_mask
+from etot_cli.reconstruction.fit.observation import LOST, convex_hull_mask
 from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
 from etot_cli.reconstruction.fit.second_look import DOUBTFUL, GAIN, MOST_LOOKS
@@ -23,10 +23,11 @@ from etot_cli.reconstruction.fit.supports import CONVINCING, fit_all, fit_alone
 from etot_cli.reconstruction.objects import Segment, Solid
 from etot_cli.reconstruction.shapes.upright import Cylinder
 
-SEAM = 9
-"""Parts of one thing are no farther apart than this [px]."""
+SEAM = LOST
+"""Parts of one thing are no farther apart than what an edge between them costs in readings [px]."""
 COMPACT = 0.9
-"""Share of its hull that a round thing without its handle fills."""
+"""Share of its hull that a round thing without its handle fills: one alone fills all of it but
+ragged edges, two equal ones side by side 2π / (π + 4) = 0.88."""
 
 
 def rejoin(

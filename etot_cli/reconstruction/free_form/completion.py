@@ -29,8 +29,9 @@ simple shape has.
 """
 DOUBTFUL = 0.75
 """Shares below this are worth a warning, or a free form that leaves less than half as much open."""
-POOR_EDGE = 5.0
-"""… and so does one whose outline is off by more than this [px]."""
+POOR_EDGE = 3.0
+"""… and so does one whose outline is off by more than this, where the free one explains no less:
+masks, drawn or found, are right within 2 px, and right shapes stay below that [px]."""
 LEAST_POINTS = 100
 """With fewer readings of a thing there is nothing to complete."""
 
@@ -71,7 +72,8 @@ def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
         return doubtful
     hidden = "mirrored" if carved.mirrored else "taken to end where nothing is seen"
     return replace(solid, fit=free, extra={}, warnings=()).warned(
-        f"free form: its far side is {hidden} and its lower part extruded, not seen"
+        f"free form: its far side is {hidden} and its lower part extruded, not seen: its sizes "
+        "across are a guess"
     )
 
 

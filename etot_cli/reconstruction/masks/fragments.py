@@ -12,19 +12,23 @@ from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import convex_hull_mask
 
 TEAR = 13
-"""Lost readings tear things apart by this much [px]."""
+"""Lost readings tear things apart by this much: an edge of each piece, with the displacement of
+depth against colour [px]."""
 ONE_COLOR = 14.0
-"""Typical colours of one object's pieces differ by less."""
+"""Typical colours of one object's pieces differ by less (CIE Lab): light costs one side of a thing
+up to ten, from twenty on colours have different names."""
 COMPACT = 0.7
-"""Share of its hull that one object's pieces fill together."""
+"""Share of its hull that one object's pieces fill together; a ring's two halves fill it whole, an
+angle's arms a half."""
 ROUND = 0.9
-"""Share of its hull from which a piece is no crescent."""
+"""Share of its hull from which a piece is no crescent; a half ring fills 0.6."""
 MOST_FRINGE = 0.3
 """A strip along a thing is at most this share of it."""
 MOST_HALF = 2.0
 """A thing's other half, such as a cup's inner wall, is at most this many times as large."""
 INSIDE = 0.7
-"""Share of a small piece in another's outline, from which it is a part of it."""
+"""Share of a small piece in another's outline, from which it is a part of it: of what leans on a
+thing from outside less than half lies in its outline."""
 ALONG = 0.7
 """Share of a fringe that lies along its thing."""
 
