@@ -20,6 +20,7 @@ from etot_cli.reporting.models import (
     action_fields,
     rounded,
 )
+from etot_cli.reporting.simulate_report import ConditionModel
 from etot_cli.specs.task import Condition
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import RolloutRecord
@@ -146,13 +147,6 @@ class HappenedModel(Model):
     text: str
     after_actions: Count
     time_s: Seconds
-
-
-class ConditionModel(Model):
-    """One of the task's success conditions in the final state."""
-
-    condition: str
-    held: bool
 
 
 class TrialModel(Model):

@@ -18,13 +18,11 @@ class Ball(Family):
     complexity: ClassVar[float] = 4.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         center, sides, _, height = ground_rectangle(evidence)
         wide = float(max(height, sides.max()))
         return [np.array([*center, evidence.base, d]) for d in (wide, float(sides.min()))]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         center, radius = self.center(params), params[3] / 2
         offset = center - view.position
         away = max(float(np.linalg.norm(offset)), radius * 1.01)
@@ -37,18 +35,14 @@ class Ball(Family):
         return [middle + ring * (CIRCLE[:, :1] * side + CIRCLE[:, 1:] * np.cross(axis, side))]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         return np.asarray(np.linalg.norm(points - self.center(params), axis=1) - params[3] / 2)
 
     def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
         d = float(params[3])
         return d, d, d
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {"kind": self.kind, "diameter": float(params[3])}
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         return float(np.pi * params[3] ** 3 / 6)

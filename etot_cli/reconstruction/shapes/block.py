@@ -26,25 +26,20 @@ class Block(Family):
     complexity: ClassVar[float] = 7.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         center, sides, yaw, height = ground_rectangle(evidence)
         return [np.array([*center, evidence.base, yaw, *sides, height])]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         return [self._place(box_corners(*self._extent(params)), params)]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         low, high = self._extent(params)
         return box_distance(own_frame(points, params, params[3]), np.array(low), np.array(high))
 
     def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
         return float(params[4]), float(params[5]), float(params[6])
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {"kind": self.kind, "size": list(self.size(params))}
 
     @staticmethod

@@ -42,7 +42,6 @@ class FreeForm(Family):
             raise SpecError("the mesh is flat: it encloses no volume") from error
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         points = evidence.points
         tall = max(float(np.percentile(points[:, 2], 98)) - evidence.base, 0.005)
         scale = tall / max(float(self.extent[2]), 1e-3)
@@ -51,21 +50,17 @@ class FreeForm(Family):
                 for yaw in np.arange(0.0, 2 * np.pi, np.pi / 4)]  # fmt: skip
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         return [rotate(self._hull * params[4], params[3]) + params[:3]]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         local = own_frame(points, params, params[3]) / params[4]
         return np.asarray(self._tree.query(local)[0] * params[4])
 
     def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
         x, y, z = self.extent * params[4]
         return float(x), float(y), float(z)
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {"kind": "mesh", "file": ""}
 
     def placed(self, params: Array) -> Array:
@@ -73,7 +68,6 @@ class FreeForm(Family):
         return np.asarray(self.vertices * params[4])
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         whole = float(ConvexHull(self._hull).volume)
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         own = abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6

@@ -33,21 +33,36 @@ DRAWER_SIDES = 0.6
 Panel = tuple[list[float], list[float]]
 
 
-class OpenUnit(Family):
+class _Case(Family):
+    """A case of boards; parameters 4 to 6 are its length, width and height."""
+
+    complexity: ClassVar[float] = 9.0
+    wall: ClassVar[float]
+    """Thickness of all that is built into it, spread over its six faces [m]."""
+
+    def size(self, params: Array) -> tuple[float, float, float]:
+        return float(params[4]), float(params[5]), float(params[6])
+
+    def volume(self, params: Array) -> float:
+        length, width, height = params[4:7]
+        faces = 2 * (length * width + length * height + width * height)
+        return float(self.wall * faces)
+
+
+class OpenUnit(_Case):
     """A unit of equal drawers, one of them out by ``open``; ``moving`` counts from the top."""
 
     kind: ClassVar[str] = "drawer_unit"
     names: ClassVar[tuple[str, ...]] = (
         "x", "y", "z", "yaw", "length", "width", "height", "open",
     )  # fmt: skip
-    complexity: ClassVar[float] = 9.0
+    wall: ClassVar[float] = 1.6 * UNIT_WALL
 
     def __init__(self, drawers: int = 2, moving: int = 0) -> None:
         self.drawers = drawers
         self.moving = moving
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         points, base = evidence.points, evidence.base
         center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.05:
@@ -68,7 +83,6 @@ class OpenUnit(Family):
         return [guess for _, guess in found[:2]]
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
-        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[7], high[7] = 0.0, max(0.3, start[7] * 1.2)
         return low, high
@@ -106,7 +120,6 @@ class OpenUnit(Family):
         return fixed, moving
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, width, height = params[4:7]
         fixed, moving = self.panels(params)
         body = box_corners(
@@ -120,47 +133,33 @@ class OpenUnit(Family):
         return [rotate(points, params[3]) + params[:3] for points in sets]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         local = own_frame(points, params, params[3])
         fixed, moving = self.panels(params)
         found = [box_distance(local, np.array(low), np.array(high)) for low, high in fixed + moving]
         return np.asarray(np.min(found, axis=0))
 
     def plausible(self, params: Array) -> bool:
-        """Whether the proportions fit the family."""
         fits = self.drawers <= most_drawers(params[6])
         return bool(fits and min(params[4:7]) > 0.05 and 0.006 < params[7] < params[4])
 
-    def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
-        return float(params[4]), float(params[5]), float(params[6])
-
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return unit_spec(self.size(params), self.drawers, float(params[7]), self.moving)
 
-    def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
-        length, width, height = params[4:7]
-        faces = 2 * (length * width + length * height + width * height)
-        return float(1.6 * UNIT_WALL * faces)
 
-
-class OpenCabinet(Family):
+class OpenCabinet(_Case):
     """A cabinet whose door, hinged at one side of its front, stands open by ``angle`` [rad]."""
 
     kind: ClassVar[str] = "cabinet"
     names: ClassVar[tuple[str, ...]] = (
         "x", "y", "z", "yaw", "length", "width", "height", "angle",
     )  # fmt: skip
-    complexity: ClassVar[float] = 9.0
+    wall: ClassVar[float] = CABINET_WALL
 
     def __init__(self, hinge: str) -> None:
         self.hinge = hinge
         self.side = -1.0 if hinge == "left" else 1.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         center, sides, yaw, height = roof_rectangle(evidence)
         if min(*sides, height) < 0.08:
             return []
@@ -175,7 +174,6 @@ class OpenCabinet(Family):
         return found
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
-        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[7], high[7] = 0.0, 2.6
         return low, high
@@ -192,7 +190,6 @@ class OpenCabinet(Family):
         return [0.0, y0, 0.0], [DOOR_THICKNESS - 0.001, y1, params[6]]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, width, height = params[4:7]
         body = box_corners(
             [-length / 2, -width / 2, 0], [length / 2 - DOOR_THICKNESS, width / 2, height]
@@ -202,7 +199,6 @@ class OpenCabinet(Family):
         return [rotate(points, params[3]) + params[:3] for points in (body, door)]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         local = own_frame(points, params, params[3])
         depth, width, height = params[4] / 2, params[5] / 2, params[6]
         t, front = CABINET_WALL, params[4] / 2 - DOOR_THICKNESS
@@ -220,22 +216,10 @@ class OpenCabinet(Family):
         return np.asarray(np.min(found, axis=0))
 
     def plausible(self, params: Array) -> bool:
-        """Whether the proportions fit the family."""
         return bool(min(params[4:7]) > 0.08 and params[7] > 0.03)
 
-    def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
-        return float(params[4]), float(params[5]), float(params[6])
-
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return cabinet_spec(self.size(params), self.hinge, float(np.degrees(params[7])))
-
-    def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
-        length, width, height = params[4:7]
-        faces = 2 * (length * width + length * height + width * height)
-        return float(CABINET_WALL * faces)
 
 
 def most_drawers(height: float) -> int:

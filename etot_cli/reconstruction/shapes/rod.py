@@ -38,7 +38,6 @@ class Capsule(Family):
     complexity: ClassVar[float] = 6.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         flat = evidence.points[:, :2]
         center = np.median(flat, axis=0)
         axis = np.linalg.svd(flat - center, full_matrices=False)[2][0]
@@ -59,7 +58,6 @@ class Capsule(Family):
         return [guess]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, diameter = params[4:6]
         radius = diameter / 2
         half = max(length / 2 - radius, 0.0)
@@ -71,7 +69,6 @@ class Capsule(Family):
         return [rotate(np.vstack(rings), params[3]) + params[:3]]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         length, diameter = params[4:6]
         local = own_frame(points, params, params[3]) - [0.0, 0.0, diameter / 2]
         half = max(length / 2 - diameter / 2, 0.0)
@@ -79,19 +76,15 @@ class Capsule(Family):
         return np.asarray(np.linalg.norm(local, axis=1) - diameter / 2)
 
     def plausible(self, params: Array) -> bool:
-        """Whether the proportions fit the family."""
         return bool(params[4] > SLENDER * params[5])
 
     def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
         return float(params[4]), float(params[5]), float(params[5])
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {"kind": self.kind, "diameter": float(params[5]), "length": float(params[4])}
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         length, diameter = params[4:6]
         return float(np.pi * diameter**2 / 4 * (length - diameter / 3))
 
@@ -110,13 +103,11 @@ class Pen(Capsule):
         return [np.array([*guess, tip]), np.array([*turned, tip])]
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
-        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[6], high[6] = BLUNTEST * start[5], 0.5 * start[4]
         return low, high
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         length, diameter, tip = params[4:7]
         ring = CIRCLE * diameter / 2 + [0.0, diameter / 2]
         rings = [np.column_stack([np.full(len(ring), x), ring])
@@ -126,7 +117,6 @@ class Pen(Capsule):
         return [rotate(np.vstack(rings), params[3]) + params[:3]]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         length, diameter, tip = params[4:7]
         local = own_frame(points, params, params[3])
         radial = np.hypot(local[:, 1], local[:, 2] - diameter / 2)
@@ -136,11 +126,9 @@ class Pen(Capsule):
         return convex_distance(np.column_stack([local[:, 0], radial]), np.array(shape))
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {**super().spec(params), "kind": self.kind, "tip_length": float(params[6])}
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         length, diameter, tip = params[4:7]
         return float(np.pi * diameter**2 / 4 * (length - tip * 2 / 3))
 

@@ -33,33 +33,27 @@ class Cylinder(Family):
     complexity: ClassVar[float] = 5.0
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         center, sides, _, height = ground_rectangle(evidence)
         return [np.array([*center, evidence.base, d, height])
                 for d in (float(sides.max()), float(sides.min()))]  # fmt: skip
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         x, y, z, diameter, height = params[:5]
         return [np.vstack([circle(x, y, z, diameter / 2), circle(x, y, z + height, diameter / 2)])]
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         radius, height = params[3] / 2, params[4]
         return box_distance(
             _profile(params, points), np.array([-radius, 0.0]), np.array([radius, height])
         )
 
     def size(self, params: Array) -> tuple[float, float, float]:
-        """Extents along its own axes [m]."""
         return float(params[3]), float(params[3]), float(params[4])
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         return {"kind": self.kind, "diameter": float(params[3]), "height": float(params[4])}
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         return float(np.pi / 4 * params[3] ** 2 * params[4])
 
 
@@ -73,18 +67,15 @@ class Cup(Cylinder):
     complexity: ClassVar[float] = 5.5
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         return [np.array([*guess, TYPICAL_WALL, TYPICAL_FLOOR])
                 for guess in super().guesses(evidence)]  # fmt: skip
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
-        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[5:7], high[5:7] = 0.0015, (0.009, 0.012)
         return low, high
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         profile, radius = _profile(params, points), params[3] / 2
         height, wall, floor = params[4:7]
         side = box_distance(profile, np.array([radius - wall, 0.0]), np.array([radius, height]))
@@ -92,20 +83,16 @@ class Cup(Cylinder):
         return np.minimum(side, ground)
 
     def prior(self, params: Array) -> Array:
-        """What is usual where nothing is seen."""
         return np.array([(params[5] - TYPICAL_WALL) / 0.0005, (params[6] - TYPICAL_FLOOR) / 0.0007])
 
     def plausible(self, params: Array) -> bool:
-        """Whether the proportions fit the family."""
         return bool(0.15 < params[4] / params[3] < 3.0)
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         keys = zip(("diameter", "height", "wall", "floor"), params[3:7], strict=True)
         return {"kind": self.kind, **{key: float(value) for key, value in keys}}
 
     def volume(self, params: Array) -> float:
-        """Volume of the material [m³]."""
         diameter, height, wall, floor = params[3:7]
         return float(
             np.pi * ((diameter - wall) * wall * (height - floor) + diameter**2 / 4 * floor)
@@ -119,28 +106,23 @@ class ConicalCup(Cup):
     complexity: ClassVar[float] = 6.5
 
     def guesses(self, evidence: Evidence) -> list[Array]:
-        """Parameter vectors to start from."""
         return [np.array([*guess, 0.8 * guess[3]]) for guess in super().guesses(evidence)]
 
     def bounds(self, start: Array) -> tuple[Array, Array]:
-        """Lowest and highest parameters."""
         low, high = super().bounds(start)
         low[7] = min(max(LEAST_FOOT, LEAST_FOOT_SHARE * start[3]), start[7])
         return low, high
 
     def plausible(self, params: Array) -> bool:
-        """Whether the proportions fit the family."""
         stands = params[7] >= max(LEAST_FOOT, LEAST_FOOT_SHARE * params[3])
         return super().plausible(params) and bool(stands)
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        """Point sets (k, 3) whose hulls make up the silhouette."""
         x, y, z, diameter, height = params[:5]
         return [np.vstack([circle(x, y, z, min(params[7], diameter) / 2),
                            circle(x, y, z + height, diameter / 2)])]  # fmt: skip
 
     def distance(self, params: Array, points: Array) -> Array:
-        """Signed distance (n,) from the surface [m]."""
         profile = _profile(params, points)
         rim, foot = params[3] / 2, min(params[7], params[3]) / 2
         height, wall, floor = params[4:7]
@@ -150,7 +132,6 @@ class ConicalCup(Cup):
         return np.minimum(convex_distance(profile, side), convex_distance(profile, ground))
 
     def spec(self, params: Array) -> dict[str, Any]:
-        """Scene keys of the shape."""
         foot = float(min(params[7], params[3]))
         return {**super().spec(params), "foot_diameter": foot}
 
