@@ -9,7 +9,7 @@ import pytest
 
 from etot_cli.errors import SpecError
 from etot_cli.planning.conditions import holds
-from etot_cli.specs.task import Condition
+from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import CLOSED_AT, STAYS_OPEN_AT, SceneState
 from tests.planning.fakes import scene
@@ -100,6 +100,17 @@ def test_unknown_names_are_refused() -> None:
         check({"on": ["cup", "shelf"]}, scene())
 
 
-def test_in_words() -> None:
-    document = {"any": [{"on": ["cup", "desk"]}, {"not": {"in_hand": "cup"}}]}
-    assert describe(Condition.model_validate(document)) == "(cup on desk) or (not (cup in hand))"
+@pytest.mark.parametrize(
+    ("document", "words"),
+    [
+        ({"any": [{"on": ["cup", "desk"]}, {"not": {"in_hand": "cup"}}]},
+         "(cup on desk) or (not (cup in hand))"),
+        ({"between": ["cup", "box", "jar"]}, "cup between box and jar"),
+        ({"at": ["cup", [0.4, -0.1]]}, "cup at 0.4 -0.1"),
+        ({"at": ["cup", "left"]}, "cup at left"),
+        *(({key: ["cup", "box"]}, f"cup {key.replace('_', ' ')} box")
+          for key in BESIDE_KEYS if key != "between"),
+    ],
+)  # fmt: skip
+def test_in_words(document: dict[str, Any], words: str) -> None:
+    assert describe(Condition.model_validate(document)) == words
