@@ -26,7 +26,7 @@ from etot_cli.world.placing import check_robot_is_free
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.snapshot import Memory, Snapshot, restore, save
-from etot_cli.world.state import Cause, ContactEvent, RolloutRecord, SceneState
+from etot_cli.world.state import Cause, ContactEvent, RolloutRecord, SceneState, owner_of
 
 SHOVED = 0.03
 """A robot that strikes another object further than this chose its way badly [m]."""
@@ -202,7 +202,7 @@ class PhysicsWorld:
 def _struck(record: RolloutRecord, action: Action) -> float:
     """How far robot or held object struck an object that the action has no business with [m]."""
     holding = record.before.holding
-    acted = {action.target, action.target.split(".")[0], holding} - {None}
+    acted = {action.target, owner_of(action.target), holding} - {None}
     carried = {
         other
         for other, state in record.before.states.items()
@@ -210,7 +210,7 @@ def _struck(record: RolloutRecord, action: Action) -> float:
     }
     movers = {"robot", "gripper", holding, record.after.holding}
     hit = {
-        other.split(".")[0]
+        owner_of(other)
         for event in record.contacts
         for one, other in _both_ways(event)
         if one in movers

@@ -22,6 +22,7 @@ from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.specs.disturbance import Disturbance, Role
 from etot_cli.specs.objects import ObjectBase
 from etot_cli.world.placing import place_object, raise_clear
+from etot_cli.world.state import owner_of
 
 SETTLE_S = 1.5
 """Time for what was disturbed to come to rest, at most [s]."""
@@ -62,9 +63,9 @@ def roles_of(plan: tuple[Action, ...], chosen: str | None) -> Roles:
     for index, action in enumerate(plan):
         if action.verb is Verb.PICK_UP:
             put = plan[index + 1] if index + 1 < len(plan) else None
-            target = None if put is None else put.target.split(".")[0]
+            target = None if put is None else owner_of(put.target)
             return Roles(chosen or action.target, target)
-    about = plan[0].target.split(".")[0] if plan else None
+    about = owner_of(plan[0].target) if plan else None
     return Roles(chosen, about)
 
 

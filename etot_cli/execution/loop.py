@@ -41,7 +41,7 @@ from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 from etot_cli.world.recorder import Trajectory
-from etot_cli.world.state import CauseKind, RolloutRecord
+from etot_cli.world.state import CauseKind, RolloutRecord, owner_of
 
 FEASIBLE = "feasible"
 """A planner's status that says that its actions, none where none is needed, lead to the goal."""
@@ -285,7 +285,7 @@ class Loop:
             return None
         blamed = carried.cause.objects if carried.cause else ()
         held = carried.before.holding if carried.before else None
-        about = (carried.action.target.split(".")[0], *blamed, *([held] if held else []))
+        about = (owner_of(carried.action.target), *blamed, *([held] if held else []))
         return class_of(
             self._believed.twin.scene, last.truth, last.command, carried.action, last.motion,
             last.look.error_m, about, self._forbidden,

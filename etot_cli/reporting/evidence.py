@@ -17,7 +17,7 @@ from etot_cli.reporting.models import (
     action_fields,
 )
 from etot_cli.skills.action import Action
-from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord
+from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord, owner_of
 
 SEEN_MOVE_M = 0.005
 """Displacements below this are settling, which nobody sees [m]."""
@@ -132,7 +132,7 @@ def contact_models(record: RolloutRecord, blamed: Iterable[str]) -> list[Contact
     concerned = culprits | {n for n, way in record.displacement.items() if way >= SEEN_MOVE_M}
 
     def ends(event: ContactEvent) -> set[str]:
-        return {event.first.split(".")[0], event.second.split(".")[0]}
+        return {owner_of(event.first), owner_of(event.second)}
 
     touching = [
         event

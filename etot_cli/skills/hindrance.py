@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable
 
 from etot_cli.world.model import World
+from etot_cli.world.state import owner_of
 
 
 class Passage:
@@ -31,7 +32,7 @@ class Passage:
             False where the candidate is impossible whatever else is taken away: the robot itself,
             the desk, or what is to be moved is in the way.
         """
-        names = {address.split(".")[0] for address in addresses}
+        names = {owner_of(address) for address in addresses}
         self.others |= names & self._removable
         return names <= self._removable
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.world.model import World
-from etot_cli.world.state import DESK, Cause, CauseKind
+from etot_cli.world.state import DESK, Cause, CauseKind, owner_of
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def failed(
     another_way: bool = False,
 ) -> SkillOutcome:
     """A failure with its physical cause; duplicate and foreign names are dropped."""
-    names = tuple(dict.fromkeys(name.split(".")[0] for name in objects))
+    names = tuple(dict.fromkeys(owner_of(name) for name in objects))
     cause = Cause(kind, names, text, None if time_s is None else round(time_s, 3))
     return SkillOutcome(False, cause, another_way)
 
@@ -90,7 +90,7 @@ class Blockers:
 
     def add(self, addresses: Iterable[str]) -> None:
         """Notes the addresses that one candidate came too close to."""
-        for name in {address.split(".")[0] for address in addresses}:
+        for name in {owner_of(address) for address in addresses}:
             if name in self._known:
                 self._count[name] += 1
 

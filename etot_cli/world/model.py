@@ -20,6 +20,7 @@ from etot_cli.world.build.surroundings import add_surroundings, set_options
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.robot import RobotSpec, load_robot
 from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, actuate, add_robot, robot_index
+from etot_cli.world.state import owner_of
 
 MASS_TOLERANCE = 1e-6
 """Masses that differ by a smaller share are the same: the digits of a file."""
@@ -56,7 +57,7 @@ class World:
     @cached_property
     def geom_object(self) -> tuple[str, ...]:
         """As ``geom_address``, parts counted to their object."""
-        return tuple(address.split(".")[0] for address in self.geom_address)
+        return tuple(owner_of(address) for address in self.geom_address)
 
     @cached_property
     def regions(self) -> dict[str, Region]:

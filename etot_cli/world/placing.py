@@ -13,7 +13,7 @@ from etot_cli.specs.objects import Mjcf, MjcfPart, ObjectBase
 from etot_cli.world.build.objects import resting_quaternion
 from etot_cli.world.index import ObjectEntry, Part, Region
 from etot_cli.world.model import World
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, owner_of
 
 GAP = 0.0005
 """Objects start this far above their support [m], and settle."""
@@ -61,7 +61,7 @@ def check_robot_is_free(world: World, data: mujoco.MjData) -> None:
         others = [address for address in pair if address not in ("robot", "gripper")]
         if len(others) != 1 or -contact.dist <= IN_THE_ROBOT:
             continue
-        name, depth = others[0].split(".")[0], -1000 * float(contact.dist)
+        name, depth = owner_of(others[0]), -1000 * float(contact.dist)
         if name == DESK:
             desk = world.scene.desk
             edge = desk.center[0] - desk.size[0] / 2
@@ -138,7 +138,7 @@ def _supports_first(world: World, names: list[str]) -> list[str]:
         spec = world.scene.objects[name]
         support = spec.on or spec.inside
         if support and support != DESK:
-            visit(support.split(".")[0], depth + 1)
+            visit(owner_of(support), depth + 1)
         ordered.append(name)
 
     for name in names:
@@ -172,7 +172,7 @@ def _place(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> No
 
 def _surface_center(world: World, data: mujoco.MjData, address: str) -> NDArray[np.float64]:
     surface = world.surfaces.get(address)
-    body = data.body(surface.body if surface else address.split(".")[0])
+    body = data.body(surface.body if surface else owner_of(address))
     center = np.array(surface.center if surface else (0.0, 0.0, 0.0))
     return np.asarray(body.xpos + body.xmat.reshape(3, 3) @ center)
 
@@ -278,7 +278,7 @@ def _lower_onto(
     if support in world.surfaces:
         top = _surface_center(world, data, support)[2]
     else:
-        top = object_bounds(world, data, support.split(".")[0])[1][2]
+        top = object_bounds(world, data, owner_of(support))[1][2]
     bottom = _set_and_measure_bottom(world, data, name, np.array([*xy, 1.0]))
     height = top + GAP + (1.0 - bottom)
     limit = int((height - world.scene.desk.top) / DROP_STEP) + 1

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.world.model import World
-from etot_cli.world.state import ContactEvent, Swept
+from etot_cli.world.state import ContactEvent, Swept, owner_of
 
 FRAME_PERIOD = 0.04
 """Time between stored configurations [s]."""
@@ -57,7 +57,7 @@ class Recorder:
         owners = sorted(set(world.geom_address))
         self._labels = owners
         self._geom_label = np.array([owners.index(label) for label in world.geom_address])
-        object_of = {label: label.split(".")[0] for label in owners}
+        object_of = {label: owner_of(label) for label in owners}
         names = sorted(set(object_of.values()))
         self._label_object = np.array([names.index(object_of[label]) for label in owners])
         self.start_time = float(data.time)

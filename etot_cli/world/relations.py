@@ -12,7 +12,14 @@ from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import Memory
-from etot_cli.world.state import CLOSED_AT, OPEN_AT, STAYS_OPEN_AT, ObjectState, SceneState
+from etot_cli.world.state import (
+    CLOSED_AT,
+    OPEN_AT,
+    STAYS_OPEN_AT,
+    ObjectState,
+    SceneState,
+    owner_of,
+)
 from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
@@ -200,7 +207,7 @@ def _container(
     """
     found: list[tuple[float, str]] = []
     for address, region in world.regions.items():
-        owner = address.split(".")[0]
+        owner = owner_of(address)
         if region.body == entry.body or owner == entry.info.name:
             continue
         if _bears(supports, entry.info.name, owner) and not _bears(
@@ -217,9 +224,7 @@ def _bears(supports: dict[str, set[str]], one: str, other: str) -> bool:
     """Whether one object holds another up, through whatever is between them."""
     below, found = {other}, {other}
     while below and one not in found:
-        below = {
-            support.split(".")[0] for name in below for support in supports.get(name, ())
-        } - found
+        below = {owner_of(support) for name in below for support in supports.get(name, ())} - found
         found |= below
     return one in found
 

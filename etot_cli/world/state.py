@@ -17,6 +17,11 @@ CLOSED_AT = 0.06
 """A part counts as closed up to this share of its travel."""
 
 
+def owner_of(address: str) -> str:
+    """The object's name in ``object`` or ``object.part``."""
+    return address.partition(".")[0]
+
+
 @dataclass(frozen=True, slots=True)
 class PartInfo:
     """A movable part: ``address`` is what actions call it.

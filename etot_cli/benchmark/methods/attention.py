@@ -16,7 +16,7 @@ from itertools import islice
 import mujoco
 import numpy as np
 
-from etot_cli.reasoning.builtin.relations import contents, is_on, owner_of, rides_on_part
+from etot_cli.reasoning.builtin.relations import contents, is_on, rides_on_part
 from etot_cli.reasoning.protocol import (
     Branch,
     FailedStep,
@@ -29,7 +29,7 @@ from etot_cli.world.index import Part
 from etot_cli.world.model import World
 from etot_cli.world.placing import geom_bounds
 from etot_cli.world.snapshot import Snapshot, restore
-from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState, Swept
+from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState, Swept, owner_of
 
 SWEEP_STEPS = 24
 """Poses of a part on its way that are looked at: a door of 0.4 m moves 3 cm from one to the next,

@@ -14,10 +14,9 @@ import math
 from collections.abc import Iterable
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.relations import owner_of
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import SceneState, owner_of
 
 
 def _keypoint(scene: SceneState, action: Action) -> tuple[float, float, float]:

@@ -9,11 +9,11 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.relations import container_address, owner_of, radius
+from etot_cli.reasoning.builtin.relations import container_address, radius
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world import spatial
 from etot_cli.world.carrying import carried_by
-from etot_cli.world.state import DESK, ObjectState, SceneState
+from etot_cli.world.state import DESK, ObjectState, SceneState, owner_of
 
 LIFT = 0.25
 """Height over the desk at which something in the hand is drawn [m]: above all that stands there."""

@@ -18,9 +18,9 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
 )
 from etot_cli.reasoning.builtin.ordering import Placement
-from etot_cli.reasoning.builtin.relations import container_parts, is_closed, owner_of
+from etot_cli.reasoning.builtin.relations import container_parts, is_closed
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import DESK, PartInfo, SceneState
+from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 
 @dataclass(frozen=True, slots=True)

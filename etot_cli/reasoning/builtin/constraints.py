@@ -6,15 +6,9 @@ from collections.abc import Iterable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
 from etot_cli.reasoning.builtin.harm import CHANGED, displacement
-from etot_cli.reasoning.builtin.relations import (
-    is_closed,
-    is_inside,
-    is_on,
-    is_open,
-    owner_of,
-)
+from etot_cli.reasoning.builtin.relations import is_closed, is_inside, is_on, is_open
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState
+from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState, owner_of
 
 ROBOT = ("robot", "gripper")
 """The robot's names in contacts."""

@@ -8,13 +8,12 @@ from etot_cli.reasoning.builtin.relations import (
     is_inside,
     is_on,
     is_open,
-    owner_of,
     rides_on_part,
 )
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world import spatial
 from etot_cli.world.carrying import carried_by
-from etot_cli.world.state import RolloutRecord
+from etot_cli.world.state import RolloutRecord, owner_of
 
 
 def acted_object(action: Action, record: RolloutRecord) -> str | None:

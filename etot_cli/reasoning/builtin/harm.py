@@ -11,15 +11,10 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from etot_cli.reasoning.builtin.effects import acted_object, carried_along
-from etot_cli.reasoning.builtin.relations import (
-    can_topple,
-    contents,
-    enclosing,
-    owner_of,
-)
+from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.carrying import carried_by
-from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord
+from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord, owner_of
 
 SHOVED = 0.03
 """An object that ends up further away than this has been disturbed [m]."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from etot_cli.reasoning.builtin.blame import cause_of_failure, cause_of_harm
 from etot_cli.reasoning.builtin.effects import acted_object, effect_holds
 from etot_cli.reasoning.builtin.harm import changed, harms
-from etot_cli.reasoning.builtin.relations import owner_of
 from etot_cli.reasoning.protocol import Outcome, Verdict
 from etot_cli.skills.action import Action
-from etot_cli.world.state import RolloutRecord
+from etot_cli.world.state import RolloutRecord, owner_of
 
 
 def judge_action(action: Action, record: RolloutRecord) -> Verdict:

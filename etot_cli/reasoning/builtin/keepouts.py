@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.builtin.harm import displacement
-from etot_cli.reasoning.builtin.relations import owner_of, radius
+from etot_cli.reasoning.builtin.relations import radius
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import Keepout, Verb
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import SceneState, owner_of
 
 MOVED = 0.01
 """Objects displaced further than this keep their old and new place clear [m]."""

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.goal import Relation
-from etot_cli.reasoning.builtin.relations import owner_of
 from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.state import owner_of
 
 
 class Placement(NamedTuple):

@@ -19,7 +19,6 @@ from etot_cli.reasoning.builtin.relations import (
     has_front,
     is_inside,
     is_on,
-    owner_of,
     radius,
 )
 from etot_cli.reasoning.builtin.relocation import (
@@ -42,7 +41,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb
-from etot_cli.world.state import DESK, STAYS_OPEN_AT, Cause, CauseKind, PartInfo
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, Cause, CauseKind, PartInfo, owner_of
 
 REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""

@@ -13,17 +13,13 @@ from etot_cli.world.state import (
     ObjectState,
     PartInfo,
     SceneState,
+    owner_of,
 )
 
 NOT_OBJECTS = frozenset({"robot", "gripper", "floor", DESK})
 """Names in contacts that no action can move."""
 ROLLING_KINDS = frozenset({"sphere", "capsule", "pen"})
 """Kinds without an upright pose: their orientation says nothing about harm."""
-
-
-def owner_of(address: str) -> str:
-    """The object's name in ``object`` or ``object.part``."""
-    return address.partition(".")[0]
 
 
 def is_open(scene: SceneState, part: PartInfo) -> bool:

@@ -8,13 +8,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
-from etot_cli.reasoning.builtin.relations import (
-    carriers,
-    container_address,
-    is_closed,
-    is_inside,
-    owner_of,
-)
+from etot_cli.reasoning.builtin.relations import carriers, container_address, is_closed, is_inside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     cycle_of,
@@ -25,7 +19,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import Action, Keepout, Verb
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, SceneState, owner_of
 
 HAND_ROOM = 0.10
 """Where a relocated thing is in the way again, it goes further off by this: a hand's width [m]."""

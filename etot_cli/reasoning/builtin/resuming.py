@@ -18,9 +18,9 @@ from etot_cli.reasoning.builtin.goal import (
     referents_of,
 )
 from etot_cli.reasoning.builtin.ordering import Placement
-from etot_cli.reasoning.builtin.relations import enclosing, is_closed, is_open, owner_of
+from etot_cli.reasoning.builtin.relations import enclosing, is_closed, is_open
 from etot_cli.reasoning.builtin.sketch import Sketch
-from etot_cli.world.state import DESK, PartInfo, SceneState
+from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 
 def what_is_left(goals: Iterable[Goal], scene: SceneState) -> list[Goal]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.builtin.relations import container_address, owner_of
+from etot_cli.reasoning.builtin.relations import container_address
 from etot_cli.skills.action import MAX_PLAN_ACTIONS, Action, Verb
-from etot_cli.world.state import DESK, STAYS_OPEN_AT, SceneState
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, SceneState, owner_of
 
 
 @dataclass(frozen=True, slots=True)

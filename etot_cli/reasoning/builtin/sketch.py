@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from etot_cli.reasoning.builtin.goal import Relation
-from etot_cli.reasoning.builtin.relations import (
-    container_address,
-    is_closed,
-    is_on,
-    is_open,
-    owner_of,
-)
+from etot_cli.reasoning.builtin.relations import container_address, is_closed, is_on, is_open
 from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts
-from etot_cli.world.state import DESK, STAYS_OPEN_AT, PartInfo, SceneState
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, PartInfo, SceneState, owner_of
 
 PUT_DOWN = Action(Verb.PUT_ON, DESK, safe=True)
 """Frees the hand without any purpose of its own."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.reasoning.vlm.chat import Picture
-from etot_cli.world.state import RolloutRecord, SceneState
+from etot_cli.world.state import RolloutRecord, SceneState, owner_of
 
 APART_S = 0.25
 """Moments nearer to each other show the same thing [s]."""
@@ -86,7 +86,7 @@ def moments(
     touching = [
         event
         for event in record.contacts
-        if {event.first.split(".")[0], event.second.split(".")[0]} & blamed
+        if {owner_of(event.first), owner_of(event.second)} & blamed
     ]
     touching.sort(key=lambda event: (-event.impulse, event.time_s))
     wanted += [

@@ -16,7 +16,7 @@ from etot_cli.reasoning.vlm.reading.plans import ReadPlan
 from etot_cli.reasoning.vlm.reading.steps import RawStep
 from etot_cli.skills.action import Action, Verb, read_whereabouts
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, SceneState, owner_of
 
 _SAFE = re.compile(
     r"(?i)\b(safe(?:ly|r)?|out of the way|clear(?:ed)? (?:of|area|spot)|away from|aside|"
@@ -148,7 +148,7 @@ def relocated(original: Sequence[Action], revised: Sequence[Action]) -> frozense
 
 def _prop_reasons(before: _Ends, after: _Ends) -> list[str]:
     reasons = []
-    used = {action.target.split(".")[0] for action in before.placed.values()} | before.moved
+    used = {owner_of(action.target) for action in before.placed.values()} | before.moved
     for name in sorted(after.moved - before.moved):
         action = after.placed.get(name)
         if action is None:

@@ -20,7 +20,7 @@ from etot_cli.reasoning.vlm.reading.text import bare, lines_of
 from etot_cli.reasoning.vlm.reading.verdicts import read_verdict
 from etot_cli.reasoning.vlm.sight import Sight
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import DESK, CauseKind
+from etot_cli.world.state import DESK, CauseKind, owner_of
 
 MAX_REASON = 300
 """Characters of a diagnosis that go with a branch: two or three sentences."""
@@ -166,7 +166,7 @@ def _doubt(failed: FailedStep) -> str:
     if cause is None or cause.kind in (CauseKind.SLIP, CauseKind.UNREACHABLE):
         return ""
     actions = failed.branch.actions[: failed.index + 1]
-    target = actions[-1].target.split(".")[0]
+    target = owner_of(actions[-1].target)
     infos = failed.start.infos
     others = [name for name in cause.objects
               if name in infos and name not in (target, failed.record.before.holding)]  # fmt: skip
@@ -176,7 +176,7 @@ def _doubt(failed: FailedStep) -> str:
             f"the record names {' and '.join(movable)}, which can be moved; if putting it in "
             "a safe place first, or another order of the same actions,"
         )
-    earlier = {action.target.split(".")[0]: action for action in actions[:-1]}
+    earlier = {owner_of(action.target): action for action in actions[:-1]}
     for name in others:
         if name in earlier and target in infos and infos[target].movable:
             return (

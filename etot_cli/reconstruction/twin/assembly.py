@@ -19,6 +19,7 @@ from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects
+from etot_cli.world.state import owner_of
 
 SETTLE_SECONDS = 1.0
 """Time that a twin is stepped to see whether it lies still [s]."""
@@ -126,7 +127,7 @@ def _least_seen(
 
 
 def _support(item: dict[str, Any]) -> str:
-    return str(item.get("on") or item.get("inside") or DESK).split(".")[0]
+    return owner_of(str(item.get("on") or item.get("inside") or DESK))
 
 
 def _impossible(

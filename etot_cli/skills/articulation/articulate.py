@@ -23,7 +23,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.world.index import Part
-from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState
+from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState, owner_of
 
 Vector = NDArray[np.float64]
 
@@ -199,8 +199,8 @@ def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
     along = trace.phase("along")
     for press in along.presses if along else ():
         for first, second in ((press.first, press.second), (press.second, press.first)):
-            name = second.split(".")[0]
-            ours = first.split(".")[0] == part.info.owner
+            name = owner_of(second)
+            ours = owner_of(first) == part.info.owner
             if ours and name in others:
                 force[name] = force.get(name, 0.0) + press.sideways
     ranked = sorted(force.items(), key=lambda item: (-item[1], item[0]))

@@ -14,6 +14,7 @@ from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.relations import to_region
+from etot_cli.world.state import owner_of
 
 Vector = NDArray[np.float64]
 
@@ -159,7 +160,7 @@ def _supports(belief: Belief, name: str) -> set[str]:
     """Objects that touch it now, from below or the side, and so may do during the lift."""
     world, data = belief.world, belief.data
     state = belief.scene.states[name]
-    found = {address.split(".")[0] for address in (*state.on, state.inside or name)} - {name}
+    found = {owner_of(address) for address in (*state.on, state.inside or name)} - {name}
     for one, two in data.contact.geom:
         first, second = world.geom_object[int(one)], world.geom_object[int(two)]
         if first == name:

@@ -14,6 +14,7 @@ from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.frozen import MAX_KNOWN, FrozenScene
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.model import World
+from etot_cli.world.state import owner_of
 
 Vector = NDArray[np.float64]
 
@@ -135,7 +136,7 @@ class CollisionChecker(FrozenScene):
         self._known[key] = tuple(found)
 
     def _not_ignored(self, addresses: Iterable[str]) -> list[str]:
-        return [item for item in addresses if item.split(".")[0] not in self._ignored]
+        return [item for item in addresses if owner_of(item) not in self._ignored]
 
     def _hits(
         self,

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.state import owner_of
 
 Vector = NDArray[np.float64]
 
@@ -225,10 +226,10 @@ class Trace:
         force: dict[str, float] = dict.fromkeys(phase.touching, math.inf)
         for press in phase.presses:
             for one, other in ((press.first, press.second), (press.second, press.first)):
-                if one.split(".")[0] in own:
+                if owner_of(one) in own:
                     force[other] = force.get(other, 0.0) + press.sideways
         ranked = sorted(force, key=lambda address: -force[address])
-        return tuple(address for address in ranked if address.split(".")[0] not in own)
+        return tuple(address for address in ranked if owner_of(address) not in own)
 
     @property
     def touching(self) -> tuple[str, ...]:

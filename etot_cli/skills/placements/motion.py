@@ -15,7 +15,7 @@ from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, W
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import placements_into, placements_on
-from etot_cli.world.state import DESK, CauseKind, SceneState
+from etot_cli.world.state import DESK, CauseKind, SceneState, owner_of
 
 Vector = NDArray[np.float64]
 
@@ -166,4 +166,4 @@ def _is_there(belief: Belief, action: Action, name: str, after: SceneState) -> b
     state, part = after.states[name], belief.world.parts.get(action.target)
     if action.verb is Verb.PUT_INTO:
         return state.inside == (part.info.address if part else action.target)
-    return any(action.target in (address, address.split(".")[0]) for address in state.on)
+    return any(action.target in (address, owner_of(address)) for address in state.on)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from etot_cli.skills.belief import Belief
 from etot_cli.world.index import Region
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, owner_of
 
 Vector = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ def surface_support(belief: Belief, address: str) -> Support | None:
         _level_axes(rotation),
         np.array(surface.half),
         surface.round,
-        owner=address.split(".")[0],
+        owner=owner_of(address),
     )
 
 
@@ -124,7 +124,7 @@ def _space(belief: Belief, address: str, region: Region, *, is_container: bool) 
         2 * region.half[2],
         is_container,
         from_front,
-        region.address.split(".")[0],
+        owner_of(region.address),
     )
 
 
@@ -136,7 +136,7 @@ def _level_axes(rotation: Vector) -> Vector:
 
 def _whatever_is_up(belief: Belief, address: str) -> Support:
     """The highest points of an object that has no even top as it stands, and the bounds of it."""
-    name = address.split(".")[0]
+    name = owner_of(address)
     low, high = object_bounds(belief.world, belief.data, name)
     center = (low + high) / 2
     center[2] = high[2]
