@@ -22,7 +22,7 @@ from etot_cli.benchmark.running.runner import (
 from etot_cli.benchmark.running.stopping import INTERRUPTED, Ending
 from etot_cli.benchmark.suite import Selection, digest, seeds_of, select
 from etot_cli.benchmark.trial import TrialKey, TrialResult
-from etot_cli.commands.bench_services import ModelTerms, check_services
+from etot_cli.commands.bench_services import ModelTerms, check_services, check_tasks
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_csv import write_csv
 from etot_cli.reporting.bench_report import (
@@ -116,6 +116,7 @@ def run_bench(
         from etot_cli.commands import bench_trial
 
         terms = check_services(options.reasoner, options.vlm, options.video_url)
+        check_tasks(run.selection.tasks, options.reasoner)
         tasks = {task.name: task for task in run.selection.tasks}
         setup: Any = bench_trial.Setup(
             str(folder.resolve()), tasks, run.seed, options.reasoner, options.vlm,

@@ -1,10 +1,17 @@
-"""What a benchmark's trials ask of servers, looked at before the first trial asks."""
+"""What would make an error of every trial, noticed before the first one."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any
+
+from etot_cli.control.simulator import open_simulator
+from etot_cli.errors import InstructionError, SpecError, WorldError
+from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.protocol import Assignment
+from etot_cli.specs.task import Task
 
 
 @dataclass(frozen=True)
@@ -48,3 +55,29 @@ def check_services(reasoner: str, vlm: Mapping[str, Any], video_url: str | None)
     limits = {"model_requests": settings.max_calls, "cost": settings.max_cost}
     budget = {name: float(most) for name, most in limits.items() if most is not None}
     return ModelTerms(settings.model, settings.deciding, budget)
+
+
+def check_tasks(tasks: Iterable[Task], reasoner: str) -> None:
+    """Builds every task's twin once, and reads its instruction where that is done here.
+
+    Args:
+        tasks: to be run.
+        reasoner: by name.
+
+    Raises:
+        SpecError: one cannot be built or read; the message names its file.
+    """
+    for task in tasks:
+        try:
+            with closing(
+                open_simulator(task.scene, seed=0, jobs=1, worlds=1, record=False)
+            ) as twin:
+                if reasoner == "builtin":
+                    BuiltinReasoner().propose(
+                        Assignment(task.instruction, task.goal), twin.start()[1]
+                    )
+        except InstructionError as error:
+            asked = "instruction" if task.goal is None else "goal"
+            raise SpecError(str(error), file=task.file, path=asked) from None
+        except WorldError as error:
+            raise SpecError(str(error), file=task.file, path="scene") from None

@@ -150,8 +150,12 @@ def _problem(item: dict[str, Any], located: Located) -> Problem:
         size = len(found) if isinstance(found, str | list | dict) else "more"
         return Problem(path, f"found {size} {unit}, expected at most {context['max_length']}")
     if kind in ("too_short", "string_too_short"):
-        entry = "entry" if kind == "too_short" else "character"
-        return Problem(path, f"is empty, expected at least {context.get('min_length')} {entry}")
+        one, several = ("entry", "entries") if kind == "too_short" else ("character", "characters")
+        least = int(context["min_length"])
+        size = (
+            f"found {len(found)}" if isinstance(found, str | list | dict) and found else "is empty"
+        )
+        return Problem(path, f"{size}, expected at least {least} {one if least == 1 else several}")
     if found is None and kind in ("dict_type", "model_type") and len(path) == 2:
         return Problem(
             path, "found nothing, expected a mapping (null only removes what an included scene has)"

@@ -14,7 +14,9 @@ from pydantic.fields import FieldInfo
 from etot_cli.specs.document import DataPath, Step
 from etot_cli.specs.quantity import Meaning
 
-LOADER_KEYS = {"Scene": ("actuation", "directory"), "Task": ("file", "inputs")}
+LOADER_KEYS = {
+    "Scene": ("actuation", "directory"), "Task": ("file", "inputs"), "RobotSpec": ("directory",),
+}  # fmt: skip
 """Fields that the loader fills in and a document may not give, by model name."""
 DOCUMENT_KEYS = {"Scene": ("include",), "Task": ("variation",)}
 """Keys that a document may give although the model has no such field: the loader resolves them."""

@@ -5,13 +5,15 @@ Nothing else in etot knows how many joints an arm has or what its gripper is cal
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from etot_cli.errors import SpecError
-from etot_cli.specs.document import read_document
+from etot_cli.specs.document import DataPath, read_document
+from etot_cli.specs.problems import validate
 from etot_cli.specs.scene import Finite, Spec
 
 BUILTIN_ROBOTS = Path(__file__).parent / "robots"
@@ -73,6 +75,10 @@ class DriverSpec(Spec):
     gripper_speed: Annotated[int, Field(ge=100, le=5000)] = 2000
 
 
+Posture = Annotated[float, Field(ge=-100.0, le=100.0, allow_inf_nan=False)]
+"""A joint's position [rad or m]; joints without limits turn a few times, not sixteen."""
+
+
 class RobotSpec(Spec):
     """Which joints, actuators and sites of an MJCF model make up the arm.
 
@@ -82,12 +88,12 @@ class RobotSpec(Spec):
     rises at least ``leaning_height`` above what it stands on [m].
     """
 
-    name: str
+    name: Annotated[str, Field(min_length=1, max_length=64)]
     model: str
     joints: Annotated[tuple[str, ...], Field(min_length=3, max_length=12)]
     actuators: tuple[str, ...]
     tool_site: str
-    home: tuple[Finite, ...]
+    home: tuple[Posture, ...]
     speed: Annotated[float, Field(gt=0.05, le=10.0)] = 1.2
     reach: Annotated[float, Field(gt=0.1, le=5.0)] = 0.7
     leaning_reach: Annotated[float, Field(ge=0.0, le=5.0)] = 0.0
@@ -123,29 +129,46 @@ def load_robot(robot: str, directory: str | Path = ".") -> RobotSpec:
         raise SpecError(
             f"no robot {robot!r}; expected one of {known}, or a robot YAML file", path="robot"
         )
-    data: Any = read_document(path).plain()
-    try:
-        spec = RobotSpec.model_validate({**data, "directory": str(path.parent)})
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(item) for item in first["loc"])
-        raise SpecError(first["msg"], file=str(path), path=where) from error
-    if not len(spec.joints) == len(spec.actuators) == len(spec.home):
-        raise SpecError(
-            f"joints ({len(spec.joints)}), actuators ({len(spec.actuators)}) and home "
-            f"({len(spec.home)}) must have the same length",
-            file=str(path),
-        )
+    node = read_document(path)
+    spec = validate(RobotSpec, node).model_copy(update={"directory": str(path.parent)})
+    for where, message in _contradictions(spec):
+        raise node.error(where, message)
     folder = path.parent.resolve()
     try:
         inside = spec.model_path.resolve().is_relative_to(folder)
     except (OSError, RuntimeError, ValueError):
         inside = False
     if not inside:
-        raise SpecError(
-            f"found {spec.model!r}, expected a file below the robot's own folder",
-            file=str(path), path="model",
-        )  # fmt: skip
+        raise node.error(
+            ("model",), f"found {spec.model!r}, expected a file below the robot's own folder"
+        )
     if not spec.model_path.is_file():
-        raise SpecError(f"missing file {spec.model!r}", file=str(path), path="model")
+        raise node.error(("model",), f"missing file {spec.model!r}")
     return spec
+
+
+def _contradictions(spec: RobotSpec) -> Iterator[tuple[DataPath, str]]:
+    """Values that are possible one by one and not together: where, and what is expected."""
+    count = len(spec.joints)
+    for key, values in (("actuators", spec.actuators), ("home", spec.home)):
+        if len(values) != count:
+            yield (key,), f"found {len(values)} entries, expected {count}, one for each joint"
+    if spec.driver.torque and len(spec.driver.torque) != count:
+        found = len(spec.driver.torque)
+        yield ("driver", "torque"), f"found {found} entries, expected {count}, one for each joint"
+    gripper = spec.gripper
+    for path, names in (
+        (("joints",), spec.joints), (("actuators",), (*spec.actuators, gripper.actuator)),
+        (("gripper", "fingers"), gripper.fingers), (("gripper", "pads"), gripper.pads),
+    ):  # fmt: skip
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            yield path, f"found {twice!r} twice, expected different names"
+    if gripper.command_open == gripper.command_closed:
+        yield ("gripper", "command_open"), "is command_closed too; expected another command"
+    driver = spec.driver
+    if driver.pulses_open == driver.pulses_closed:
+        yield ("driver", "pulses_open"), "is pulses_closed too; expected another position"
+    low, high = driver.workspace.low, driver.workspace.high
+    if any(lower >= upper for lower, upper in zip(low, high, strict=True)):
+        yield ("driver", "workspace"), f"found low {low} and high {high}, expected low below high"

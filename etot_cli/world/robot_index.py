@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -94,12 +96,15 @@ def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         raise WorldError(
             f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
         ) from error
+    _check_joints(spec, joints)
     measured = fingers_of(spec)
     finger_joints = [int(model.joint(name(item)).qposadr[0]) for item in measured.joints]
     sides = _sides(model, [int(body.id) for body in fingers])
     for pad, item in zip(pads, spec.gripper.pads, strict=True):
         if int(model.geom_bodyid[pad]) not in sides:
             raise WorldError(f"robot {spec.name}: the pad {item} is on neither finger nor below it")
+    if sides[int(model.geom_bodyid[pads[0]])] == sides[int(model.geom_bodyid[pads[1]])]:
+        raise WorldError(f"robot {spec.name}: both pads are on one finger; expected one on each")
     lower, upper = np.array([joint.range for joint in joints]).T
     tip, finger_half = _fingertips(model, int(site), [int(pad) for pad in pads])
     return RobotIndex(
@@ -118,6 +123,22 @@ def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
         tip=tip,
         finger_half=finger_half,
     )
+
+
+def _check_joints(spec: RobotSpec, joints: Sequence[Any]) -> None:
+    """Refuses joints that are no angle or way of an arm, and a home that they cannot reach."""
+    for name, joint, home in zip(spec.joints, joints, spec.home, strict=True):
+        if int(joint.type[0]) not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
+            raise WorldError(
+                f"robot {spec.name}: the joint {name} in {spec.model} neither turns about one axis "
+                "nor slides along one"
+            )
+        lower, upper = joint.range
+        if lower < upper and not lower <= home <= upper:
+            raise WorldError(
+                f"robot {spec.name}: home has {home:g} for the joint {name}, expected a value "
+                f"within its limits in {spec.model}, {lower:g} to {upper:g}"
+            )
 
 
 def _sides(model: mujoco.MjModel, fingers: list[int]) -> dict[int, int]:

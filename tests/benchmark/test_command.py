@@ -120,6 +120,17 @@ def test_what_no_trial_could_do_without_is_missed_before_the_first(
     assert not (tmp_path / "out" / "bench.json").exists()
 
 
+def test_a_task_that_no_trial_could_read_is_missed_before_the_first(
+    tmp_path: Path, task: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = write(task.parent, "two")
+    other.write_text(other.read_text("utf-8").replace("Pick up", "Frobnicate"), encoding="utf-8")
+    out = tmp_path / "out"
+    assert run(["bench", str(task.parent), "--out", str(out)]) == 2
+    assert "two.yaml: instruction: cannot read the instruction" in capsys.readouterr().err
+    assert not out.exists()
+
+
 def made(folder: Path) -> Path:
     folder.mkdir(exist_ok=True)
     return folder

@@ -206,14 +206,32 @@ def test_robot_of_ones_own(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("joints: [a, d, f]", "joints: [a, d]", "tiny.yaml: joints: .*at least 3"),
-        ("home: [0.0, 0.0, 0.0]", "home: [0.0, 0.0]", r"joints \(3\), actuators \(3\) and home"),
-        ("home: [0.0, 0.0, 0.0]", "home: [0.0, .nan, 0.0]", "tiny.yaml:.*home.1.: "),
-        ("opening: 0.04", "opening: 40", "tiny.yaml: gripper.opening: "),
-        ("opening: 0.04", "opening: wide", "tiny.yaml: gripper.opening: "),
-        ("name: tiny", "name: tiny\ncolour: red", "tiny.yaml: colour: "),
-        ("tool_site: tip\n", "", "tiny.yaml: tool_site: "),
-        ("model: tiny.xml", "model: gone.xml", "tiny.yaml: model: missing file 'gone.xml'"),
+        (
+            "joints: [a, d, f]",
+            "joints: [a, d]",
+            "tiny.yaml:3: joints: found 2, expected at least 3 entries",
+        ),
+        ("joints: [a, d, f]", "joints: [a, d, a]", "tiny.yaml:3: joints: found 'a' twice"),
+        ("home: [0.0, 0.0, 0.0]", "home: [0, 0]", "yaml:6: home: found 2 entries, expected 3"),
+        (
+            "home: [0.0, 0.0, 0.0]",
+            "home: [0, .nan, 0]",
+            r"yaml:6: home\[1\]: found .nan, exp.*finite",
+        ),
+        ("home: [0.0, 0.0, 0.0]", "home: [0, 1e30, 0]", r"yaml:6: home\[1\]: .*at most 100"),
+        ("opening: 0.04", "opening: 40", "tiny.yaml:7: gripper.opening: found 40, expected"),
+        ("opening: 0.04", "opening: wide", "tiny.yaml:7: gripper.opening: found 'wide', expected"),
+        ("command_open: 0.02", "command_open: 0", "yaml:7: gripper.command_open: .*another"),
+        ("pads: [lp, rp]", "pads: [lp, lp]", "yaml:7: gripper.pads: found 'lp' twice"),
+        ("name: tiny", "name: tiny\ncolour: red", "tiny.yaml:2: colour: unknown key"),
+        ("name: tiny", "name: tiny\ndirectory: /", "tiny.yaml:2: directory: unknown key"),
+        ("name: tiny", "name: ''", "tiny.yaml:1: name: "),
+        ("name: tiny", "name: x\ndriver: {torque: [1]}", "2: driver.torque: found 1 entries"),
+        ("name: tiny", "name: x\ndriver: {pulses_open: 0}", "2: driver.pulses_open: .*another"),
+        ("name: tiny", "name: x\ndriver: {workspace: {low: [2, 0, 0]}}", "2: driver.workspace: "),
+        ("tool_site: tip\n", "", "tiny.yaml:1: missing key 'tool_site'"),
+        ("model: tiny.xml", "model: gone.xml", "yaml:2: model: missing file 'gone.xml'"),
+        ("model: tiny.xml", "model: ../x.xml", "yaml:2: model: .*below the robot's own folder"),
         ("name: tiny", "name: [tiny", "tiny.yaml:2: not valid YAML"),
     ],
 )
@@ -248,6 +266,25 @@ def test_unknown_robot_lists_the_known_ones(tmp_path: Path, robot: str) -> None:
 def test_names_that_the_model_lacks(tmp_path: Path, old: str, new: str) -> None:
     folder = robot_folder(tmp_path, (old, new))
     with pytest.raises(WorldError, match=r"robot tiny: its YAML names .* that tiny\.xml lacks"):
+        build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+
+
+@pytest.mark.parametrize(
+    ("joint", "message"),
+    [('type="ball"', "the joint a in tiny.xml neither turns"),
+     ('range="57 90"', "home has 0 for the joint a, .* 0.99")],
+)  # fmt: skip
+def test_joints_that_are_none_of_an_arm(tmp_path: Path, joint: str, message: str) -> None:
+    folder = robot_folder(tmp_path)
+    model = MODEL.replace('<joint name="a"/>', f'<joint name="a" {joint}/>')
+    (folder / "tiny.xml").write_text(model)
+    with pytest.raises(WorldError, match=message):
+        build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+
+
+def test_fingers_that_both_pads_are_on(tmp_path: Path) -> None:
+    folder = robot_folder(tmp_path, ("fingers: [l, r]", "fingers: [b, c]"))
+    with pytest.raises(WorldError, match="both pads are on one finger"):
         build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
 
 
