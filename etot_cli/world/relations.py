@@ -234,19 +234,21 @@ def _within(
 ) -> bool:
     if data.body(region.body).xmat[8] < UPRIGHT_COSINE:
         return False
+    shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
+    if entry.axis is None:
+        middle = data.body(entry.body).xpos.copy()
+        if not _in_bounds(to_region(data, region, middle), region, margin):
+            return False
+        # Models from files have their origin wherever their maker put it.
+        low, high = object_bounds(world, data, entry.info.name)
+        middle[2], lowest = (low[2] + high[2]) / 2, np.array([*middle[:2], low[2]])
+        height = abs(to_region(data, region, middle)[2])
+        # What stands in a container may be taller than that is deep.
+        depth = (region.half[2] - to_region(data, region, lowest)[2]) / (2 * region.half[2])
+        return bool(height <= region.half[2] + margin or shallow <= depth <= 1.1)
     center = to_region(data, region, data.body(entry.body).xpos)
     if _in_bounds(center, region, margin) and abs(center[2]) <= region.half[2] + margin:
         return True
-    shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
-    if entry.axis is None:
-        if not _in_bounds(center, region, margin):
-            return False
-        # What stands in a container may be taller than that is deep.
-        lowest = data.body(entry.body).xpos.copy()
-        lowest[2] = object_bounds(world, data, entry.info.name)[0][2]
-        local = to_region(data, region, lowest)
-        depth = (region.half[2] - local[2]) / (2 * region.half[2])
-        return bool(shallow <= depth <= 1.1)
     axis = data.body(entry.body).xmat.reshape(3, 3) @ np.array(entry.axis)
     for sign in (-1.0, 1.0):
         end = data.body(entry.body).xpos + sign * axis * entry.info.size[0] / 2

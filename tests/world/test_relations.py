@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -117,6 +118,19 @@ def test_the_outer_of_nested_bowls_is_in_none() -> None:
     )
     found = {name: state.inside for name, state in stage.look().states.items()}
     assert found == {"outer": None, "middle": "outer", "inner": "middle"}
+
+
+def test_a_lid_that_has_its_origin_below_lies_on_the_rim(tmp_path: Path) -> None:
+    (tmp_path / "lid.xml").write_text(
+        """<mujoco><worldbody><body name="lid">
+        <geom type="cylinder" size="0.05 0.004" pos="0 0 0.004"/>
+        <geom type="cylinder" size="0.012 0.014" pos="0 0 0.022"/>
+        </body></worldbody></mujoco>"""
+    )
+    lid = {"kind": "mjcf", "file": "lid.xml", "on": "cup", "mass": 0.1}
+    stage = set_up_stage(make_scene(tmp_path, cup=CUP | {"at": [0.4, 0.1]}, lid=lid), settle=0.2)
+    found = stage.see("lid")
+    assert found.on == ("cup",) and found.inside is None
 
 
 def test_pen_across_a_cups_mouth_is_not_inside() -> None:
