@@ -13,7 +13,8 @@ import yaml
 from etot_cli.errors import EtotError, SpecError, WorldError
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct, settle_twin
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import Twin, reconstruct, settle_twin
 from etot_cli.reconstruction.twin import assembly
 from etot_cli.reconstruction.twin.exports import export_twin, free_form_mesh
 from etot_cli.reconstruction.twin.overlay import draw_overlay

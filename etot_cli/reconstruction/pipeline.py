@@ -26,35 +26,10 @@ from etot_cli.reconstruction.masks.automatic import find_segments
 from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
 from etot_cli.reconstruction.masks.naming import assign_names, color_of, hint_of, mentions
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
+from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.twin import assembly
 from etot_cli.specs.checks import BASE_RADIUS, DEFAULT_REACH, FURNITURE_BEYOND
 from etot_cli.specs.scene import Scene
-
-
-@dataclass(frozen=True, kw_only=True)
-class Options:
-    """What is asked of a reconstruction.
-
-    ``auto``: find masks even where the capture has some. ``second``: a capture of the same scene
-    with another joint state; by default the folder ``second`` in the capture, where there is one.
-    ``meshes``: mesh files by object name. ``library``: a file of known things. The URLs let servers
-    take stages over.
-    """
-
-    capture: Path
-    instruction: str | None = None
-    auto: bool = False
-    second: Path | None = None
-    materials: dict[str, str] = field(default_factory=dict)
-    meshes: dict[str, Path] = field(default_factory=dict)
-    library: Path | None = None
-    masks_url: str | None = None
-    mesh_url: str | None = None
-    pose_url: str | None = None
-    articulation_url: str | None = None
-    deadline: float = services.DEADLINE
-    seed: int = 0
-    settle: bool = True
 
 
 @dataclass

@@ -26,7 +26,8 @@ import numpy as np
 
 from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.capture.folder import read_masks
-from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.specs.load import load_task
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture

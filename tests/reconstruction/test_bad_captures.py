@@ -16,7 +16,8 @@ from etot_cli.cli.app import run
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.calibration import calibrate
 from etot_cli.reconstruction.capture.folder import read_capture
-from etot_cli.reconstruction.pipeline import Options, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import reconstruct
 
 
 def change(folder: Path, **values: Any) -> None:

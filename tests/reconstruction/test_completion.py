@@ -18,7 +18,8 @@ from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.free_form.symmetry import find_mirrors
-from etot_cli.reconstruction.pipeline import Options, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import reconstruct
 from etot_cli.world.build import pieces
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render

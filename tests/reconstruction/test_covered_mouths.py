@@ -12,7 +12,8 @@ import pytest
 from etot_cli.reconstruction.capture.calibration import calibrate
 from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.fit.lip import rim_height
-from etot_cli.reconstruction.pipeline import Options, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import reconstruct
 from etot_cli.specs.load import load_task
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render

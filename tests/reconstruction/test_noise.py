@@ -11,7 +11,8 @@ from etot_cli.reconstruction.capture.calibration import calibrate
 from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.masks.automatic import find_segments
 from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.pipeline import Options, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import reconstruct
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import KINECT, add_noise, write_capture

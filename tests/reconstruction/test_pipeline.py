@@ -9,7 +9,8 @@ import pytest
 
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.reconstruct import reconstruct_capture
-from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.reconstruction.twin.assembly import what_a_scene_may_have
 from etot_cli.reconstruction.twin.physics import MASS_DOUBT, WORLDS
 from etot_cli.specs.load import load_scene, load_task

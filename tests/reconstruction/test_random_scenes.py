@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.reconstruction.pipeline import Options, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import reconstruct
 from etot_cli.world.capture import KINECT, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.random_scenes import SHOWN, random_scene

@@ -21,7 +21,8 @@ import pytest
 import trimesh
 
 from etot_cli.reconstruction import services
-from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.services import endpoint
 from etot_cli.world.capture import Picture, camera_to_base
 

@@ -12,7 +12,8 @@ import trimesh
 
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.objects import Solid
-from etot_cli.reconstruction.pipeline import Options, Twin, reconstruct
+from etot_cli.reconstruction.options import Options
+from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.reconstruction.registration.model import resting_turns
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture

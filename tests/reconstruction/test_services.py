@@ -142,7 +142,8 @@ def test_stages_are_taken_over(picture, folder: Path) -> None:
     """Masks and a mesh of unknown scale from servers, all the way through."""
     import trimesh
 
-    from etot_cli.reconstruction.pipeline import Options, reconstruct
+    from etot_cli.reconstruction.options import Options
+    from etot_cli.reconstruction.pipeline import reconstruct
 
     mask = picture.masks["ball"]
     entry = {"name": "ball", "png": services.mask_picture(mask)}
@@ -165,7 +166,8 @@ def test_stages_are_taken_over(picture, folder: Path) -> None:
 
 @pytest.mark.slow
 def test_a_mesh_server_that_sends_no_mesh(folder: Path) -> None:
-    from etot_cli.reconstruction.pipeline import Options, reconstruct
+    from etot_cli.reconstruction.options import Options
+    from etot_cli.reconstruction.pipeline import reconstruct
 
     answer = {"mesh": "aGVsbG8=", "format": "glb"}
     with serving(saying(answer)) as (url, _), pytest.raises(ServiceError, match="mesh server"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,11 +10,9 @@ from etot_cli.reconstruction import services
 from etot_cli.reconstruction.articulation.two_frames import Joint
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import cabinet_spec, unit_spec
-
-if TYPE_CHECKING:
-    from etot_cli.reconstruction.pipeline import Options
 
 
 def asked_joints(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,14 +16,12 @@ from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.known.kinds import SCALED_BY_FILE, extra_keys, fit_known_kind
 from etot_cli.reconstruction.known.library import Entry, Library, read_library
 from etot_cli.reconstruction.objects import DESK, KnownModel, Solid
+from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.registration.evidence import target_of
 from etot_cli.reconstruction.registration.model import Model, models_of
 from etot_cli.reconstruction.registration.register import POOR, Registered, register
 from etot_cli.specs.scene import Mesh
 from etot_cli.world.build.mesh_files import MAX_BYTES, SUFFIXES, MeshFile, parse_mesh
-
-if TYPE_CHECKING:
-    from etot_cli.reconstruction.pipeline import Options
 
 SIZE_RANGE = (0.5, 2.0)
 """A known thing may be what was found when their longest sides differ by no more than this."""
