@@ -34,6 +34,8 @@ BELOW_DESK_M = 0.05
 MAX_TRIANGLES = 60_000
 """Of a body on a page: at nine numbers each, what a browser still turns smoothly."""
 QUALITY = 82
+SAMPLES = 6
+"""Renders of the twin: its shadows end as softly as those in the camera's picture."""
 """Of the embedded picture as WebP, 0 to 100: it is what the reconstruction is judged against."""
 
 
@@ -56,7 +58,7 @@ def write_reconstruct_page(reconstruction: Reconstruction, folder: Path) -> Path
             from etot_cli.world.capture import capture
 
             scene = twin.scene.model_copy(update={"directory": str(folder.resolve())})
-            picture = capture(scene, settle=False)
+            picture = capture(scene, settle=False, samples=SAMPLES)
             if picture.color.shape == color.shape:
                 pictures["twin"] = _encoded(picture.color)
                 residual = picture.depth - twin.seen.capture.depth

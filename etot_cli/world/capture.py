@@ -87,6 +87,7 @@ def capture(
     camera: str | None = None,
     joints: dict[str, float] | None = None,
     settle: bool = True,
+    samples: int = 1,
 ) -> Picture:
     """Renders a scene at rest from one of its cameras.
 
@@ -95,6 +96,8 @@ def capture(
         camera: name of the camera; by default the scene's first, or :data:`DEFAULT_CAMERA`.
         joints: joint values by ``object.part`` [m or rad] instead of the scene's.
         settle: let the objects come to rest first.
+        samples: renders of the colours; several make shadows soft, and take less memory than the
+            one whose edges the graphics driver smooths (by 0.1 GB for 1280 × 720).
 
     Raises:
         SpecError: there is no such camera, or its picture is too large.
@@ -116,10 +119,9 @@ def capture(
     mujoco.mj_forward(world.model, data)
     if settle:
         _settle(world, data)
-    color, depth, ids = _render(world, data, name, seen)
-    owners = np.array([*world.geom_object, ""])
-    labels = owners[ids]
-    masks = {item: labels == item for item in scene.objects}
+    color, depth, ids = _render(world, data, name, seen, samples)
+    owners = np.array(world.geom_object)
+    masks = {item: np.isin(ids, np.flatnonzero(owners == item)) for item in scene.objects}
     return Picture(seen, color, depth, masks, ground_truth(world, data))
 
 
@@ -151,13 +153,15 @@ def _settle(world: World, data: mujoco.MjData) -> None:
 
 
 def _render(
-    world: World, data: mujoco.MjData, name: str, camera: Camera
+    world: World, data: mujoco.MjData, name: str, camera: Camera, samples: int
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.int32]]:
     """Colour, depth and geom ids (−1 for none), each (h, w), without the robot."""
     model = world.model
     # Rounder balls than the viewer's: the truth is a ball, not its tessellation.
     model.vis.quality.numslices = 96
     model.vis.quality.numstacks = 48
+    if samples > 1:
+        model.vis.quality.offsamples = 0
     for geom, owner in enumerate(world.geom_object):
         if owner in ("robot", "gripper"):
             model.geom_rgba[geom, 3] = 0.0
@@ -168,7 +172,7 @@ def _render(
     view.fixedcamid = model.camera(name).id
     with OffscreenRenderer(model, camera.width, camera.height) as renderer:
         renderer.look(data, view)
-        color = renderer.color()
+        color = renderer.soft_color(samples) if samples > 1 else renderer.color()
         depth, ids = renderer.depth_and_geoms()
     depth[ids < 0] = 0.0  # the sky
     return color, depth, ids

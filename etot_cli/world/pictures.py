@@ -87,10 +87,9 @@ class PictureRenderer:
         image = self._renderer.soft_color(self._samples)
         if outlined:
             _, geoms = self._renderer.depth_and_geoms()
-            owners = np.array([*self._world.geom_object, ""])
-            seen = owners[geoms]
+            owners = np.array(self._world.geom_object)
             for name in outlined:
-                image = outline(image, seen == name, name)
+                image = outline(image, np.isin(geoms, np.flatnonzero(owners == name)), name)
         return write_caption(image, caption, tone) if caption else image
 
 
