@@ -103,7 +103,7 @@ def bench(
             "--compare",
             metavar="A B",
             help="Compare two reports instead of running; exit code 1 when a method got "
-            "significantly worse.",
+            "significantly worse. With --out, report and page are written.",
         ),
     ] = None,
     reasoner: Reasoner = ReasonerName.BUILTIN,
@@ -146,8 +146,8 @@ def bench(
     went away, or no trial could be carried out; 130: interrupted.
     """
     if compare is not None:
-        refuse_beside(context, "--compare", ("compare", "json", "quiet"))
-        return _compare(*compare, json=json, quiet=quiet)
+        refuse_beside(context, "--compare", ("compare", "out", "force", "json", "quiet"))
+        return _compare(*compare, out=out, force=force, json=json, quiet=quiet)
     if not tasks and resume is None:
         raise typer.BadParameter("nothing to run; name task files, folders, suites or random:N")
     if resume is not None and (out is not None or force):
@@ -206,13 +206,26 @@ def bench(
     return code
 
 
-def _compare(first: Path, second: Path, *, json: bool, quiet: bool) -> int:
-    """Prints how two runs differ."""
+def _compare(
+    first: Path, second: Path, *, out: Path | None, force: bool, json: bool, quiet: bool
+) -> int:
+    """Prints how two runs differ; with ``out``, writes report and page."""
     from etot_cli.commands.bench_compare import compare
     from etot_cli.reporting.bench_table import significantly_worse, told
-    from etot_cli.reporting.files import report_text
+    from etot_cli.reporting.files import claim_folder, report_text, write_report
 
     report = compare(first, second)
+    if out is not None:
+        from etot_cli.commands.bench_page import write_compare_page
+
+        claim = claim_folder("bench", "compare", out, force=force)
+        try:
+            write_report(report, claim.path)
+            page = write_compare_page(report, claim.path)
+        finally:
+            claim.release()
+        if not quiet:
+            print(f"page: {page}", file=sys.stderr)
     worse = [pair for pair in report.comparisons if significantly_worse(pair)]
     if json:
         sys.stdout.write(report_text(report))

@@ -156,8 +156,8 @@ def told(pair: PairedModel) -> str:
     """A comparison in a line."""
     low, high = pair.ci95
     return (
-        f"{pair.second} against {pair.first}: {_points(pair.difference)} points "
-        f"(95 % interval {_points(low)} to {_points(high)}), "
+        f"{pair.second} against {pair.first}: {points(pair.difference)} points "
+        f"(95 % interval {points(low)} to {points(high)}), "
         f"{pair.second_only} better, {pair.first_only} worse of "
         f"{pair.both + pair.first_only + pair.second_only + pair.neither}, "
         f"p {chance(pair)}"
@@ -191,7 +191,8 @@ def _percent(rate: float) -> str:
     return f"{100 * rate:.0f} %"
 
 
-def _points(difference: float) -> str:
+def points(difference: float) -> str:
+    """A difference of rates as percentage points, with its sign."""
     return f"{100 * difference:+.0f}"
 
 

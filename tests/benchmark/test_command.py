@@ -230,7 +230,11 @@ def test_what_got_significantly_worse_is_found(tmp_path: Path, task: Path) -> No
     assert [pair.second for pair in found.comparisons if significantly_worse(pair)] == ["rekep"]
     assert not any(map(significantly_worse, compare(before, before).comparisons))
     assert run(["bench", "--compare", str(before), str(after)]) == 1
-    assert run(["bench", "--compare", str(after), str(before)]) == 0
+    kept = tmp_path / "kept"
+    assert run(["bench", "--compare", str(after), str(before), "--out", str(kept)]) == 0
+    assert CompareReport.model_validate_json((kept / "report.json").read_text()).comparisons
+    assert "no method got significantly worse" in (kept / "report.html").read_text()
+    assert run(["bench", "--compare", str(after), str(before), "--out", str(kept)]) == 2
 
 
 @pytest.mark.parametrize(

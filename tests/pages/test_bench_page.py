@@ -12,10 +12,11 @@ from etot_cli.benchmark.methods.catalogue import METHODS
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import COSTS, TrialKey, TrialResult, TrialStatus
 from etot_cli.commands.bench import BenchOptions, run_bench
-from etot_cli.commands.bench_page import write_bench_page
+from etot_cli.commands.bench_page import write_bench_page, write_compare_page
 from etot_cli.control.robot import RobotState
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.records import Carried, FailureClass, Look, Trial
+from etot_cli.reporting.bench_report import CompareReport, PairedModel
 from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
 from etot_cli.reporting.trial_report import trial_report
 from etot_cli.skills.action import parse_plan
@@ -116,3 +117,24 @@ def test_it_fits_a_narrow_window(browser: Browser, page: Path) -> None:
     assert browser.faint() == []
     rows = browser.run("return document.querySelectorAll('table.heat tbody tr').length")
     assert rows == 8
+
+
+def test_two_runs_are_compared_on_a_page(browser: Browser, tmp_path: Path) -> None:
+    pair = PairedModel(
+        first="etot", second="etot", both=4, first_only=12, second_only=0, neither=4,
+        difference=-0.6, ci95=(-0.78, -0.31), p_value=0.0005, p_adjusted=0.001,
+    )  # fmt: skip
+    same = pair.model_copy(
+        update={"second": "rekep", "difference": 0.0, "ci95": (-0.2, 0.2), "p_adjusted": 1.0}
+    )
+    report = CompareReport(first="a", second=EVIL, comparisons=[pair, same], left_out=2)
+    page = write_compare_page(report, tmp_path)
+    browser.check_looks(page)
+    text = browser.run("return document.body.innerText")
+    assert "significantly worse: etot" in text and "-78 to -31" in text and EVIL in text
+    ends = browser.run(
+        "return [...document.querySelectorAll('.interval.change span')]"
+        ".map(span => [parseFloat(span.style.left), parseFloat(span.style.right)])"
+    )
+    assert ends == [[11, 65.5], [40, 40]]
+    assert browser.complaints() == [] and browser.fetched() == []
