@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import closing
@@ -26,7 +27,7 @@ from etot_cli.reporting.execute_report import (
     trial_model,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
-from etot_cli.services.redact import public_url
+from etot_cli.services.redact import public_url, redactor_for
 from etot_cli.specs.load import load_task
 from etot_cli.specs.task import Task
 from etot_cli.world.workers import WorkerLostError, WorkerPool
@@ -101,7 +102,9 @@ def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = No
     try:
         check_names(options.robot, options.perception)
         if options.jobs > 1 and options.robot.partition(":")[0] != SIMULATED:
-            raise EtotError(f"--jobs {options.jobs}: there is one robot {options.robot}")
+            raise EtotError(
+                f"--jobs {options.jobs}: there is one robot {options.robot.partition(':')[0]}"
+            )
         with watch.phase("load"):
             task = load_task(options.task)
         with watch.phase("execute"):
@@ -221,7 +224,7 @@ def _report(
         task=task_model(options.task, task),
         files={},
         options=ExecuteOptionsModel(
-            robot=options.robot,
+            robot=redactor_for(options.robot, os.environ)(options.robot),
             perception=options.perception,
             dry_run=options.dry_run,
             disturb=options.disturb,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from urllib.parse import quote, urlsplit, urlunsplit
 
 MASK = "[redacted]"
@@ -15,6 +15,10 @@ SHORTEST_SECRET = 4
 _BEARER = re.compile(
     r"(?i)\b(bearer|api-key|authorization)(\s*[:=]?\s+)(?=\S*\d)([A-Za-z0-9._~+/=-]{8,})"
 )
+_SECRET_NAME = r"[\w-]*(?:key|token|secret|passw(?:or)?d|credential)s?"
+_NAMED = re.compile(rf"(?i)\b{_SECRET_NAME}(?:=|\s+)(['\"]?)([^\s'\"&]+)\1")
+"""``TOKEN=…``, ``--api-key …``, and a parameter of a URL."""
+_USER = re.compile(r"://([^/\s@:'\"]*):?([^/\s@'\"]*)@")
 _KEY_SHAPED = re.compile(r"\b(?:sk|key|pk)-(?=\S*\d)[A-Za-z0-9_*.-]{8,}")
 
 
@@ -57,6 +61,21 @@ class Redactor:
         if isinstance(value, list | tuple):
             return [self.deep(item) for item in value]
         return value
+
+
+def redactor_for(command: str, environment: Mapping[str, str]) -> Redactor:
+    """Masks what a command line, or the environment that it inherits, calls a secret.
+
+    Args:
+        command: as typed.
+        environment: variables by name.
+    """
+    found = [match[2] for match in _NAMED.finditer(command)]
+    found += [part for match in _USER.finditer(command) for part in match.groups()]
+    found += [
+        value for name, value in environment.items() if re.fullmatch(f"(?i){_SECRET_NAME}", name)
+    ]
+    return Redactor(found)
 
 
 def public_url(url: str) -> str:

@@ -168,3 +168,20 @@ def test_the_terminal_shows_plan_looks_and_replans(tmp_path: Path) -> None:
     log.acted(trial.actions[0])
     assert "ball stands 1" in plain.getvalue() or "ball stands 9" in plain.getvalue()
     assert "[PICK UP, ball]" in execute_page(execution.report, execution.trials)
+
+
+def test_what_a_worker_is_told_in_secret_is_told_to_nobody(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    script = tmp_path / "bridge.py"
+    script.write_text("import os, sys; sys.exit(f'{sys.argv} {os.environ}')", encoding="utf-8")
+    monkeypatch.setenv("LAB_TOKEN", "environment-secret")
+    words = f"worker:{sys.executable} {script} http://me-secret:pass-secret@h/?key=query-secret"
+    words += " --api-key flag-secret PASSWORD='quoted-secret'"
+    out = tmp_path / "out"
+    given = ["execute", "tasks/task3.yaml", "--robot", words, "--html", "-v", "--out", str(out)]
+    assert run(given) == 3
+    said = "".join(capsys.readouterr()) + (out / "report.json").read_text("utf-8")
+    said += (out / "report.html").read_text("utf-8")
+    assert "bridge.py" in said and "[redacted]" in said
+    assert "-secret" not in said

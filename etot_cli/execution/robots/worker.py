@@ -78,7 +78,7 @@ class WorkerRobot:
             ServiceError: it does not start, speaks another version, or drives another robot.
         """
         if self._process is not None:
-            return f"worker {self._command}"
+            return f"worker {self._process.told}"
         self._process = WorkerProcess(self._command)
         episode = self._episode
         params = {
@@ -96,7 +96,7 @@ class WorkerRobot:
                 "hello", f"its robot has {hello.joints} joints; expected {len(self._joints)}"
             )
         self._slower, self.offers = hello.slower, frozenset(hello.offers)
-        return f"{hello.name}, worker {self._command!r}"
+        return f"{hello.name}, worker {self._process.told!r}"
 
     def ask(
         self,
@@ -111,7 +111,7 @@ class WorkerRobot:
             ServiceError: the worker died, hangs, or answers something else.
         """
         if self._process is None:
-            raise ServiceError(f"worker {self._command!r} is not connected")
+            raise ServiceError("the worker is not connected")
         result = self._process.ask(method, params or {}, seconds)
         try:
             return expected.model_validate(result)

@@ -19,6 +19,7 @@ from typing import IO, Any
 
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.robots.worker_messages import line_of
+from etot_cli.services.redact import redactor_for
 from etot_cli.world.worker import parent_death
 
 MAX_LINE = 64 * 1024 * 1024
@@ -62,8 +63,11 @@ class WorkerProcess:
     """
 
     def __init__(self, command: str) -> None:
-        self.command = command
         words = words_of(command)
+        # Of what is told of it: the command and its words may hold what nobody else is to read.
+        self._redact = redactor_for(command, os.environ)
+        self.told = self._redact(command)
+        """The command, fit for messages and reports."""
         try:
             self._child = subprocess.Popen(
                 words,
@@ -153,17 +157,17 @@ class WorkerProcess:
 
     @property
     def _shown(self) -> str:
-        return repr(self.command[:SHOWN])
+        return repr(self.told[:SHOWN])
 
     def _fault(self, reason: str) -> ServiceError:
-        return ServiceError(f"worker {self._shown}: {reason}")
+        return ServiceError(f"worker {self._shown}: {self._redact(reason)}")
 
     def _died(self) -> ServiceError:
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._child.wait(ENDS_WITHIN)
         code = self._child.returncode
         how = "closed its output" if code is None else f"ended with code {code}"
-        said = b" ".join(self._errors).decode("utf-8", "replace").strip()
+        said = self._redact(b" ".join(self._errors).decode("utf-8", "replace").strip())
         return self._fault(how + (f"; it said: {said[-SHOWN:]}" if said else ""))
 
     def _write(self, line: bytes, method: str, until: float) -> None:
