@@ -49,24 +49,7 @@ class TreePlanner:
                 self.scene, seed=self.seed, jobs=1, worlds=1, record=False
             )
         self._simulator.begin_from(start, scene)
-        result = search(asked, self._simulator, BuiltinReasoner(), limits=self.limits)
-        if result.status is SearchStatus.INTERRUPTED:
-            raise KeyboardInterrupt
-        path = () if result.leaf is None else result.leaf.path
-        motions = [result.rollouts[node.id].motion for node in path]
-        numbers = result.statistics
-        return Planned(
-            result.plan,
-            tuple(motion if isinstance(motion, Motion) else None for motion in motions),
-            result.status.value,
-            result.stopped or why_not(result),
-            {
-                "nodes": float(numbers.nodes_evaluated),
-                "reflections": float(numbers.reflections),
-                "simulated_s": numbers.simulated_s,
-                "wall_s": numbers.wall_s,
-            },
-        )
+        return planned_by(search(asked, self._simulator, BuiltinReasoner(), limits=self.limits))
 
     def close(self) -> None:
         """Ends worker processes; idempotent."""
@@ -74,7 +57,34 @@ class TreePlanner:
             self._simulator.close()
 
 
-def why_not(result: SearchResult) -> str | None:
+def planned_by(result: SearchResult) -> Planned:
+    """What a search came to, as the loop takes it.
+
+    Raises:
+        KeyboardInterrupt: the search was interrupted.
+    """
+    if result.status is SearchStatus.INTERRUPTED:
+        raise KeyboardInterrupt
+    path = () if result.leaf is None else result.leaf.path
+    motions = (result.rollouts[node.id].motion for node in path)
+    numbers = result.statistics
+    return Planned(
+        result.plan,
+        tuple(motion if isinstance(motion, Motion) else None for motion in motions),
+        result.status.value,
+        result.stopped or _why_not(result),
+        {
+            "nodes": float(numbers.nodes_evaluated),
+            "reflections": float(numbers.reflections),
+            "simulated_s": numbers.simulated_s,
+            "wall_s": numbers.wall_s,
+            "physics_s": numbers.physics_s,
+            "kinematics_s": numbers.kinematics_s,
+        },
+    )
+
+
+def _why_not(result: SearchResult) -> str | None:
     """What keeps everything from working, the first things first; None with a plan."""
     if result.status is not SearchStatus.INFEASIBLE:
         return None

@@ -136,7 +136,7 @@ def test_a_method_sees_nothing_of_the_world_that_it_acts_in() -> None:
         if name.startswith("etot_cli.execution.")
     }
     assert {name.split(".")[3] for name in seen if name.count(".") == 3} == {
-        "FailureClass", "Planned", "Planner", "Trial", "why_not",
+        "FailureClass", "Planned", "Planner", "Trial", "planned_by",
     }  # fmt: skip
 
 

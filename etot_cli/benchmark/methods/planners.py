@@ -6,7 +6,7 @@ A planner sees the believed twin and the instruction, never the world that the r
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,10 +14,10 @@ from etot_cli.benchmark.methods.attention import StaticScene
 from etot_cli.benchmark.methods.thinking import Thinking
 from etot_cli.control.simulated import Simulator
 from etot_cli.errors import InstructionError, ServiceError
-from etot_cli.execution.planner import why_not
+from etot_cli.execution.planner import planned_by
 from etot_cli.execution.protocols import Planned, Planner
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.planning.result import LimitKind, SearchResult, SearchStatus
+from etot_cli.planning.result import LimitKind, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment, Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action
@@ -64,11 +64,9 @@ class SearchPlanner:
             without=self.without,
             check=self.thinking.checked,
         )
-        if result.status is SearchStatus.INTERRUPTED:
-            raise KeyboardInterrupt
         if result.limit is LimitKind.SERVICE:
             raise ServiceError(result.stopped)
-        return _planned(result)
+        return planned_by(result)
 
 
 @dataclass
@@ -138,24 +136,3 @@ def by_steps(thinking: Thinking, world: World) -> OneShotPlanner:
         return thinking.by_steps(asked, scene, StaticScene(world, start, scene))
 
     return OneShotPlanner(choose)
-
-
-def _planned(result: SearchResult) -> Planned:
-    path = () if result.leaf is None else result.leaf.path
-    motions = (result.rollouts[node.id].motion for node in path)
-    numbers = result.statistics
-    account: Mapping[str, float] = {
-        "nodes": float(numbers.nodes_evaluated),
-        "reflections": float(numbers.reflections),
-        "simulated_s": numbers.simulated_s,
-        "wall_s": numbers.wall_s,
-        "physics_s": numbers.physics_s,
-        "kinematics_s": numbers.kinematics_s,
-    }
-    return Planned(
-        result.plan,
-        tuple(motion if isinstance(motion, Motion) else None for motion in motions),
-        result.status.value,
-        result.stopped or why_not(result),
-        account,
-    )
