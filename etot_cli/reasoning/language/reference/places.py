@@ -107,7 +107,11 @@ class Places:
         return found
 
     def _check_carried(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
-        """Nothing goes in or on what it carries itself, unless that has gone elsewhere before."""
+        """Nothing goes in or on what it carries itself, unless that has gone elsewhere before; but
+        what is called by its own name may change places with it.
+        """
+        if not phrase.modifiers and not phrase.pronoun:
+            return
         moved = {t.name for item in self.discourse.put for t in self.discourse.things(item)}
         carried = self.discourse.things(index)
         if any(thing.name in moved for thing in carried):
