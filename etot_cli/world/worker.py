@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import gc
 import multiprocessing
 import os
 import signal
@@ -67,6 +68,9 @@ def work(
         other.close()
     try:
         begin(*arguments)
+        # What stays as long as the worker does is not searched for garbage again and again, nor are
+        # the pages that it shares with the parent copied for that.
+        gc.freeze()
         while True:
             function, given = pipe.recv()
             try:
