@@ -32,6 +32,7 @@ from etot_cli.reporting.reconstruct_report import (
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
+from etot_cli.world.state import triple
 
 __all__ = ["Options", "reconstruct_capture"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
@@ -104,7 +105,7 @@ def _report(
             "joints": [
                 JointModel(
                     object=joint.owner, type="slide" if joint.type == "slide" else "hinge",
-                    axis=_three(joint.axis), anchor=_three(joint.anchor), values=joint.values,
+                    axis=triple(joint.axis), anchor=triple(joint.anchor), values=joint.values,
                 )
                 for joint in twin.joints
             ],
@@ -129,18 +130,13 @@ def _report(
     )
 
 
-def _three(values: Any) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
-
-
 def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
     half = solid.yaw / 2 if solid.kind not in assembly.ROUND else 0.0
     rest = twin.settled.get(solid.name)
     return ReconstructedObjectModel(
         name=solid.name,
         kind=solid.kind,
-        position=_three(solid.center),
+        position=triple(solid.center),
         quaternion=(float(np.cos(half)), 0.0, 0.0, float(np.sin(half))),
         size=solid.size,
         support=solid.support,

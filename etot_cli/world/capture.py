@@ -22,7 +22,7 @@ from etot_cli.specs.scene import Camera, Scene
 from etot_cli.world.build.surroundings import camera_rotation
 from etot_cli.world.model import World, build_world
 from etot_cli.world.offscreen import OffscreenRenderer
-from etot_cli.world.placing import object_bounds, place_objects
+from etot_cli.world.placing import object_bounds, place_objects, settle_objects
 
 DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
 """The camera of scenes that name none: in front of the desk, looking obliquely at it."""
@@ -118,7 +118,7 @@ def capture(
         data.joint(world.parts[address].joint).qpos[0] = value
     mujoco.mj_forward(world.model, data)
     if settle:
-        _settle(world, data)
+        settle_objects(world, data, SETTLE_SECONDS)
     color, depth, ids = _render(world, data, name, seen, samples)
     owners = np.array(world.geom_object)
     masks = {item: np.isin(ids, np.flatnonzero(owners == item)) for item in scene.objects}
@@ -139,17 +139,6 @@ def _chosen_camera(scene: Scene, name: str | None) -> tuple[str, Camera]:
             f"at most {MAX_PICTURE[0]} × {MAX_PICTURE[1]}"
         )
     return found
-
-
-def _settle(world: World, data: mujoco.MjData) -> None:
-    home = data.qpos[world.robot.qpos].copy()
-    for _ in range(int(SETTLE_SECONDS / world.model.opt.timestep)):
-        # The arm stands still: only the objects are of interest.
-        data.qpos[world.robot.qpos] = home
-        data.qvel[world.robot.dof] = 0.0
-        mujoco.mj_step(world.model, data)
-    data.qpos[world.robot.qpos] = home
-    mujoco.mj_forward(world.model, data)
 
 
 def _render(

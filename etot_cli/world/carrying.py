@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import SceneState, owner_of
 
 
 def carried_by(scene: SceneState, name: str) -> frozenset[str]:
@@ -14,8 +14,8 @@ def carried_by(scene: SceneState, name: str) -> frozenset[str]:
         for other, state in scene.states.items():
             if other in moving or not scene.infos[other].movable:
                 continue
-            supports = {support.partition(".")[0] for support in state.on}
-            inside = state.inside.partition(".")[0] if state.inside is not None else None
+            supports = {owner_of(support) for support in state.on}
+            inside = owner_of(state.inside) if state.inside is not None else None
             if inside in moving or (supports and supports <= moving):
                 moving.add(other)
                 grew = True

@@ -19,6 +19,7 @@ from etot_cli.world.state import (
     ObjectState,
     SceneState,
     owner_of,
+    triple,
 )
 from etot_cli.world.viewpoint import forward_of
 
@@ -66,7 +67,7 @@ def standing_axis(entry: ObjectEntry, rotation: NDArray[np.float64]) -> tuple[fl
     is_made_to = size[2] > max(size[:2]) or (entry.info.container and kind in HOLLOW_KINDS)
     if is_made_to and abs(rotation[2, 2]) < LIES:
         return (0.0, 0.0, 1.0)
-    return _triple(rotation[2])
+    return triple(rotation[2])
 
 
 def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[SceneState, Memory]:
@@ -98,7 +99,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         position = body.xpos
         center = data.subtree_com[body.id]
         states[name] = ObjectState(
-            position=_triple(position),
+            position=triple(position),
             quaternion=_quadruple(body.xquat),
             on=() if name in held else tuple(sorted(supports.get(name, set()))),
             inside=container,
@@ -293,11 +294,6 @@ def _openness(
 
 def _is_lost(world: World, position: NDArray[np.float64]) -> bool:
     return bool(position[2] < world.scene.desk.top - LOST_BELOW)
-
-
-def _triple(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
 
 
 def _quadruple(values: NDArray[np.float64]) -> tuple[float, float, float, float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -15,6 +15,12 @@ STAYS_OPEN_AT = 0.65
 may push it back a little (hysteresis)."""
 CLOSED_AT = 0.06
 """A part counts as closed up to this share of its travel."""
+
+
+def triple(values: Iterable[float]) -> tuple[float, float, float]:
+    """Three numbers of an array, as data that anything can store."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
 
 
 def owner_of(address: str) -> str:

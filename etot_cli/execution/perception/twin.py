@@ -14,7 +14,7 @@ from etot_cli.reconstruction.capture.view import Array
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Part, Region
 from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects
+from etot_cli.world.placing import place_objects, settle_objects
 
 SETTLE_S = 0.8
 """Simulated time for a new scene to come to rest [s]."""
@@ -36,7 +36,8 @@ class KnownScene:
         self.data = mujoco.MjData(self.world.model)
         self._other = mujoco.MjData(self.world.model)
         place_objects(self.world, self.data)
-        self._settle()
+        self.data.qpos[self.world.robot.qpos] = self.world.robot.spec.home
+        settle_objects(self.world, self.data, SETTLE_S)
         self._nominal = {name: self.body(entry.body) for name, entry in self.world.entries.items()}
         model = self.world.model
         moving = {part.body for entry in self.world.entries.values() for part in entry.parts}
@@ -149,13 +150,3 @@ class KnownScene:
             if model.body_parentid[body] in found and body not in self._moving:
                 found.append(body)
         return found
-
-    def _settle(self) -> None:
-        world, data = self.world, self.data
-        home = np.array(world.robot.spec.home)
-        for _ in range(int(SETTLE_S / world.model.opt.timestep)):
-            # The arm stands still: only the objects are of interest.
-            data.qpos[world.robot.qpos] = home
-            data.qvel[world.robot.dof] = 0.0
-            mujoco.mj_step(world.model, data)
-        mujoco.mj_kinematics(world.model, data)

@@ -18,7 +18,7 @@ from etot_cli.reconstruction.twin.physics import FRICTION_DOUBT, MASS_DOUBT, gue
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects
+from etot_cli.world.placing import place_objects, settle_objects
 from etot_cli.world.state import owner_of
 
 SETTLE_SECONDS = 1.0
@@ -264,15 +264,10 @@ def settle(scene: Scene) -> dict[str, Settled]:
     world = build_world(scene)
     data = mujoco.MjData(world.model)
     place_objects(world, data)
-    joints = world.robot.qpos
-    data.qpos[joints] = world.robot.spec.home
+    data.qpos[world.robot.qpos] = world.robot.spec.home
     mujoco.mj_forward(world.model, data)
-    home = data.qpos[joints].copy()
     start = {name: _pose(data, entry.body) for name, entry in world.entries.items()}
-    for _ in range(int(SETTLE_SECONDS / world.model.opt.timestep)):
-        data.qpos[joints] = home
-        data.qvel[world.robot.dof] = 0.0
-        mujoco.mj_step(world.model, data)
+    settle_objects(world, data, SETTLE_SECONDS)
     found = {}
     for name, entry in world.entries.items():
         position, quaternion = _pose(data, entry.body)

@@ -7,12 +7,11 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
-from etot_cli.world.state import PartInfo
+from etot_cli.world.state import PartInfo, triple
 
 UPRIGHT_HINGE = 0.7
 """Hinges that stand at least this upright (cosine) are those of doors."""
@@ -73,7 +72,7 @@ def _side_opening(
         return None
     site = data.model.site(f"{name}/{part.container_site}")
     holder = data.body(int(site.bodyid[0])).xmat.reshape(3, 3)
-    return _triple(np.round(holder.T @ door @ np.array(outer.normal), 9))
+    return triple(np.round(holder.T @ door @ np.array(outer.normal), 9))
 
 
 def _region(model: mujoco.MjModel, site_name: str, address: str) -> Region:
@@ -111,18 +110,13 @@ def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspab
         along = np.cross(closing, approaches[0])
         grasps.append(
             Graspable(
-                _triple(center), _triple(closing), _triple(along),
+                triple(center), triple(closing), triple(along),
                 float(np.abs(along) @ half), float(2 * half[index]),
-                tuple(_triple(item) for item in approaches),
+                tuple(triple(item) for item in approaches),
                 bar=bool(broad < BAR_FLATNESS * slim),
             )
         )  # fmt: skip
     return tuple(grasps)
-
-
-def _triple(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
 
 
 def _faces(
