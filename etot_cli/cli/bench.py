@@ -132,6 +132,7 @@ def bench(
             "--seed",
             min=0,
             max=2**32 - 1,
+            metavar="N",
             help="Same inputs and seed, same result. [default: as the suite says, else 0]",
         ),
     ] = None,
@@ -228,7 +229,10 @@ def _compare(
             print(f"page: {page}", file=sys.stderr)
     worse = [pair for pair in report.comparisons if significantly_worse(pair)]
     if json:
-        sys.stdout.write(report_text(report))
+        # Bytes, so that the output is UTF-8 whatever the locale.
+        sys.stdout.flush()
+        sys.stdout.buffer.write(report_text(report).encode())
+        sys.stdout.buffer.flush()
     else:
         for pair in [] if quiet else report.comparisons:
             print(("worse: " if pair in worse else "") + told(pair))

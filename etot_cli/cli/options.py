@@ -53,7 +53,9 @@ Force = Annotated[
 ]
 Seed = Annotated[
     int,
-    typer.Option("--seed", min=0, max=2**32 - 1, help="Same inputs and seed, same result."),
+    typer.Option(
+        "--seed", min=0, max=2**32 - 1, metavar="N", help="Same inputs and seed, same result."
+    ),
 ]
 Json = Annotated[
     bool,

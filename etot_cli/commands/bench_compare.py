@@ -9,6 +9,8 @@ from pydantic import ValidationError
 from etot_cli.benchmark.statistics.paired import paired
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_report import BenchReport, CompareReport, paired_models
+from etot_cli.reporting.bench_table import significantly_worse
+from etot_cli.reporting.provenance import versions
 from etot_cli.specs.reading import read_utf8
 
 MAX_REPORT_BYTES = 256 * 1024 * 1024
@@ -46,8 +48,14 @@ def compare(first: Path, second: Path) -> CompareReport:
             "the same methods and seeds"
         )
     left_out = len(outcomes[0].keys() ^ outcomes[1].keys())
+    comparisons = paired_models(found)
     return CompareReport(
-        first=str(first), second=str(second), comparisons=paired_models(found), left_out=left_out
+        status="failure" if any(map(significantly_worse, comparisons)) else "success",
+        versions=versions(),
+        first=str(first),
+        second=str(second),
+        comparisons=comparisons,
+        left_out=left_out,
     )
 
 

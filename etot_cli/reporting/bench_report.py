@@ -167,6 +167,9 @@ class CompareReport(Model):
     """Two runs, method by method; the second is the newer one."""
 
     schema_: Literal["etot.compare/1"] = Field(default="etot.compare/1", alias="schema")
+    status: Literal["success", "failure"]
+    """Failure: a method got significantly worse."""
+    versions: VersionsModel
     first: str
     second: str
     comparisons: list[PairedModel]

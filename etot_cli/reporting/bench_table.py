@@ -38,13 +38,16 @@ class BenchSummary:
         done, total = len(report.trials), _planned_trials(report)
         if self._verbosity is Verbosity.QUIET:
             rates = ", ".join(f"{item.method} {_percent(item.rate)}" for item in report.averages)
-            self._line(f"{report.status}: {rates or 'no trial was finished'}")
+            cause = f" ({report.reason})" if report.reason else ""
+            self._line(f"{report.status}: {rates or 'no trial was finished'}{cause}")
             return
         self._line("")
         self._line(
             f"{counted(done, 'trial')} of {total}, {counted(len(report.tasks), 'task')}, "
             f"{counted(len(report.methods), 'method')}, seed {report.seed}"
         )
+        if report.reason:
+            self._line(f"{report.status}: {report.reason}")
         if report.averages:
             self._rates(report)
             self._averages(report)

@@ -229,6 +229,7 @@ def test_what_got_significantly_worse_is_found(tmp_path: Path, task: Path) -> No
     jsonschema.validate(json.loads(found.model_dump_json()), json.loads(schema_text(CompareReport)))
     assert [pair.second for pair in found.comparisons if significantly_worse(pair)] == ["rekep"]
     assert not any(map(significantly_worse, compare(before, before).comparisons))
+    assert (found.status, compare(after, before).status) == ("failure", "success")
     assert run(["bench", "--compare", str(before), str(after)]) == 1
     kept = tmp_path / "kept"
     assert run(["bench", "--compare", str(after), str(before), "--out", str(kept)]) == 0

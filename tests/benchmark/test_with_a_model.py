@@ -87,6 +87,8 @@ def test_a_server_that_is_not_there_ends_the_run_and_tells_no_secret(
     assert 3 <= len(report["trials"]) <= 5, "of twenty"
     said = capsys.readouterr()
     assert "--resume" in said.err
+    page = (out / "report.html").read_text("utf-8")
+    assert "Not all trials were run: the question" in page
     written = b"".join(path.read_bytes() for path in out.rglob("*") if path.is_file())
     assert b"secret" not in written and "secret" not in said.out + said.err
 

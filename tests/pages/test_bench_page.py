@@ -18,6 +18,7 @@ from etot_cli.execution.observation import Observation
 from etot_cli.execution.records import Carried, FailureClass, Look, Trial
 from etot_cli.reporting.bench_report import CompareReport, PairedModel
 from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
+from etot_cli.reporting.provenance import versions
 from etot_cli.reporting.trial_report import trial_report
 from etot_cli.skills.action import parse_plan
 from etot_cli.specs.load import load_task
@@ -127,7 +128,10 @@ def test_two_runs_are_compared_on_a_page(browser: Browser, tmp_path: Path) -> No
     same = pair.model_copy(
         update={"second": "rekep", "difference": 0.0, "ci95": (-0.2, 0.2), "p_adjusted": 1.0}
     )
-    report = CompareReport(first="a", second=EVIL, comparisons=[pair, same], left_out=2)
+    report = CompareReport(
+        status="failure", versions=versions(), first="a", second=EVIL, comparisons=[pair, same],
+        left_out=2,
+    )  # fmt: skip
     page = write_compare_page(report, tmp_path)
     browser.check_looks(page)
     text = browser.run("return document.body.innerText")

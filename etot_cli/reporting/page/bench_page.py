@@ -59,7 +59,7 @@ def bench_page(report: BenchReport, pages: Mapping[str, str]) -> str:
         head=report,
         lead=f"{counted(len(report.trials), 'trial')}, "
         f"{report.trials_per_cell} per method and task",
-        notice="" if report.status == "success" else "Not all trials were run.",
+        notice="" if report.status == "success" else _ended_early(report.reason),
         lines=lines,
         tasks=report.tasks,
         failures=failures,
@@ -70,6 +70,10 @@ def bench_page(report: BenchReport, pages: Mapping[str, str]) -> str:
         pairs=[_pair(pair, titles) for pair in report.comparisons],
         repeat=_repeat(report),
     )
+
+
+def _ended_early(reason: str) -> str:
+    return f"Not all trials were run{': ' if reason else ''}{reason.rstrip('.')}."
 
 
 def _row(trial: TrialRowModel, pages: Mapping[str, str]) -> list[object]:
