@@ -213,7 +213,8 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
         return failed(
             CauseKind.NO_GRASP,
             [name],
-            f"no two opposed surfaces of {name} fit the gripper (opening {opening * 1000:.0f} mm)",
+            f"no two opposed upright sides of {name} fit the gripper, which opens "
+            f"{opening * 1000:.0f} mm",
         )
     guilty = _guilty(belief, name, found, suspects)
     if guilty:
