@@ -9,15 +9,14 @@ from pathlib import Path
 from typing import Protocol
 
 from etot_cli.commands import rooms as doors
+from etot_cli.commands.given_plan import read_plan, report_of
 from etot_cli.commands.plan import task_model
 from etot_cli.control.simulated import Simulator
-from etot_cli.errors import PlanSyntaxError
 from etot_cli.planning.conditions import holds
 from etot_cli.reasoning.protocol import Outcome, Reasoner, Verdict
 from etot_cli.reporting.evidence import judged_fields
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.recordings import RecordedPlan, recorded_plan
-from etot_cli.reporting.replay import plan_from_report
 from etot_cli.reporting.simulate_report import (
     ConditionModel,
     OpenLoopModel,
@@ -160,51 +159,6 @@ def _opened(run: _Run, scene: Scene, options: SimulateOptions, rooms: doors.Room
         seed=options.seed,
         record=options.record,
     )
-
-
-def report_of(given: str) -> Path:
-    """The path of a plan report, from what ``--plan`` was given with ``--open-loop``.
-
-    Raises:
-        PlanSyntaxError: it is none.
-    """
-    path = _report_path(given)
-    if path is None:
-        raise PlanSyntaxError(
-            f"{given[:200]!r} is no report file; --open-loop replays the trajectories of a report "
-            "of etot plan"
-        )
-    return path
-
-
-def read_plan(given: str) -> tuple[Action, ...]:
-    """A plan from what ``--plan`` was given: actions, or the path of a plan report.
-
-    Raises:
-        PlanSyntaxError: it is neither.
-    """
-    if "[" in given and not given.rstrip().endswith(".json"):
-        return parse_plan(given)
-    path = _report_path(given)
-    if path is not None:
-        return plan_from_report(path)
-    raise PlanSyntaxError(
-        f"{given[:200]!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report "
-        "file"
-    )
-
-
-def _report_path(given: str) -> Path | None:
-    """The file that a text names, there or not; None where it names none."""
-    path = Path(given)
-    try:
-        # An empty text would be the current folder.
-        there = bool(given.strip()) and path.exists()
-        if there and path.is_dir():
-            path = path / "report.json"
-    except (OSError, ValueError):  # a name that no file can have
-        there = False
-    return path if there or given.endswith(".json") else None
 
 
 def _carry_out(
