@@ -25,6 +25,8 @@ CULPRIT = (235, 40, 25)
 INK, PAPER = (34, 36, 42), (250, 250, 248)
 SMALLEST_SEEN = 12
 """Objects of which fewer pixels are seen get no outline."""
+MOST_LINES = 3
+"""Of a caption; more would hide what it is about."""
 FACE = "sans"
 """One of the fonts inside OpenCV; every installation has the same."""
 
@@ -128,7 +130,7 @@ def _tag(image: Image, text: str, x: int, y: int, scale: float) -> Image:
 
 
 def write_caption(image: Image, caption: str, tone: Tone) -> Image:
-    """A picture with at most two lines of text over its lower edge; what is longer is cut."""
+    """A picture with a few lines of text over its lower edge; what is longer is cut."""
     drawn = np.ascontiguousarray(image)
     rows, columns = drawn.shape[:2]
     scale = max(1.0, columns / 640)
@@ -150,14 +152,17 @@ def write_caption(image: Image, caption: str, tone: Tone) -> Image:
 
 
 def _lines(text: str, fits: Callable[[str], bool]) -> list[str]:
-    """A text on one line, or broken at a space into two; what is left over is cut off."""
-    if fits(text):
-        return [text]
-    breaks = [place for place, sign in enumerate(text) if sign == " " and fits(text[:place])]
-    first, rest = (text[: breaks[-1]], text[breaks[-1] :].strip()) if breaks else ("", text)
-    while len(rest) > 4 and not fits(rest):
-        rest = rest.rstrip("…")[:-1].rstrip() + "…"
-    return [first.rstrip(), rest] if first else [rest]
+    """A text broken at spaces into lines, ``MOST_LINES`` at most; what is left over is cut off."""
+    found: list[str] = []
+    while len(found) < MOST_LINES - 1 and not fits(text):
+        breaks = [place for place, sign in enumerate(text) if sign == " " and fits(text[:place])]
+        if not breaks:
+            break
+        found.append(text[: breaks[-1]].rstrip())
+        text = text[breaks[-1] :].strip()
+    while len(text) > 4 and not fits(text):
+        text = text.rstrip("…")[:-1].rstrip() + "…"
+    return [*found, text]
 
 
 def _text_size(image: Image, text: str, face: Any, size: int) -> tuple[int, int]:

@@ -27,6 +27,18 @@ def test_every_key_of_every_model_is_told() -> None:
     assert "directory" not in text
 
 
+def test_no_table_is_torn() -> None:
+    """A row that no head stands over is shown as text with bars in it."""
+    for page in [*ROOT.glob("docs/*.md"), ROOT / "README.md"]:
+        code = False
+        lines = ["", *page.read_text(encoding="utf-8").splitlines(), ""]
+        for number, line in enumerate(lines):
+            code ^= line.startswith("```")
+            if not code and line.startswith("|") and not lines[number - 1].startswith("|"):
+                below = lines[number + 1]
+                assert below and set(below) <= set("|-: "), f"{page.name}:{number}"
+
+
 def test_site_builds_strictly(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
     done = subprocess.run(
