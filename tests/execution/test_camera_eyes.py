@@ -13,6 +13,7 @@ from etot_cli.execution.acting import handled_at
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.perception.camera_eyes import CameraEyes
+from etot_cli.execution.perception.coloring import by_color
 from etot_cli.execution.perception.fitting import (
     Freedom,
     Pose,
@@ -21,7 +22,7 @@ from etot_cli.execution.perception.fitting import (
     rotation_by,
     support,
 )
-from etot_cli.execution.perception.scan import scan_of
+from etot_cli.execution.perception.scan import Scan, scan_of
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import out_of_sight
 from etot_cli.execution.simulated_device import SimulatedDevice
@@ -173,13 +174,63 @@ def test_a_pose_is_borne_out_hidden_or_contradicted_by_depth():
     assert level.position[2] == off.position[2]
 
 
-def test_a_rod_of_which_only_the_outline_is_left_is_found_along_itself():
+def test_a_vessel_believed_too_near_is_not_held_to_the_back_of_its_wall():
+    from etot_cli.execution.perception.surfaces import Surface
+
+    angle, up = np.meshgrid(np.linspace(0, 2 * np.pi, 90), np.linspace(-0.03, 0.03, 20))
+    out = np.column_stack([np.cos(angle.ravel()), up.ravel() * 0, np.sin(angle.ravel())])
+    high = np.column_stack([up.ravel() * 0, up.ravel(), up.ravel() * 0])
+    cup = Surface(np.vstack([0.037 * out + high, 0.035 * out + high]), np.vstack([out, -out]))
+    view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
+    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    readings = true.place((0.037 * out + high)[out[:, 2] < -0.7])
+    near = Pose(true.rotation, true.position + np.array([0.004, 0.0, -0.012]))
+    found = improved(cup, near, readings, view, freedom=Freedom.UPRIGHT)
+    assert found.position == pytest.approx(true.position, abs=0.001)
+
+
+def a_rod():
     from etot_cli.execution.perception.surfaces import Surface
 
     angle = np.random.default_rng(0).uniform(0, 2 * np.pi, 4000)
     along = np.linspace(-0.085, 0.085, 4000)
     normals = np.column_stack([np.zeros(4000), np.cos(angle), np.sin(angle)])
-    rod = Surface(np.column_stack([along, 0.008 * normals[:, 1:]]), normals)
+    return Surface(np.column_stack([along, 0.008 * normals[:, 1:]]), normals)
+
+
+@pytest.mark.parametrize("alike", [False, True])
+def test_a_rod_is_found_by_its_colour_where_that_stands_out(alike):
+    """Also where other things of its colour are seen beyond its end, and one side is in shade."""
+    rod = a_rod()
+    view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
+    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    rng = np.random.default_rng(1)
+    color = np.full((240, 320, 3), [200, 170, 120])
+    color[:, 215:] = [235, 235, 230]
+    depth = np.full((240, 320), 0.709)
+    u, v = np.round(view.project(true.place(rod.points))).astype(int).T
+    for right in range(-2, 3):
+        for down in range(-2, 3):
+            depth[v + down, u + right] = 0.0
+    middle = np.abs(rod.points[:, 1]) < 0.001
+    depth[v[middle], u[middle]] = 0.692
+    color[v, u] = [200, 170, 120] if alike else [230, 230, 228]
+    shaded = rod.points[:, 1] > 0.004
+    color[v[shaded], u[shaded]] = [200, 170, 120] if alike else [140, 140, 140]
+    noisy = np.clip(color + rng.normal(0, 2, color.shape), 0, 255).astype(np.uint8)
+    scan = Scan(view, depth, noisy, np.zeros((0, 3)), np.zeros((0, 3)), 0.0)
+    off = Pose(rotation_by(np.array([0, 0, 0.06])), true.position + np.array([0.012, 0.003, 0.0]))
+    moves = [0.012 * np.eye(6)[0], 0.012 * np.eye(6)[1], 0.15 * np.eye(6)[5]]
+    found, _ = by_color(rod, off, scan, moves)
+    if alike:
+        assert found is off
+    else:
+        assert found.position == pytest.approx(true.position, abs=0.004)
+        assert abs(found.rotation[1, 0]) < 0.02
+
+
+def test_a_rod_of_which_only_the_outline_is_left_is_found_along_itself():
+    rod = a_rod()
     assert rod.long_axis is not None and abs(rod.long_axis[0]) > 0.999
     view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
     true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))

@@ -72,7 +72,7 @@ class CameraEyes:
         }
         moved = self._furniture.look(scan, last.parts)
         carried = self._hand.carried(before, state)
-        self._found = self._following.find_all(scan, {**before, **carried})
+        self._found = self._following.find_all(scan, {**before, **carried}, set(carried))
         for name, pose in self._found.items():
             known.put(name, pose)
         seen = {

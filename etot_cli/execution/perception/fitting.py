@@ -26,6 +26,8 @@ SIDEWAYS = 0.15
 """Weight of moving towards a reading along the surface, against moving along its normal."""
 MOST_READINGS = 400
 """Readings that a pose is fitted to: six numbers need no more, and each costs time."""
+LEAST_MATCHED = 12
+"""Readings that a fit goes by: twice what a pose has unknowns."""
 DAMPING = 1e-3
 """Keeps directions in which nothing is measured where they are."""
 OUTLINE_POINTS = 1500
@@ -184,19 +186,29 @@ def improved(
     if len(readings) > MOST_READINGS:
         readings = readings[:: -(-len(readings) // MOST_READINGS)]
     for gate in gates:
-        local = pose.local(readings)
-        apart, nearest = surface.tree.query(local, distance_upper_bound=gate)
-        kept = np.isfinite(apart)
-        if kept.sum() < 12:
+        matched, normals, seen = _matched(surface, pose, readings, view, gate)
+        if len(seen) < max(LEAST_MATCHED, len(readings) / 2):
+            # Next to readings behind a thin wall is its back; what faces the camera is before it.
+            front = surface.facing(pose.local(view.position[None])[0])
+            matched, normals, seen = _matched(front, pose, readings, view, gate)
+        if len(seen) < LEAST_MATCHED:
             return pose
-        matched = pose.place(surface.points[nearest[kept]])
-        normals = surface.normals[nearest[kept]] @ pose.rotation.T
-        seen = readings[kept]
-        facing = ((view.position - matched) * normals).sum(axis=1) > 0
-        if facing.sum() < 12:
-            return pose
-        pose = _step(pose, matched[facing], normals[facing], seen[facing], freedom)
+        pose = _step(pose, matched, normals, seen, freedom)
     return pose
+
+
+def _matched(
+    surface: Surface, pose: Pose, readings: Array, view: View, gate: float
+) -> tuple[Array, Array, Array]:
+    """Points of the surface next to readings, their normals, and the readings, each (m, 3): those
+    that face the camera and are no farther away than the gate [m].
+    """
+    apart, nearest = surface.tree.query(pose.local(readings), distance_upper_bound=gate)
+    kept = np.isfinite(apart)
+    matched = pose.place(surface.points[nearest[kept]])
+    normals = surface.normals[nearest[kept]] @ pose.rotation.T
+    facing = ((view.position - matched) * normals).sum(axis=1) > 0
+    return matched[facing], normals[facing], readings[kept][facing]
 
 
 def _step(pose: Pose, matched: Array, normals: Array, seen: Array, freedom: Freedom) -> Pose:
@@ -263,24 +275,41 @@ def outlined(
         may: whether it can be there at all.
     """
     surface = surface.thinned(OUTLINE_POINTS)
-    borne = support(surface, pose, view, depth)
+
+    def worth(tried: Pose) -> float:
+        return support(surface, tried, view, depth).worth if may(tried) else -np.inf
+
+    best = climbed(surface, pose, worth, moves)
+    return best, support(surface, best, view, depth)
+
+
+def climbed(
+    surface: Surface, pose: Pose, worth: Callable[[Pose], float], moves: Sequence[Array] | Array
+) -> Pose:
+    """The pose that is worth most of those that ever smaller moves lead to.
+
+    Args:
+        surface: the thing.
+        pose: where to begin.
+        worth: of a pose.
+        moves: as for :func:`outlined`.
+    """
+    most = worth(pose)
     for level in range(OUTLINE_LEVELS):
         for _ in range(OUTLINE_ROUNDS):
-            best, found = pose, borne
-            for move in moves:
-                for sign in (1.0, -1.0):
-                    step = sign * move / 2**level
-                    middle = pose.place(surface.middle[None])[0]
-                    turn = rotation_by(step[3:])
-                    tried = Pose(
-                        turn @ pose.rotation, turn @ (pose.position - middle) + middle + step[:3]
-                    )
-                    if not may(tried):
-                        continue
-                    other = support(surface, tried, view, depth)
-                    if other.worth > found.worth:
-                        best, found = tried, other
+            best, found = pose, most
+            for step in (sign * move / 2**level for move in moves for sign in (1.0, -1.0)):
+                tried = moved(surface, pose, step)
+                other = worth(tried)
+                if other > found:
+                    best, found = tried, other
             if best is pose:
                 break
-            pose, borne = best, found
-    return pose, borne
+            pose, most = best, found
+    return pose
+
+
+def moved(surface: Surface, pose: Pose, move: Array) -> Pose:
+    """A pose after a shift and a turn about the thing's middle (6,), base frame [m, rad]."""
+    middle, turn = pose.place(surface.middle[None])[0], rotation_by(move[3:])
+    return Pose(turn @ pose.rotation, turn @ (pose.position - middle) + middle + move[:3])

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
+
 import numpy as np
 
+from etot_cli.execution.perception.coloring import by_color
 from etot_cli.execution.perception.fitting import (
     Freedom,
     Pose,
@@ -52,19 +55,22 @@ class Following:
         self._known = known
         self._colors: dict[str, Array] = {}
 
-    def find_all(self, scan: Scan, before: dict[str, Pose]) -> dict[str, Pose]:
+    def find_all(self, scan: Scan, before: dict[str, Pose], carried: Set[str]) -> dict[str, Pose]:
         """Where the objects are that are seen; their readings are explained then.
 
         Args:
             scan: the picture.
             before: where each should be; there it is looked for first.
+            carried: what the hand may hold.
         """
-        found = self._still_there(scan, before)
+        found = self._still_there(scan, before, carried)
         missing = [name for name in before if name not in found]
         found.update((match.name, match.pose) for match in self._matched(scan, before, missing))
         return found
 
-    def _still_there(self, scan: Scan, before: dict[str, Pose]) -> dict[str, Pose]:
+    def _still_there(
+        self, scan: Scan, before: dict[str, Pose], carried: Set[str]
+    ) -> dict[str, Pose]:
         """Objects near where they were, with their poses made exact; explains their readings."""
         known = self._known
         fits: list[tuple[float, str, Pose]] = []
@@ -75,6 +81,13 @@ class Following:
                 continue
             readings = scan.near(pose.place(surface.middle[None])[0], surface.radius + AROUND)
             better, borne = self._followed(surface, pose, scan, readings)
+            if (
+                name not in carried  # fingers hide its ends, and have colours of their own
+                and surface.long_axis is not None
+                and _outline_alone(surface, borne)
+                and not _leans(surface, better)
+            ):
+                better, borne = by_color(surface, better, scan, level_moves(surface, better))
             shift = np.linalg.norm(better.place(surface.middle[None]) - pose.place(
                 surface.middle[None]))  # fmt: skip
             like = self._like(name, scan, surface, better)
@@ -100,12 +113,7 @@ class Following:
         what stands goes on standing at its height unless something else is plainly better.
         """
         best, borne = pose, support(surface, pose, scan.view, scan.depth)
-        axis = surface.long_axis
-        if (
-            axis is not None
-            and abs((pose.rotation @ axis)[2]) > LEVEL
-            and borne.unread > borne.agree
-        ):
+        if _leans(surface, pose) and borne.unread > borne.agree:
             # Outlines tell too little of a leaning rod to move it while it may be where it was.
             return pose, borne
         share = 0.0
@@ -174,6 +182,12 @@ class Following:
             if not left:
                 break
         return kept
+
+
+def _leans(surface: Surface, pose: Pose) -> bool:
+    """Whether a thing is a rod that stands or leans."""
+    axis = surface.long_axis
+    return axis is not None and abs(float((pose.rotation @ axis)[2])) > LEVEL
 
 
 def _outline_alone(surface: Surface, borne: Support) -> bool:

@@ -34,12 +34,14 @@ ENOUGH = 200
 class Scan:
     """Readings of a picture above the desk.
 
-    ``points`` (n, 3) base frame [m], ``colors`` (n, 3) of 255, ``view`` and ``depth`` (h, w) of the
-    whole picture; ``unexplained`` (n,): whether a reading belongs to nothing known so far.
+    ``points`` (n, 3) base frame [m], ``colors`` (n, 3) of 255, ``view``, ``depth`` (h, w) and
+    ``picture`` (h, w, 3), its colours, of the whole picture; ``unexplained`` (n,): whether a
+    reading belongs to nothing known so far.
     """
 
     view: View
     depth: Array
+    picture: NDArray[np.uint8]
     points: Array
     colors: Array
     lowest: float
@@ -111,4 +113,5 @@ def scan_of(frame: Frame, desk: Desk) -> Scan:
         & (points[:, 2] < desk.top + HIGHEST)
     )
     colors = frame.color[v.ravel()[read], u.ravel()[read]][kept].astype(np.float64)
-    return Scan(view, np.nan_to_num(frame.depth), points[kept], colors, desk.top + ABOVE)
+    depths = np.nan_to_num(frame.depth)
+    return Scan(view, depths, frame.color, points[kept], colors, desk.top + ABOVE)

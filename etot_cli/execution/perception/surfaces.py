@@ -68,6 +68,11 @@ class Surface:
         step = max(1, len(self.points) // most)
         return self if step == 1 else Surface(self.points[::step], self.normals[::step])
 
+    def facing(self, viewer: Array) -> Surface:
+        """The points that a viewer (3,) in the frame of the body sees from outside."""
+        front = ((viewer - self.points) * self.normals).sum(axis=1) > 0
+        return Surface(self.points[front], self.normals[front])
+
     @cached_property
     def round(self) -> bool:
         """Whether it looks the same however it is turned about its own z."""
