@@ -11,7 +11,6 @@ import typer
 from etot_cli.cli.exits import NO, OK
 from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
-    MAX_JOBS,
     Force,
     Html,
     Json,
@@ -19,6 +18,7 @@ from etot_cli.cli.options import (
     Quiet,
     Reasoner,
     ReasonerName,
+    TrialJobs,
     Verbose,
     VlmJudge,
     VlmMaxCalls,
@@ -71,16 +71,7 @@ def bench(
             help="Trials of each method on each task. [default: as the suite says, else 10]",
         ),
     ] = None,
-    jobs: Annotated[
-        int,
-        typer.Option(
-            "--jobs",
-            min=1,
-            max=MAX_JOBS,
-            metavar="N",
-            help="Trials carried out at the same time; changes no result.",
-        ),
-    ] = 1,
+    jobs: TrialJobs = 1,
     engine: Annotated[
         str,
         typer.Option(

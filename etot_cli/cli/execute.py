@@ -9,7 +9,6 @@ import typer
 
 from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import (
-    MAX_JOBS,
     Force,
     Html,
     Json,
@@ -17,6 +16,7 @@ from etot_cli.cli.options import (
     Quiet,
     Seed,
     TaskFile,
+    TrialJobs,
     Verbose,
 )
 from etot_cli.cli.session import Session
@@ -52,16 +52,7 @@ def execute(
     trials: Annotated[
         int, typer.Option("--trials", min=1, max=MAX_TRIALS, metavar="N", help="How often.")
     ] = 1,
-    jobs: Annotated[
-        int,
-        typer.Option(
-            "--jobs",
-            min=1,
-            max=MAX_JOBS,
-            metavar="N",
-            help="Trials side by side; changes no result.",
-        ),
-    ] = 1,
+    jobs: TrialJobs = 1,
     disturb: Annotated[
         bool,
         typer.Option(

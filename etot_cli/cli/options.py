@@ -57,6 +57,16 @@ Seed = Annotated[
         "--seed", min=0, max=2**32 - 1, metavar="N", help="Same inputs and seed, same result."
     ),
 ]
+TrialJobs = Annotated[
+    int,
+    typer.Option(
+        "--jobs",
+        min=1,
+        max=MAX_JOBS,
+        metavar="N",
+        help="Trials carried out at the same time; changes no result.",
+    ),
+]
 Json = Annotated[
     bool,
     typer.Option("--json", help="Print the report, and nothing else, on standard output."),
