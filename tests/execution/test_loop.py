@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from etot_cli.control.robot import Robot
-from etot_cli.errors import RobotStoppedError, ServiceError
+from etot_cli.errors import InstructionError, RobotStoppedError, ServiceError
 from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.cell import Cell, TrialOptions, simulated_cell
 from etot_cli.execution.observation import Mark, Observation
@@ -116,6 +116,32 @@ def test_another_look_may_show_a_way(tmp_path: Path) -> None:
     trial = run(small_task(tmp_path), Hesitant([IN_TWO, IN_TWO]))
     assert trial.success
     assert [plan.status for plan in trial.plans] == ["infeasible", "feasible"]
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (InstructionError("what was asked for cannot be done without cup"), "failure"),
+        (ServiceError("the model does not answer"), "lost"),
+        (KeyboardInterrupt(), "interrupted"),
+    ],
+)
+def test_what_was_done_is_kept_where_a_second_plan_comes_to_nothing(
+    error: BaseException, status: str, tmp_path: Path
+) -> None:
+    class Failing(Scripted):
+        def plan(self, *given: Any) -> Planned:
+            if len(self.asked):
+                self.asked.append(given[2:])
+                raise error
+            return super().plan(*given)
+
+    moved = MOVED.replace("planned", "after_action, after_action: 1").replace("ball", "cup")
+    trial = run(small_task(tmp_path, moved), Failing([IN_TWO]))
+    assert trial.status == status
+    assert [str(action.action) for action in trial.actions] == ["[PICK UP, ball]"]
+    assert str(error) in trial.reason or status == "interrupted"
+    assert trial.looks[-1].scene is not None
 
 
 def test_something_new_comes_into_a_new_twin(tmp_path: Path) -> None:
