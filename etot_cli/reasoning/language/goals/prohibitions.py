@@ -50,8 +50,7 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     names = tuple(dict.fromkeys(_address(thing, role) for thing in things))
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-    # What must not be done is not what "it" speaks of afterwards.
-    del context.discourse.mentions[before:]
+    context.discourse.step_back(before)
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
 
 

@@ -13,6 +13,7 @@ from etot_cli.reasoning.builtin.goal import (
     Place,
     Put,
     Relation,
+    Step,
     Thing,
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -43,6 +44,7 @@ def put(context: Context, clause: PutClause) -> None:
     if picked_out and len(clause.groups) > 1:
         text = " and ".join(phrase.text for phrase in picked_out)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
+    placed: set[int] = set()
     for group in clause.groups:
         if clause.by_color or is_by_color(group):
             by_color(context, group)
@@ -51,6 +53,10 @@ def put(context: Context, clause: PutClause) -> None:
             one_each(context, group)
             continue
         themes = _in_said_order(context, group, clause)
+        if twice := placed & {*themes}:
+            text = context.discourse.referents[min(twice)].text
+            raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+        placed |= {*themes}
         if any(item.toward is Toward.HOME for item in group.destinations):
             _put_back(context, themes, group)
             continue
@@ -122,8 +128,11 @@ def cover(context: Context, clause: CoverClause) -> None:
 
 def again(context: Context, clause: AgainClause) -> None:
     """Adds the step that was asked for last once more, for other things."""
-    text = " and ".join(phrase.text for phrase in clause.things.phrases)
     before = context.done
+    if clause.things is None:
+        _onward(context, clause, before)
+        return
+    text = " and ".join(phrase.text for phrase in clause.things.phrases)
     if not before:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]
@@ -141,6 +150,17 @@ def again(context: Context, clause: AgainClause) -> None:
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):
         context.steps.append(replace(step, what=index))
+
+
+def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:
+    """Adds a step that brings what was put somewhere on to another place."""
+    text = " or ".join(np.text for item in clause.destinations for np in item.targets)
+    if not (len(before) == 1 and isinstance(before[0], Put)):
+        raise ReferenceProblem(text, "say what goes there", 2)
+    themes = before[0].what
+    places = context.places.of(clause.destinations, themes)
+    _add_put(context, themes, places, Grouping.ANY)
+    context.discourse.last_places = places
 
 
 def _like_a_place(context: Context, step: Put, theme: int) -> bool:

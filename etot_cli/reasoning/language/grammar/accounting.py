@@ -60,7 +60,8 @@ _FIXED = """
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
     right (next|behind|beside|in front),
     at the very, (first|last) of all, one (by|after) (one|the other|another), in back, at last,
-    each other, one another, (on|over) the other, none of, (to|at) the end, all the rest,
+    each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
+    (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to,
     s (top|surface)
 """
@@ -146,10 +147,12 @@ def _said(node: object) -> Iterator[str]:
             yield from (_DENIAL, "other", "any")
         case Beside(relation=Nearby.AWAY):
             yield _canonical("far")
-        case State(kept=kept, word=word):
+        case State(kept=kept, word=word, subjects=subjects):
+            yield from ("both",) if len(subjects) > 1 else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
-        case MoveClause(opens=opens):
+        case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
+            yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
             yield from (_ORDER, "top", "bottom")
         case PickClause(poses=poses) if len(poses) > 1:

@@ -29,7 +29,7 @@ REORIENT = either(
     sequence(
         silent(phrase(verbs.REORIENT)),
         THINGS,
-        silent(optional(phrase(manner.UPRIGHT), None)),
+        silent(optional(either(phrase(manner.UPRIGHT), phrase(manner.STANDING)), None)),
         build=ReorientClause,
     ),
     sequence(

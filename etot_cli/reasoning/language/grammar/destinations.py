@@ -43,11 +43,21 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
 _NEARBY = one_of(places.NEARBY)
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
+_SIDE_OF_IT = one_of(
+    {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
+)
 BESIDE = either(
     sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
     sequence(
         _ITS_SIDE,
         build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
+    ),
+    sequence(
+        silent(phrase("on, to, at")),
+        noun_phrase,
+        silent(phrase("'s")),
+        _SIDE_OF_IT,
+        build=lambda np, relation: _beside(relation, np),
     ),
     sequence(
         silent(phrase("[in] between")),

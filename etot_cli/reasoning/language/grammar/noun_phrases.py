@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import EITHER, EXACTLY, LIST, NOUN_WORD, OR, WITH
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    EITHER,
+    EXACTLY,
+    LIST,
+    NOUN_WORD,
+    OR,
+    WITH,
+)
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
@@ -24,7 +32,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, nouns, places
-from etot_cli.reasoning.language.words.lexicon import ORDINALS, is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    ORDINALS,
+    SIDES,
+    is_descriptive,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 noun_phrase = Rule()
@@ -50,8 +65,10 @@ PREPOSITION = one_of(places.PREPOSITIONS)
 SIDE = phrase(places.SIDE)
 
 
-def _with_prep(prep: Prep, np: NounPhrase) -> Modifier:
-    return Modifier(prep, (np,))
+def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
+    """A relation to a thing; "at the top" names a side and no thing."""
+    side = np.words and all(text in SIDES or text in LEVELS for text in np.words)
+    return None if prep is Prep.NEAR and side else Modifier(prep, (np,))
 
 
 _plain_modifier = either(
@@ -140,14 +157,17 @@ _none_of = sequence(
 )
 
 
+def _one_of_them(np: NounPhrase) -> NounPhrase:
+    """With "one" for the noun that "the biggest" leaves out."""
+    bare = np.determiner == "the" and np.words and is_descriptive(np.words[-1])
+    return replace(np, words=(*np.words, "one")) if bare else np
+
+
 def _other_than(np: NounPhrase) -> Modifier | None:
     """What it is not: "not the big cup", "not the biggest" of them."""
-    if not np.words:
+    np = _one_of_them(np)
+    if not np.words or is_descriptive(np.words[-1]):
         return None
-    if is_descriptive(np.words[-1]):
-        if np.determiner != "the":
-            return None
-        np = replace(np, words=(*np.words, "one"))
     return Modifier(Prep.EXCEPT, (np,))
 
 
@@ -159,6 +179,12 @@ _modifier = either(
     _contents,
     _matching,
     sequence(RELATIVE, _described, build=lambda modifier: modifier),
+    sequence(
+        silent(phrase("~comma which (is|are)")),
+        either(_plain_modifier, _quality),
+        COMMA,
+        build=lambda modifier: modifier,
+    ),
     sequence(
         DENIED,
         either(_described, _none_of),
@@ -193,7 +219,7 @@ _modifier = either(
         silent(optional(phrase("~comma"), None)),
         silent(phrase(nouns.EXCEPT)),
         exceptions,
-        build=lambda nps: Modifier(Prep.EXCEPT, nps),
+        build=lambda nps: Modifier(Prep.EXCEPT, tuple(map(_one_of_them, nps))),
     ),
 )
 MODIFIER.define(_modifier)
@@ -202,8 +228,11 @@ ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
 
 
-def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhrase:
-    return NounPhrase(determiner, words, modifiers)
+def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhrase | None:
+    """A noun; "one" alone is a number, and no noun after another one ("the cups one …")."""
+    number = words[-1] == "one" and not (determiner and len(words) == 1)
+    plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
+    return None if plain else NounPhrase(determiner, words, modifiers)
 
 
 def _joined(
@@ -246,12 +275,14 @@ def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
 
 
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
+_FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
 _OR_OTHER = some(sequence(OR, _DESCRIPTIVE, build=lambda text: text), least=1, most=3)
 noun_phrase.define(
     spanned(
         either(
             sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
+            sequence(_FREE_CHOICE, WORDS, silent(phrase(nouns.AS_YOU_LIKE)), build=NounPhrase),
             sequence(
                 silent(optional(phrase("the, a, their, its, his"), None)),
                 _MATCHING_ADJECTIVE,
@@ -334,7 +365,8 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
         if index and not item.determiner and item.words and first.determiner:
             item = replace(item, loose=True)
         following = found[index + 1] if index + 1 < len(found) else None
-        if adjectives and following is None and not item.determiner:
+        named = bool(item.words) and item.words[-1] in COMMON_NOUNS  # "lime", "orange"
+        if adjectives and following is None and not item.determiner and not named:
             return None
         if adjectives and following is not None and len(following.words) > 1:
             item = replace(item, words=(*item.words, following.words[-1]))

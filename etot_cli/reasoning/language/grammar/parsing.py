@@ -211,6 +211,13 @@ def valued(parser: Parser, build: Callable[[Any], Any]) -> Parser:
     return lambda given, at: [(end, build(value)) for end, value in parser(given, at)]
 
 
+def variants(parser: Parser, build: Callable[[Any], Sequence[Any]]) -> Parser:
+    """With several values in place of each."""
+    return lambda given, at: [
+        (end, item) for end, value in parser(given, at) for item in build(value)
+    ]
+
+
 def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     """With a value that knows the words that it covers."""
     return lambda given, at: [

@@ -33,10 +33,24 @@ _FORBIDDEN = either(
 AVOID = sequence(
     silent(phrase(verbs.DO_NOT)), _FORBIDDEN, build=lambda clause: replace(clause, negated=True)
 )
-WITHOUT = sequence(
-    OPTIONAL_COMMA, silent(phrase("without")), _FORBIDDEN, build=lambda clause: clause
+WITHOUT = either(
+    sequence(
+        OPTIONAL_COMMA, silent(phrase(verbs.WITHOUT)), _FORBIDDEN, build=lambda clause: clause
+    ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase("[while] avoiding")),
+        THINGS,
+        build=lambda things: AvoidClause(Avoid.TOUCH, things),
+    ),
 )
 KEEP_STILL = either(
+    sequence(
+        THINGS,
+        silent(phrase("(should|must|has to|have to|is to|are to|shall) (stay|remain|be left)")),
+        silent(phrase(manner.AS_IT_IS)),
+        build=lambda things: AvoidClause(Avoid.MOVE, things),
+    ),
     sequence(
         silent(phrase(verbs.KEEP)),
         THINGS,

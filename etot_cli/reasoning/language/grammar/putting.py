@@ -7,6 +7,7 @@ from typing import Any
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import (
     BE,
+    COMMA,
     LIST,
     OPTIONAL_COMMA,
     OR,
@@ -19,17 +20,21 @@ from etot_cli.reasoning.language.grammar.destinations import (
     ONTO,
     destination,
 )
+from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
+    Rule,
     either,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
     some,
     valued,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -44,6 +49,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 
+_MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 GROUPING = either(
     phrase(manner.ANYHOW, Grouping.ANY),
     phrase(manner.TOGETHER, Grouping.TOGETHER),
@@ -114,20 +120,66 @@ def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     )
 
 
+_ASIDE = silent(
+    either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA, build=lambda: ()))
+)
+
+
 def _group(directions: Parser, particle: str) -> Parser:
     return sequence(
         THINGS,
         silent(optional(phrase(particle), None)),
-        OPTIONAL_COMMA,
+        _ASIDE,
         directions,
         build=PutGroup,
     )
 
 
 PUT_GROUP = _group(
-    DESTINATIONS, "down, upright, away, back, over, inside, somewhere, anywhere, some place"
+    DESTINATIONS,
+    "down, up, upright, away, back, over, inside, somewhere, anywhere, some place, "
+    "one (by one|at a time|after the other|after another)",
 )
+_GROUPED = sequence(
+    silent(phrase(verbs.PUT)),
+    THINGS,
+    GROUPING,
+    DESTINATIONS,
+    build=lambda things, grouping, where: PutClause((PutGroup(things, where),), grouping),
+)
+_WITH_WHAT_IT_HOLDS = sequence(
+    silent(phrase(verbs.PUT)),
+    THINGS,
+    COMMA,
+    CONDITION,
+    COMMA,
+    DESTINATIONS,
+    build=lambda things, held, where: PutClause((PutGroup(things, where),), conditions=(held,)),
+)
+PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 EXTRAS = some(EXTRA, most=3)
+_FRONTED = quiet(
+    sequence(
+        either(
+            sequence(silent(phrase(verbs.PUT)), DESTINATIONS, build=lambda where: where),
+            sequence(
+                DESTINATIONS, OPTIONAL_COMMA, silent(phrase(verbs.PUT)), build=lambda where: where
+            ),
+        ),
+        noun_phrase,
+        build=lambda where, np: PutClause((PutGroup(Things((np,)), where),)),
+    )
+)
+"""The place before the thing."""
+_ALONG_WITH = sequence(
+    silent(phrase(verbs.PUT)),
+    NP_LIST,
+    DESTINATIONS,
+    OPTIONAL_COMMA,
+    silent(phrase("together with, along with")),
+    NP_LIST,
+    build=lambda things, where, more: PutClause((PutGroup(Things((*things, *more)), where),)),
+)
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
 _BY_COLOR = sequence(
@@ -178,6 +230,10 @@ _SO_THAT_IT_IS = sequence(
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     valued(_ONES_THAT_GO, lambda group: PutClause((group,))),
+    _GROUPED,
+    _FRONTED,
+    _ALONG_WITH,
+    _WITH_WHAT_IT_HOLDS,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         silent(phrase(verbs.PLACE)),
@@ -207,10 +263,15 @@ PUT = either(
     ),
     sequence(
         silent(phrase(verbs.STACK)),
-        separated(PUT_GROUP, LIST, most=5),
+        PUT_GROUPS,
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
-    sequence(silent(phrase(verbs.PUT)), separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put),
+    sequence(silent(phrase(verbs.PUT)), PUT_GROUPS, EXTRAS, build=_put),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        RESPECTIVE_GROUPS,
+        build=lambda groups: PutClause(groups),
+    ),
     sequence(
         silent(phrase(verbs.BRING)),
         separated(
@@ -249,5 +310,5 @@ PUT = either(
         build=lambda things: PutClause((PutGroup(things, BACK),)),
     ),
 )
-VERBLESS = sequence(separated(PUT_GROUP, LIST, most=5), EXTRAS, build=_put)
+VERBLESS = sequence(PUT_GROUPS, EXTRAS, build=_put)
 """Places for things without a word for doing; only whole sentences are so."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, exceptions
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
@@ -23,10 +24,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, states
+from etot_cli.reasoning.language.grammar.states import ENSURE, IF_NOT_SO, MOVE, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
+    Destination,
     EnsureClause,
     MoveClause,
     Order,
@@ -100,6 +102,12 @@ def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
     return (Spoken(clause, at, when), *(Spoken(item, at) for item in avoided))
 
 
+def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
+    """What was put somewhere goes on to another place; "on top" says no such thing."""
+    named = all(item.targets and not item.targets[0].pronoun for item in where)
+    return AgainClause(None, destinations=where) if named else None
+
+
 LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
 _JOINED = either(
     sequence(silent(phrase("and")), LED_CLAUSE, build=lambda clause: ("mere and", clause)),
@@ -142,6 +150,15 @@ _JOINED = either(
         either(
             located(THINGS, lambda at, things: (Spoken(AgainClause(things), at),)),
             located(VERBLESS, lambda at, put: (Spoken(put, at),)),
+        ),
+        build=lambda clause: ("then", clause),
+    ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(small_words.ONWARD)),
+        located(
+            sequence(silent(optional(phrase("back"), None)), DESTINATIONS, build=_onward),
+            lambda at, clause: (Spoken(clause, at),),
         ),
         build=lambda clause: ("then", clause),
     ),
@@ -206,6 +223,7 @@ _PLACED = located(
 )
 SENTENCE = either(
     CHAIN,
+    located(IF_NOT_SO, lambda at, clause: (Spoken(clause, at),)),
     sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
         silent(phrase(small_words.LEADING_THEN)),

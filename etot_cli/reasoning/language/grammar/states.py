@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import BE, LIST
+from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -12,12 +13,19 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.syntax import EnsureClause, MoveClause, NounPhrase, State
+from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
+    MoveClause,
+    NounPhrase,
+    State,
+    Things,
+)
 from etot_cli.reasoning.language.words import manner, verbs
 
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
@@ -33,7 +41,17 @@ def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State:
 
 STATE = sequence(NP_LIST, BE, PREDICATE, build=state_of)
 states = Rule(separated(STATE, LIST, most=6))
-MOVE = either(
+
+
+def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
+    """In "if the drawer is closed, open it": what is open already stays so anyway."""
+    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
+    if not again or moved.opens == (word == "open"):
+        return None
+    return MoveClause(Things(subjects), moved.opens, guarded=True)
+
+
+_PLAIN_MOVE = either(
     sequence(
         silent(phrase("pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)")),
         THINGS,
@@ -54,7 +72,7 @@ MOVE = either(
     sequence(
         silent(phrase("push[ing], slid(e|ing)")),
         THINGS,
-        silent(phrase("[back] in")),
+        silent(phrase("[back|all the way|fully|completely] in")),
         build=lambda things: MoveClause(things, opens=False),
     ),
     sequence(
@@ -64,6 +82,27 @@ MOVE = either(
         build=lambda things: MoveClause(things, opens=False),
     ),
 )
+MOVE = either(
+    _PLAIN_MOVE,
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
+        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
+    ),
+)
+IF_NOT_SO = quiet(
+    sequence(
+        silent(phrase("if")),
+        NP_LIST,
+        BE,
+        OPEN_OR_CLOSED,
+        COMMA,
+        _PLAIN_MOVE,
+        build=_if_not_so,
+    )
+)
+"""A sentence of its own: what follows it might be asked for in that case only."""
 ENSURE = either(
     sequence(silent(phrase(verbs.ENSURE)), states, build=EnsureClause),
     sequence(
@@ -71,6 +110,12 @@ ENSURE = either(
         NP_LIST,
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
+    ),
+    sequence(
+        silent(phrase("there (should|must|has to|have to|needs to|need to|shall) be")),
+        NP_LIST,
+        DESTINATIONS,
+        build=lambda nps, where: EnsureClause((State(nps, where),)),
     ),
     sequence(
         NP_LIST,

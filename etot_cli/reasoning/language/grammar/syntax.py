@@ -152,6 +152,8 @@ class MoveClause:
 
     things: Things
     opens: bool
+    guarded: bool = False
+    """It is said with a condition that its own end state answers ("if it is closed, open it")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,8 +207,10 @@ class AgainClause:
     says so, which may also add to where things go.
     """
 
-    things: Things
+    things: Things | None
     trailing: bool = False
+    destinations: tuple[Destination, ...] = ()
+    """Where the same things go next ("…, then on the tray"); there are no ``things`` then."""
 
 
 class Avoid(StrEnum):

@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 
@@ -70,6 +71,7 @@ PICK = sequence(
     OPTIONAL_POSES,
     build=_pick,
 )
+_DESKS = [(noun,) for noun in DESK_NOUNS]
 REMOVE = either(
     sequence(
         silent(phrase(verbs.REMOVE)),
@@ -88,7 +90,10 @@ REMOVE = either(
         silent(phrase(verbs.BRING)),
         THINGS,
         SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
+        build=lambda things, source: (
+            # What is lifted off the desk is picked up.
+            None if source.words[-1:] in _DESKS else RemoveClause(things, source)
+        ),
     ),
 )
 
@@ -124,6 +129,23 @@ EMPTY = either(
         build=lambda nps, where: _emptied(Things(nps), where),
     ),
     sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+    sequence(
+        NP_LIST,
+        silent(phrase(verbs.MODAL)),
+        silent(phrase(manner.EMPTIED)),
+        build=lambda nps: _emptied(Things(nps), None),
+    ),
+    sequence(
+        silent(phrase(verbs.NOTHING_IS)),
+        NP_LIST,
+        build=lambda nps: _emptied(Things(nps), None),
+    ),
+    sequence(
+        silent(phrase("mak(e|ing)")),
+        NP_LIST,
+        silent(phrase(manner.EMPTIED)),
+        build=lambda nps: _emptied(Things(nps), None),
+    ),
     sequence(
         silent(phrase("clear[ing]")),
         THINGS,

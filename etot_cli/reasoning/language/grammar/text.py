@@ -49,6 +49,7 @@ def normalized(text: str) -> str:
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
+    text = re.sub(r"\band/or\b", "or", text)
     text = re.sub(rf"(?<=\w)[{_HYPHENS}]most\b", "most", text)
     text = re.sub(rf"\b(left|right)[{_HYPHENS}]hand(?:ed)?\b", r"\1", text)
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
@@ -98,15 +99,14 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     if len(word) < 4 or not word.isalpha():
         return None
     allowed = 2 if len(word) >= 8 else 1
-    close = {
-        item
+    near = {
+        item: slips(word, item)
         for item in known
-        if item[:1] == word[:1]
-        and len(item) >= 4
-        and abs(len(item) - len(word)) <= allowed
-        and slips(word, item) <= allowed
+        if item[:1] == word[:1] and len(item) >= 4 and abs(len(item) - len(word)) <= allowed
     }
-    return close.pop() if len(close) == 1 else None
+    least = min(near.values(), default=allowed + 1)
+    close = [item for item, count in near.items() if count == least]
+    return close[0] if len(close) == 1 and least <= allowed else None
 
 
 def slips(first: str, second: str) -> int:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun, singular
 from etot_cli.world.state import DESK, SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
@@ -99,20 +99,37 @@ class Discourse:
                         Mention(earlier, role, self.clause, resolved.noun, several, whatever)
                     )
                     return earlier
-        distinct: tuple[int, ...] = ()
-        if resolved.other:
-            things = {thing for option in resolved.options for thing in option}
-            distinct = tuple(
-                earlier
-                for earlier, referent in enumerate(self.referents)
-                if things & {thing for option in referent.options for thing in option}
-            )
+        distinct = self._told_from(resolved, role)
         if resolved.definite and not resolved.other and len(resolved.options) > 1:
             self._check_among_spoken(resolved, text)
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
         self.mentions.append(Mention(index, role, self.clause, resolved.noun, several, whatever))
         return index
+
+    def _told_from(self, resolved: Resolved, role: Role) -> tuple[int, ...]:
+        """Referents that a phrase means none of: "another cup", and "a cup" of which one has been
+        given a place before ("a cup on the tray and a cup on the shelf").
+        """
+        things = {thing for option in resolved.options for thing in option}
+        shared = [
+            earlier
+            for earlier, referent in enumerate(self.referents)
+            if things & {thing for option in referent.options for thing in option}
+        ]
+        if resolved.other:
+            return tuple(shared)
+        known = resolved.definite and (len(things) > 1 or len(resolved.options) > 1)
+        if known or resolved.again or role is not Role.THEME:
+            return ()
+        moved = {mention.referent for mention in self.mentions if mention.role is Role.THEME}
+        return tuple(
+            index
+            for index in shared
+            if index in moved
+            and (len(resolved.options) > 1 or len(self.referents[index].options) > 1)
+            and not any(things <= set(option) for option in self.referents[index].options)
+        )
 
     def _check_among_spoken(self, resolved: Resolved, text: str) -> None:
         """After "the black things" "the jar" may be the black one, or any.
@@ -144,6 +161,11 @@ class Discourse:
         """Notes that a pronoun spoke of a referent."""
         noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
         self.mentions.append(Mention(referent, role, self.clause, noun))
+
+    def step_back(self, first: int) -> None:
+        """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is."""
+        said = [replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]]
+        self.mentions[:] = [*said, *self.mentions[:first]]
 
     def things(self, referent: int) -> tuple[Thing, ...]:
         """Everything that a referent may stand for."""
@@ -226,6 +248,15 @@ class Discourse:
                 return found[0]
         raise ReferenceProblem(text, UNCLEAR, 2)
 
+    def openable(self) -> tuple[int, ...]:
+        """All drawers and doors that were spoken of, in whatever role."""
+        spoken = dict.fromkeys(mention.referent for mention in self.mentions)
+        return tuple(
+            index
+            for index in spoken
+            if all(can_be(thing, Role.PART, self.scene) for thing in self.things(index))
+        )
+
     def candidates(self) -> tuple[int, ...]:
         """All that "it" may mean where only what is said about it tells which."""
         for clause in self._clauses():
@@ -295,7 +326,8 @@ class Discourse:
         said = [mention for mention in self.mentions if mention.referent in found]
         options = [option for index in found for option in self.referents[index].options]
         single = len(found) == 1 and all(len(option) == 1 for option in options)
-        if single and not any(mention.several or mention.whatever for mention in said):
+        plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
+        if single and not plural and not any(item.several or item.whatever for item in said):
             raise AmbiguousReference(text, [item.text for item in self.referents])
         return found
 

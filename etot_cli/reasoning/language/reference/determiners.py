@@ -30,6 +30,8 @@ class Quantity:
     """The one that was spoken of before, which only the discourse can tell."""
     sole: bool = False
     """There is no other one ("the only cup")."""
+    among: int = 0
+    """There are so many ("either of the two")."""
 
 
 _UNCLEAR = ("several", "few", "many", "couple", "pair", "half", "most", "none", "no")
@@ -59,6 +61,10 @@ def quantity_of(determiner: str) -> Quantity:
         count = 1
     if first in ("the", "those", "these") and "remaining" in words and count is None:
         return Quantity(every=True, definite=True, other=True)
+    if first in ("any", "either", "each", "every") and "of" in words and count is not None:
+        # "Either of the two": one of so many.
+        every = first in ("each", "every")
+        return Quantity(None if every else 1, every=every, definite=every, among=count)
     if first in ("all", "every", "each"):
         counted = count if first == "all" else None
         return Quantity(count=counted, every=True, definite=True, other=other)

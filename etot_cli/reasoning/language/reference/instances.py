@@ -9,6 +9,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.determiners import Quantity
 from etot_cli.reasoning.language.reference.matching import Match
+from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.world.state import DESK, SceneState
 
 MAX_OPTIONS = 256
@@ -20,6 +21,11 @@ def usable_ones(
 ) -> list[Thing]:
     """Things that can be used as asked for; lost ones only when there are no others."""
     usable = [thing for thing in things if can_be(thing, role, scene)]
+    if not usable and role is Role.CONTAINER:
+        # "In the tray" is said of what lies on it.
+        flat = [thing for thing in things if can_be(thing, Role.SURFACE, scene)]
+        named = phrase.words and matches_any(phrase.words[-1], OPEN_SURFACES)
+        usable = [thing for thing in flat if thing.board is not None or named]
     if not usable and role is Role.SURFACE:
         # "On the bowl" is said of what goes into it; on a drawer is not in it.
         vessels = [thing for thing in things if thing.part is None]

@@ -63,6 +63,7 @@ def match_words(
     *,
     by_name: bool = True,
     parts_first: bool = False,
+    upon: bool = False,
 ) -> Match:
     """Finds what a noun phrase's words fit; every word of them counts.
 
@@ -75,6 +76,7 @@ def match_words(
             any other ("the book that is not red").
         parts_first: what follows the noun tells parts of one piece of furniture from each other
             ("the drawer with the pen in it").
+        upon: something is to go on it, so that a level is rather a board than a drawer.
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
@@ -93,7 +95,7 @@ def match_words(
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found
-    for pool in _pools(vocabulary, head, adjectives, parts_first):
+    for pool in _pools(vocabulary, head, adjectives, parts_first, upon):
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
             # "The drawers" of the only chest, "the shelves" of the only shelf.
@@ -124,7 +126,7 @@ def _by_color(
 
 
 def _pools(
-    vocabulary: Vocabulary, head: str, adjectives: Sequence[str], parts_first: bool
+    vocabulary: Vocabulary, head: str, adjectives: Sequence[str], parts_first: bool, upon: bool
 ) -> list[list[Entry]]:
     """Where to look, in this order: parts come first where a level or their own name is said."""
     fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
@@ -134,7 +136,7 @@ def _pools(
         for word in adjectives
     )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
-    if any(entry.info is not None and entry.info.boards for entry in fitting):
+    if upon or any(entry.info is not None and entry.info.boards for entry in fitting):
         # "The top shelf" is a board of the shelf before it is a drawer of something else.
         parts, boards = boards, parts
     named = [

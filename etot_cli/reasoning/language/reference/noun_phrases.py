@@ -63,6 +63,7 @@ class Resolved:
         noun: the phrase's noun.
         every: it stands for all that fit.
         notes: what words were taken for, where that was a choice.
+        again: it is some of what was spoken of before ("one of them").
     """
 
     options: tuple[tuple[Thing, ...], ...]
@@ -71,6 +72,7 @@ class Resolved:
     noun: str
     every: bool = False
     notes: tuple[str, ...] = ()
+    again: bool = False
 
 
 _OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.UNDER, Prep.ABOVE)
@@ -162,7 +164,7 @@ class Resolver:
             why = "'same': nothing was spoken of before that it could be"
             raise ReferenceProblem(phrase.text, why, 1, word="same")
         parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
-        match = self._match(phrase, words, noun, parts_first=parts)
+        match = self._match(phrase, words, noun, parts_first=parts, upon=role is Role.SURFACE)
         if (quantity.every or phrase.determiner == "one") and not match.plural:
             match = self._parts(match, words, phrase)
         nameless = noun is None and words[-1] in ("one", "ones") and role is not Role.ANY
@@ -190,9 +192,9 @@ class Resolver:
             count = quantity.count
         things = self._modified(things, modifiers, quantity, count, phrase, pronoun)
         things = self._without(things, phrase, words, noun, pronoun)
-        if phrase.among not in (0, len(things)):
+        if (among := phrase.among or quantity.among) not in (0, len(things)):
             names = ", ".join(thing.name for thing in things)
-            raise ReferenceProblem(phrase.text, f"not {phrase.among}, but {names} fit", 2)
+            raise ReferenceProblem(phrase.text, f"not {among}, but {names} fit", 2)
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
         if len(things) == 1 and any(item.words[0] == "to" for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
@@ -216,6 +218,9 @@ class Resolver:
             names = ", ".join(thing.name for thing in things)
             why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
+        kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
+        if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
+            raise AmbiguousReference(phrase.text, [thing.name for thing in things])
         things = called_exactly(things, match, phrase, words, quantity, count)
         options = options_of(things, count, quantity, phrase)
         unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
@@ -233,6 +238,7 @@ class Resolver:
         noun: str | None,
         *,
         parts_first: bool = False,
+        upon: bool = False,
     ) -> Match:
         """What the words fit, with the qualities that stand behind the noun."""
         extra = [
@@ -252,6 +258,7 @@ class Resolver:
                 noun,
                 by_name=plain and quantity.definite and not quantity.other,
                 parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
+                upon=upon,
             )
         adjectives, head = words[:-1], words[-1]
         every = match_words((head,), self._vocabulary, phrase.text, noun)

@@ -153,8 +153,11 @@ class Places:
         )
         if fits_in and (toward is not Toward.ON or not fits_on):
             found.append(Place(Relation.INSIDE, index))
-        if fits_on and toward is not Toward.INSIDE:
+        if fits_on and (toward is not Toward.INSIDE or not fits_in):
             found.append(Place(Relation.ON, index))
+            if toward is Toward.INSIDE:
+                names = " or ".join(dict.fromkeys(thing.name for thing in things))
+                self.discourse.notes.append(f"read 'in' as onto {names}")
         if toward is Toward.ON and fits_in and not fits_on:
             names = " or ".join(dict.fromkeys(thing.name for thing in things))
             self.discourse.notes.append(f"read 'on' as into {names}")

@@ -53,7 +53,15 @@ class Phrases:
         if not things.either:
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             return list(dict.fromkeys(index for indices in found for index in indices))
-        resolved = [self._resolved(phrase, role) for phrase in things.phrases]
+        nouns = [phrase.words[-1:] for phrase in things.phrases]
+        phrases = [
+            # "The purple cup or a green one"
+            replace(phrase, words=(*phrase.words[:-1], *before)) if one == ("one",) else phrase
+            for phrase, one, before in zip(
+                things.phrases, nouns, (nouns[0], *nouns[:-1]), strict=True
+            )
+        ]
+        resolved = [self._resolved(phrase, role) for phrase in phrases]
         options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
         either = Resolved(options, definite=False, other=False, noun=resolved[-1].noun)
         text = " or ".join(phrase.text for phrase in things.phrases)
@@ -119,9 +127,12 @@ class Phrases:
         return (index,)
 
     def _both(self, role: Role, text: str, excluded: Sequence[int]) -> tuple[int, ...]:
-        """The two things that were spoken of one by one."""
+        """The two things that were spoken of one by one, be it as places ("… and close both")."""
         with suppress(ReferenceProblem):
-            found = self.discourse.antecedents("them", role, text, excluded)
+            if role is Role.PART:
+                found = self.discourse.openable()
+            else:
+                found = self.discourse.antecedents("them", role, text, excluded)
             if len(found) == 2 and all(
                 len(option) == 1 for i in found for option in self.discourse.referents[i].options
             ):
@@ -171,10 +182,13 @@ class Phrases:
         discourse = self.discourse
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             indices = discourse.antecedents("them", role, phrase.text)
+            if any(len(discourse.referents[index].options) > 1 for index in indices):
+                names = [thing.name for index in indices for thing in discourse.things(index)]
+                raise AmbiguousReference(phrase.text, names)
             things = dict.fromkeys(thing for i in indices for thing in discourse.things(i))
             options = tuple((thing,) for thing in things)
             noun = discourse.last_noun(role) or ""
-            return Resolved(options, definite=False, other=False, noun=noun)
+            return Resolved(options, definite=False, other=False, noun=noun, again=True)
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"
             plural = phrase.pronoun in PLURAL_PRONOUNS
@@ -202,6 +216,8 @@ class Phrases:
         if resolved.other and resolved.every:
             return self._others(resolved)
         if resolved.other and resolved.definite and quantity.count in (None, 1):
+            if phrase.words[-1:] in ((), ("one",)):
+                resolved = self._of_last_choice(resolved)
             self._check_one_left(phrase, resolved)
         return self._of_spoken_owner(self._spoken_part(resolved))
 
@@ -231,13 +247,16 @@ class Phrases:
     def _resolved_as(
         self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
     ) -> Resolved:
+        elliptic = phrase.words[-1:] in (("one",), ("ones",))
+        if noun is not None and elliptic:
+            self._check_count(phrase, noun)
         if noun is not None and not is_descriptive(noun) and _leaves_noun_out(phrase):
             self._check_count(phrase, noun)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other
         named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
         own = named[0] if named else noun
-        elliptic = other or phrase.words[-1:] in (("one",), ("ones",))
+        elliptic = other or elliptic
         return self._resolver.resolve(
             phrase,
             role,
@@ -279,6 +298,13 @@ class Phrases:
             own = tuple(option for option in resolved.options if {option[0].name} == named)
             if own:
                 return replace(resolved, options=own)
+        return resolved
+
+    def _of_last_choice(self, resolved: Resolved) -> Resolved:
+        """After "a green cup", of two, "the other one" is green, too."""
+        for referent in reversed(self.discourse.referents):
+            if len(referent.options) == 2 and {*referent.options} < {*resolved.options}:
+                return replace(resolved, options=referent.options)
         return resolved
 
     def _check_one_left(self, phrase: NounPhrase, resolved: Resolved) -> None:

@@ -101,6 +101,8 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
             places = [part.address for part in parts] if thing.part else [thing.name]
             places += [part.address for part in parts]
             filled = any(contents(scene, place) for place in places)
+            if not info.container and not parts:
+                filled = any(thing.name in state.on for state in scene.states.values())
             return filled == (STATES[word] == "full")
         case _:
             return state.toppled
@@ -131,7 +133,7 @@ def _nth(
 def _by_size(
     word: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
-    measure = _measure(word, scene)
+    measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
     last = measure(_leading(ordered, count, phrase)[-1])
     return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
@@ -141,7 +143,7 @@ def _nth_by_size(
     ordinal: str, word: str, things: list[Thing], scene: SceneState, phrase: str
 ) -> Thing:
     """The second largest, where that is one and no more."""
-    measure = _measure(word, scene)
+    measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
     index = ORDINALS[ordinal] % len(ordered) if ordinal == "last" else ORDINALS[ordinal]
     if index >= len(ordered):
@@ -153,9 +155,14 @@ def _nth_by_size(
     return ordered[index]
 
 
-def _measure(word: str, scene: SceneState) -> Callable[[Thing], float]:
-    """What a word for size orders things by, the one that fits it best first."""
+def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thing], float]:
+    """What a word for size orders things by, the one that fits it best first. Of spoons that lie
+    there "the shortest" is so by its length, for they are as high as each other.
+    """
     quantity, sign = SIZES[word]
+    heights = {scene.infos[thing.name].size[2] for thing in things}
+    if quantity == "height" and len(heights) == 1:
+        quantity = "width"
 
     def measure(thing: Thing) -> float:
         info = scene.infos[thing.name]

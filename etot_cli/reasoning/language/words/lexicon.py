@@ -90,6 +90,10 @@ BOARD_NOUNS = (
     "board", "level", "shelf", "tier", "surface", "layer", "compartment", "rack", "tray",
 )  # fmt: skip
 """Nouns for one surface of a piece of furniture that has several."""
+OPEN_SURFACES = (
+    "tray", "plate", "saucer", "platter", "dish", "pan", "shelf", "rack", "bookcase", "bookshelf",
+)  # fmt: skip
+"""Nouns for what things are said to be "in", though they lie on it."""
 
 NUMBERS = {
     "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8,

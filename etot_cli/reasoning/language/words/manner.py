@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
-OPEN_STATE = "[wide] open, opened"
-CLOSED_STATE = "[fully|completely|properly] (closed|shut)"
+OPEN_STATE = "[wide|all the way|fully|completely] open, opened"
+CLOSED_STATE = "[fully|completely|properly|all the way] (closed|shut)"
+UNLESS_OPEN = """
+    if [it is|they are] [still|currently] (closed|shut), unless (it is|they are) [already] open,
+    if (it is|they are) not [already] open[ed], if not [already] open[ed], if (necessary|needed)
+"""
+UNLESS_CLOSED = """
+    if [it is|they are] [still|currently] open, unless (it is|they are) [already] (closed|shut),
+    if (it is|they are) not [already] (closed|shut), if not [already] (closed|shut),
+    if (necessary|needed)
+"""
+"""Conditions of opening and closing that the state itself fulfils."""
+EMPTIED = "empty, emptied [out], cleared [out]"
 STATES = "open, opened, closed, shut, ajar, empty, full, filled, toppled, fallen, tipped over"
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
@@ -16,7 +27,10 @@ BOTTOM_UP = """
     starting (with|at|from) the bottom,
     [in this order] from bottom to top
 """
-TOP_DOWN = "[from the] top (first|down), from (the top|top) to bottom, from top to the bottom"
+TOP_DOWN = """
+    in (this|that) order from (top to bottom|the top down), [from the] top (first|down),
+    from (the top|top) to bottom, from top to the bottom
+"""
 AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base"
 AT_TOP = "at the top, on [the] top, uppermost, highest"
 AS_IT_IS = """
@@ -47,11 +61,13 @@ STANDING = """
     so that (it|they) (fits|fit)
 """
 HORIZONTAL = """
-    horizontally, in a horizontal (pose|grasp), with a (horizontal|side) grasp, sideways,
+    horizontally, in a horizontal (pose|grasp), sideways,
+    [with|using] [a] horizontal [grasp|grip|pose], (with|using) a side (grasp|grip),
     (from|by) (the|its|a|one) (side|sides), from one side
 """
 VERTICAL = """
-    vertically, in a vertical (pose|grasp), top down, with a (vertical|top|top down) grasp,
+    vertically, in a vertical (pose|grasp), top down,
+    [with|using] [a] vertical [grasp|grip|pose], (with|using) a (top|top down) (grasp|grip),
     [from] (above|straight above|overhead), from (the|its) top, from the top,
     by (the|its) (rim|edge|top)
 """

@@ -12,7 +12,9 @@ DETERMINERS = (
     f"(the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT})",
     "another one of the, a single, one single, only a",
     "(any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your]",
+    f"just ({_THE}|a|an)",
     "(any|each|every|either) (one|single) [of] [the|these|those]",
+    f"(any|each|every|all|both|either) of (the|these|those|my|your) ({_COUNT})",
     f"(all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT})",
     "(every|any|each|some) other",
     f"({_COUNT}) [of] [the|these|those|other|more|of the other]",
@@ -29,6 +31,8 @@ GENERAL_NOUNS = """
 EXCEPT = "except [for], but not, other than, apart from, but, excluding, aside from, save for"
 CONTRAST = "not, and not, but not, rather than, instead of, as opposed to"
 """Before what is not meant, behind what is."""
+AS_YOU_LIKE = "[that|which] you (like|want|prefer|wish|please|choose)"
+"""Behind what is left open anyway."""
 RELATIVE = """
     (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)
     [currently|now|already],

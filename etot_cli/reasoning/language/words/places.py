@@ -48,7 +48,8 @@ SIDE = """
     (desk|table|scene|room|row),
     (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
     (on|at) the (left|right) of the (desk|table|scene),
-    on the far (left|right), in front, in back, at the very (left|right|front|back), in the row,
+    on the far (left|right), [that is] (furthest|farthest|most) (to|on) the (left|right), in front,
+    in back, at the very (left|right|front|back), in the row,
     (at|from|on) the (top|bottom)
 """
 PREPOSITIONS: dict[Prep, str] = {

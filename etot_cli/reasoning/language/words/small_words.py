@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 WITHOUT_MEANING = """
-    please, kindly, carefully, gently, safely, cautiously, also, too, as well, just, simply, now,
+    please, kindly, [very|really] (carefully|gently|safely|cautiously),
+    also, too, as well, just, simply, now,
     again,
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
+    pls, plz, thx, (would|will|could|can) you, any way you like, whichever you like,
+    (it does not|does not|no) matter which [one],
     thank you, thanks, if you can, if possible, at all times, properly, neatly, directly, straight
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
 FRAMES = """
     robot, hey robot, hello robot, hi robot, hey, ok, okay, so, and, but, go, go and, go ahead and,
-    (can|could|would|will) you, you (should|must|have to|need to|can|may), could you possibly,
+    (can|could|would|will) (you|u), (can|could|will) i ask you to,
+    (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like, i want, let us, try to, the robot (should|must|has to|needs to), make sure to,
-    be sure to, remember to, (do not|don t) forget to, would you mind, your job is, it is time to,
-    i would appreciate it if you could, help me, help me to, we need to, you are to,
+    be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
+    how about, your job is, it is time to,
+    i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
+    help me, help me to, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and, i would be (glad|happy|grateful) if you (would|could)
@@ -47,6 +53,8 @@ THEN_JOINTS = """
     [and|but] then, [and] after that, [and] afterwards, [and] next, [and] finally, after which,
     and later
 """
+ONWARD = "[and] then [finally], [and] after that, and finally"
+"""Before the next place of what was put somewhere."""
 EXACTLY = "right, directly, immediately, just, straight"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you]"

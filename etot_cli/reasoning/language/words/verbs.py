@@ -41,6 +41,10 @@ ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], see to it [that]
 """
+NOTHING_IS = """
+    (nothing should|nothing must|there should|there must) be (|nothing|left|nothing left) (in|on),
+    (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
+"""
 MODAL = """
     (should|must|shall) (be|end up|stay|remain|get|finally be|then be|go|be put|be
     placed|stand|sit|lie),
@@ -77,7 +81,12 @@ OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = "swap[ping], exchang(e|ing), switch[ing], swap the (places|positions) of, interchange"
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
-    but do not, and do not
+    but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
+    [but|and] take care not to
+"""
+WITHOUT = """
+    without, [while] (making|being) sure not to, [while] being careful not to,
+    [while] taking care not to, so as not to
 """
 TOUCH = """
     touch[ing], hit[ting], bump[ing] into, bump[ing], collid(e|ing) with, com(e|ing) near,

@@ -1,0 +1,110 @@
+"""Rules for what several things share that is said once: a noun at the end, "respectively"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.parsing import one_of, phrase, sequence, silent
+from etot_cli.reasoning.language.grammar.syntax import (
+    Beside,
+    Destination,
+    NounPhrase,
+    PutGroup,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    THING_NOUNS,
+    is_descriptive,
+    matches_any,
+    singular,
+)
+from etot_cli.world.spatial import Nearby
+
+_SIDES: dict[tuple[str, ...], Nearby] = {("left",): Nearby.LEFT, ("right",): Nearby.RIGHT}
+
+
+def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]]:
+    """The groups as they stand, and with the last place's noun lent to those that leave theirs out
+    ("A in the top and B in the bottom drawer").
+    """
+    groups = _other_sides(groups)
+    nouns = [np.words[-1] for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
+    if len(set(nouns)) != 1 or matches_any(nouns[0], THING_NOUNS):
+        return (groups,)
+    lent = (*(_with_noun(group, nouns[0]) for group in groups[:-1]), groups[-1])
+    return (groups,) if lent == groups else (groups, lent)
+
+
+def _other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
+    """In "A to the left of C and B to the right" the right is that of C."""
+    found = [groups[0]]
+    for group in groups[1:]:
+        marks = {item.phrases for where in found[-1].destinations for item in where.beside}
+        (first, *more) = group.destinations
+        side = _SIDES.get(first.targets[0].words) if first.toward is Toward.TO else None
+        if side is not None and not more and len(marks) == 1 and (mark := marks.pop()):
+            group = replace(
+                group, destinations=(Destination(Toward.BESIDE, beside=(Beside(side, mark),)),)
+            )
+        found.append(group)
+    return tuple(found)
+
+
+def _targets(group: PutGroup) -> list[NounPhrase]:
+    return [np for item in group.destinations for np in item.targets]
+
+
+def _is_bare(np: NounPhrase) -> bool:
+    """Whether a phrase has an article and adjectives, and nothing else."""
+    adjectives = np.words and all(is_descriptive(word) or word in LEVELS for word in np.words)
+    return bool(np.determiner and adjectives) and not np.modifiers
+
+
+def _with_noun(group: PutGroup, noun: str) -> PutGroup:
+    return replace(
+        group,
+        destinations=tuple(
+            replace(
+                item,
+                targets=tuple(
+                    replace(np, words=(*np.words, noun)) if _is_bare(np) else np
+                    for np in item.targets
+                ),
+            )
+            for item in group.destinations
+        ),
+    )
+
+
+def _respective(
+    things: tuple[NounPhrase, ...], toward: Toward, targets: tuple[NounPhrase, ...]
+) -> tuple[PutGroup, ...] | None:
+    """Each thing with its own place."""
+    if len(things) != len(targets) or len(things) < 2:
+        return None
+    return tuple(
+        PutGroup(Things((thing,)), (Destination(toward, (_one(target),)),))
+        for thing, target in zip(map(_one, things), targets, strict=True)
+    )
+
+
+def _one(np: NounPhrase) -> NounPhrase:
+    """One of those that a plural noun stands for ("the left and right bowls")."""
+    if not np.words:
+        return np
+    words = (*np.words[:-1], singular(np.words[-1]))
+    return replace(np, determiner=np.determiner or "the", words=words, loose=False)
+
+
+RESPECTIVE_GROUPS = sequence(
+    NP_LIST,
+    one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO, Toward.TO: places.TO}),
+    NP_LIST,
+    silent(phrase("[~comma] respectively")),
+    build=_respective,
+)
