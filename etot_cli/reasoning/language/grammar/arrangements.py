@@ -6,7 +6,8 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA, WITH
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, EXACTLY, OF, OR, alternatives
-from etot_cli.reasoning.language.grammar.noun_phrases import coordinated, noun_phrase
+from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,

@@ -21,7 +21,8 @@ from etot_cli.reasoning.language.grammar.destinations import (
     destination,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
@@ -185,7 +186,7 @@ BACK = (Destination(Toward.HOME),)
 _BY_COLOR = sequence(
     THINGS, silent(phrase(manner.BY_COLOR)), OPTIONAL_COMMA, DESTINATIONS, build=PutGroup
 )
-_ONE_BY_ONE = sequence(
+_FIRST_THEN = sequence(
     silent(phrase("first")),
     noun_phrase,
     some(
@@ -198,26 +199,10 @@ _ONE_BY_ONE = sequence(
         least=1,
         most=4,
     ),
-    DESTINATIONS,
-    build=lambda first, more, where: PutGroup(Things((first, *more)), where),
+    build=lambda first, more: Things((first, *more)),
 )
-_ONES_THAT_GO = sequence(
-    silent(phrase("first")),
-    noun_phrase,
-    some(
-        sequence(
-            OPTIONAL_COMMA,
-            silent(phrase(small_words.THEN_JOINTS)),
-            noun_phrase,
-            build=lambda np: np,
-        ),
-        least=1,
-        most=4,
-    ),
-    silent(phrase(verbs.MODAL)),
-    DESTINATIONS,
-    build=lambda first, more, where: PutGroup(Things((first, *more)), where),
-)
+_ONE_BY_ONE = sequence(_FIRST_THEN, DESTINATIONS, build=PutGroup)
+_ONES_THAT_GO = sequence(_FIRST_THEN, silent(phrase(verbs.MODAL)), DESTINATIONS, build=PutGroup)
 _SO_THAT_IT_IS = sequence(
     THINGS,
     OPTIONAL_COMMA,

@@ -8,7 +8,8 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, exceptions
+from etot_cli.reasoning.language.grammar.modifiers import exceptions
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
     Rule,

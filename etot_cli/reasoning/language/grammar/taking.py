@@ -13,7 +13,8 @@ from etot_cli.reasoning.language.grammar.common import (
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,

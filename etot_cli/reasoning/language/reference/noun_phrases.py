@@ -19,16 +19,13 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import RANKED, related
-from etot_cli.reasoning.language.reference.matching import Match, match_words
-from etot_cli.reasoning.language.reference.selection import select, state_holds
+from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
+from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.reference.vocabulary import Entry, Vocabulary, is_of_parts
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
-    LEVELS,
     NUMBERS,
-    SIDES,
-    SIZES,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -75,18 +72,6 @@ class Resolved:
     again: bool = False
 
 
-_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.UNDER, Prep.ABOVE)
-
-
-def _tells_parts(modifier: Modifier) -> bool:
-    """Whether a modifier is about one drawer rather than about the whole chest."""
-    state = modifier.prep is Prep.QUALITY and any(word in STATES for word in modifier.words)
-    side = modifier.prep is Prep.SIDE and any(word in LEVELS for word in modifier.words)
-    named = any(word in LEVELS for item in modifier.phrases for word in item.words)
-    by_part = named and modifier.prep is Prep.EXCEPT
-    return state or side or by_part or modifier.prep in _OF_PARTS
-
-
 def _is_one(phrase: NounPhrase) -> bool:
     """Whether a phrase speaks of one thing that is known ("the cup")."""
     quantity = quantity_of(phrase.determiner)
@@ -124,6 +109,11 @@ class Resolver:
     def __init__(self, scene: SceneState, vocabulary: Vocabulary) -> None:
         self._scene = scene
         self._vocabulary = vocabulary
+
+    def colors_of(self, thing: Thing) -> frozenset[str]:
+        """The basic colours that a thing is called by, or the one that it has."""
+        entry = self._vocabulary.entries().get(thing)
+        return frozenset() if entry is None else entry.colors()
 
     def resolve(
         self,
@@ -164,9 +154,11 @@ class Resolver:
             why = "'same': nothing was spoken of before that it could be"
             raise ReferenceProblem(phrase.text, why, 1, word="same")
         parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
-        match = self._match(phrase, words, noun, parts_first=parts, upon=role is Role.SURFACE)
+        match = matched(
+            phrase, words, noun, self._vocabulary, parts_first=parts, upon=role is Role.SURFACE
+        )
         if (quantity.every or phrase.determiner == "one") and not match.plural:
-            match = self._parts(match, words, phrase)
+            match = parts_of(match, words, phrase, self._vocabulary)
         nameless = noun is None and words[-1] in ("one", "ones") and role is not Role.ANY
         if nameless and match.selectors:
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
@@ -229,62 +221,6 @@ class Resolver:
         every = quantity.every or (count is None and match.plural)
         return Resolved(options, quantity.definite, quantity.other, head, every, match.notes)
 
-    # -- words -------------------------------------------------------------------------------------
-
-    def _match(
-        self,
-        phrase: NounPhrase,
-        words: tuple[str, ...],
-        noun: str | None,
-        *,
-        parts_first: bool = False,
-        upon: bool = False,
-    ) -> Match:
-        """What the words fit, with the qualities that stand behind the noun."""
-        extra = [
-            word
-            for modifier in phrase.modifiers
-            if modifier.prep is Prep.QUALITY and not modifier.denied
-            for word in modifier.words
-        ]
-        words = (*words[:-1], *extra, words[-1])
-        if not phrase.joined:
-            quantity = quantity_of(phrase.determiner)
-            plain = not phrase.modifiers and not phrase.without and not quantity.every
-            return match_words(
-                words,
-                self._vocabulary,
-                phrase.text,
-                noun,
-                by_name=plain and quantity.definite and not quantity.other,
-                parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
-                upon=upon,
-            )
-        adjectives, head = words[:-1], words[-1]
-        every = match_words((head,), self._vocabulary, phrase.text, noun)
-        if every.plural:
-            # "The red and blue mugs": some are red, some are blue.
-            parts = [
-                match_words((word, head), self._vocabulary, phrase.text, noun)
-                for word in adjectives
-            ]
-            found = {entry.thing: entry for part in parts for entry in part.entries}
-            notes = tuple(note for part in parts for note in part.notes)
-            entries = tuple(entry for entry in every.entries if entry.thing in found)
-            return Match(entries, plural=True, notes=notes)
-        both = tuple(e for e in every.entries if all(e.has_word(word) for word in adjectives))
-        if not both:
-            raise ReferenceProblem(
-                phrase.text, f"no {head} is called both {' and '.join(adjectives)}"
-            )
-        return Match(both)
-
-    def _parts(self, match: Match, words: tuple[str, ...], phrase: NounPhrase) -> Match:
-        """Of "every drawer" of the only chest the drawers, not the chest."""
-        if len(match.entries) > 1 or not is_of_parts(match.entries[0], words[-1], self._vocabulary):
-            return match
-        return match_words(words, self._vocabulary, phrase.text, by_name=False, parts_first=True)
-
     def _without(
         self,
         things: list[Thing],
@@ -296,14 +232,16 @@ class Resolver:
         """The things but for those that the phrase takes out."""
         out: set[Thing] = set()
         for word in phrase.without:
-            meant = self._with_quality(things, word, phrase)
+            meant = with_quality(things, word, phrase, self._vocabulary, self._scene)
             if not meant and basic_color(word) is None and word not in STATES:
                 raise ReferenceProblem(phrase.text, f"none of them is {word!r}", 1, word=word)
             out |= meant
         for modifier in phrase.modifiers:
             if modifier.prep is Prep.QUALITY and modifier.denied:
                 out |= {
-                    t for word in modifier.words for t in self._with_quality(things, word, phrase)
+                    t
+                    for word in modifier.words
+                    for t in with_quality(things, word, phrase, self._vocabulary, self._scene)
                 }
             if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
                 for item in modifier.phrases:
@@ -317,29 +255,6 @@ class Resolver:
         if not left:
             raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
         return left
-
-    def _with_quality(self, things: list[Thing], word: str, phrase: NounPhrase) -> set[Thing]:
-        """The things that an adjective is true of."""
-        if word in STATES:
-            return {thing for thing in things if state_holds(word, thing, self._scene)}
-        color = basic_color(word)
-        entries = {entry.thing: entry for entry in self._entries()}
-        if color is not None:
-            return {thing for thing in things if entries[thing].has_color(color)}
-        if any(entry.has_word(word) for entry in entries.values()):
-            return {thing for thing in things if entries[thing].has_word(word)}
-        if word in SIDES or word in SIZES:
-            return set(select((word,), (), list(things), 1, self._scene, phrase.text))
-        raise ReferenceProblem(phrase.text, f"{word!r} is not understood", 3, word=word)
-
-    def _entries(self) -> tuple[Entry, ...]:
-        vocabulary = self._vocabulary
-        return (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
-
-    def colors_of(self, thing: Thing) -> frozenset[str]:
-        """The basic colours that a thing is called by, or the one that it has."""
-        entry = next((entry for entry in self._entries() if entry.thing == thing), None)
-        return frozenset() if entry is None else entry.colors()
 
     # -- modifiers ---------------------------------------------------------------------------------
 

@@ -122,6 +122,12 @@ class Vocabulary:
             self.boards += _board_entries(info, entry)
         self.desk = Entry(Thing(DESK), (), (), generic=DESK_NOUNS, exact=(DESK,))
 
+    def entries(self) -> dict[Thing, Entry]:
+        """All entries, by what they stand for."""
+        return {
+            entry.thing: entry for entry in (*self.objects, *self.parts, *self.boards, self.desk)
+        }
+
     def words(self) -> frozenset[str]:
         """Every word of the scene's names and labels."""
         entries = (*self.objects, *self.parts, *self.boards)

@@ -1,0 +1,34 @@
+"""What noun phrases in a row share: an article, a noun, a number."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, is_descriptive
+
+
+def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """Noun phrases of which all but the last may leave the noun to the next: "the red and the blue
+    mug". None where the last one leaves it out, too.
+    """
+    found = [first, *more]
+    for index in range(len(found) - 1, -1, -1):
+        item = found[index]
+        adjectives = bool(item.words) and all(map(is_descriptive, item.words))
+        if index and (*item.words, item.determiner)[0].isdigit():
+            # "Cubes 1, 2 and 4": the numbers of things, no counts of them.
+            before = next((np.words for np in found[index - 1 :: -1] if len(np.words) > 1), ("",))
+            if before[-1].isdigit() and len(item.words) < 2 and not item.modifiers:
+                number = (*item.words, item.determiner)[0]
+                item = replace(item, determiner="", words=(*before[:-1], number))
+        if index and not item.determiner and item.words and first.determiner:
+            item = replace(item, loose=True)
+        following = found[index + 1] if index + 1 < len(found) else None
+        named = bool(item.words) and item.words[-1] in COMMON_NOUNS  # "lime", "orange"
+        if adjectives and following is None and not item.determiner and not named:
+            return None
+        if adjectives and following is not None and len(following.words) > 1:
+            item = replace(item, words=(*item.words, following.words[-1]))
+        found[index] = item
+    return tuple(found)

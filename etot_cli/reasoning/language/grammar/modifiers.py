@@ -1,0 +1,203 @@
+"""Rules for what follows a noun and singles an instance out: where it is, what it holds, how it is.
+
+Noun phrases and their modifiers contain each other: the two rules of ``noun_phrases`` that
+modifiers need stand here, and are defined there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OR, WITH
+from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    Rule,
+    either,
+    one_of,
+    optional,
+    phrase,
+    quiet,
+    separated,
+    sequence,
+    silent,
+    some,
+    valued,
+    word,
+)
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.words import manner, nouns, places
+from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, is_descriptive
+from etot_cli.reasoning.language.words.places import Prep
+
+noun_phrase = Rule()
+exceptions = Rule()
+RELATIVE = silent(phrase(nouns.RELATIVE))
+DENIED = silent(phrase(nouns.RELATIVE_NOT))
+ADJECTIVE = either(
+    word(lambda given, text: is_descriptive(text) or text in given.nouns),
+    phrase(manner.STATES),
+)
+ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
+PREPOSITION = one_of(places.PREPOSITIONS)
+SIDE = phrase(places.SIDE)
+
+
+def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
+    """A relation to a thing; "at the top" names a side and no thing."""
+    side = np.words and all(text in SIDES or text in LEVELS for text in np.words)
+    return None if prep is Prep.NEAR and side else Modifier(prep, (np,))
+
+
+PLAIN_MODIFIER = either(
+    sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
+    sequence(
+        silent(phrase("[in] between")),
+        noun_phrase,
+        silent(phrase("and")),
+        noun_phrase,
+        build=lambda one, two: (
+            None if (pair := coordinated(one, (two,))) is None else Modifier(Prep.BETWEEN, pair)
+        ),
+    ),
+    sequence(
+        silent(phrase("[in] between")), noun_phrase, build=lambda np: Modifier(Prep.BETWEEN, (np,))
+    ),
+    valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
+    sequence(
+        word(lambda given, text: text in ORDINALS),
+        valued(SIDE, lambda text: tuple(text.split())),
+        build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
+    ),
+)
+_INSIDE_IT = silent(either(phrase("inside, in there, in"), phrase("(inside|in) (it|them|which)")))
+_UPON_IT = silent(phrase("on [top of] (it|them), on top"))
+_WITHOUT = silent(phrase(nouns.LACKING))
+_HAVING = silent(either(WITH, phrase(nouns.CONTAINING)))
+
+
+def _contents_with(having: Parser, denied: bool) -> Parser:
+    return either(
+        sequence(
+            having,
+            noun_phrase,
+            # "Without" before a bare noun may stand before anything.
+            build=lambda np: (
+                None if denied and not np.determiner else Modifier(Prep.WITH, (np,), denied=denied)
+            ),
+        ),
+        sequence(
+            having,
+            noun_phrase,
+            _INSIDE_IT,
+            build=lambda np: Modifier(Prep.CONTAINING, (np,), denied=denied),
+        ),
+        sequence(
+            having,
+            noun_phrase,
+            _UPON_IT,
+            build=lambda np: Modifier(Prep.BEARING, (np,), denied=denied),
+        ),
+    )
+
+
+_contents = either(
+    _contents_with(_HAVING, denied=False),
+    _contents_with(_WITHOUT, denied=True),
+    sequence(
+        _HAVING,
+        silent(phrase("nothing")),
+        _INSIDE_IT,
+        build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
+    ),
+    quiet(
+        sequence(
+            silent(optional(phrase("that, which"), None)),
+            noun_phrase,
+            either(
+                phrase("(is|are|lies|lie|sits) [currently] in", Prep.CONTAINING),
+                phrase("(is|are|stands|stand|lies|lie|sits) [currently] on", Prep.BEARING),
+            ),
+            build=lambda np, prep: Modifier(prep, (np,)),
+        )
+    ),
+)
+_matching = sequence(
+    silent(phrase(nouns.MATCHING)),
+    silent(optional(phrase("as (it|them|its own|their own)"), None)),
+    build=lambda: Modifier(Prep.MATCHING),
+)
+QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
+_none_of = sequence(
+    ADJECTIVE,
+    some(sequence(OR, ADJECTIVE, build=lambda text: text), least=1, most=2),
+    build=lambda first, more: Modifier(Prep.QUALITY, words=(first, *more)),
+)
+
+
+def _one_of_them(np: NounPhrase) -> NounPhrase:
+    """With "one" for the noun that "the biggest" leaves out."""
+    bare = np.determiner == "the" and np.words and is_descriptive(np.words[-1])
+    return replace(np, words=(*np.words, "one")) if bare else np
+
+
+def _other_than(np: NounPhrase) -> Modifier | None:
+    """What it is not: "not the big cup", "not the biggest" of them."""
+    np = _one_of_them(np)
+    if not np.words or is_descriptive(np.words[-1]):
+        return None
+    return Modifier(Prep.EXCEPT, (np,))
+
+
+_described = either(PLAIN_MODIFIER, _contents, QUALITY)
+MODIFIER = Rule()
+MODIFIERS = some(MODIFIER, most=4)
+_modifier = either(
+    PLAIN_MODIFIER,
+    _contents,
+    _matching,
+    sequence(RELATIVE, _described, build=lambda modifier: modifier),
+    sequence(
+        silent(phrase("~comma which (is|are)")),
+        either(PLAIN_MODIFIER, QUALITY),
+        COMMA,
+        build=lambda modifier: modifier,
+    ),
+    sequence(
+        DENIED,
+        either(_described, _none_of),
+        build=lambda modifier: replace(modifier, denied=True),
+    ),
+    sequence(
+        DENIED,
+        noun_phrase,
+        build=_other_than,
+    ),
+    sequence(
+        silent(phrase(nouns.RELATIVE_NEITHER)),
+        valued(
+            separated(ADJECTIVE, silent(phrase("nor, or")), most=3),
+            lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
+        ),
+        build=lambda modifier: modifier,
+    ),
+    sequence(
+        silent(phrase(nouns.NOT_PLACED)),
+        PLAIN_MODIFIER,
+        # "The right not of the cup" is no English.
+        build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
+    ),
+    sequence(
+        silent(optional(phrase("~comma"), None)),
+        silent(phrase(nouns.CONTRAST)),
+        noun_phrase,
+        build=lambda np: Modifier(Prep.CONTRAST, (np,)) if np.determiner and np.words else None,
+    ),
+    sequence(
+        silent(optional(phrase("~comma"), None)),
+        silent(phrase(nouns.EXCEPT)),
+        exceptions,
+        build=lambda nps: Modifier(Prep.EXCEPT, tuple(map(_one_of_them, nps))),
+    ),
+)
+MODIFIER.define(_modifier)

@@ -1,0 +1,117 @@
+"""What a noun phrase's words fit, with those that stand behind the noun or name two colours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.matching import Match, match_words
+from etot_cli.reasoning.language.reference.selection import select, state_holds
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
+from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, SIZES, STATES, basic_color
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import SceneState
+
+_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.UNDER, Prep.ABOVE)
+
+
+def _tells_parts(modifier: Modifier) -> bool:
+    """Whether a modifier is about one drawer rather than about the whole chest."""
+    state = modifier.prep is Prep.QUALITY and any(word in STATES for word in modifier.words)
+    side = modifier.prep is Prep.SIDE and any(word in LEVELS for word in modifier.words)
+    named = any(word in LEVELS for item in modifier.phrases for word in item.words)
+    by_part = named and modifier.prep is Prep.EXCEPT
+    return state or side or by_part or modifier.prep in _OF_PARTS
+
+
+def matched(
+    phrase: NounPhrase,
+    words: tuple[str, ...],
+    noun: str | None,
+    vocabulary: Vocabulary,
+    *,
+    parts_first: bool = False,
+    upon: bool = False,
+) -> Match:
+    """What a phrase's words fit, with the qualities that stand behind the noun.
+
+    Args:
+        phrase: with a noun.
+        words: its adjectives and noun.
+        noun: what "one" stands for.
+        vocabulary: the scene's.
+        parts_first: drawers come before their chest, as for :func:`match_words`.
+        upon: something is to go on it.
+
+    Raises:
+        ReferenceProblem: nothing fits, or a word is not understood.
+    """
+    extra = [
+        word
+        for modifier in phrase.modifiers
+        if modifier.prep is Prep.QUALITY and not modifier.denied
+        for word in modifier.words
+    ]
+    words = (*words[:-1], *extra, words[-1])
+    if not phrase.joined:
+        quantity = quantity_of(phrase.determiner)
+        plain = not phrase.modifiers and not phrase.without and not quantity.every
+        return match_words(
+            words,
+            vocabulary,
+            phrase.text,
+            noun,
+            by_name=plain and quantity.definite and not quantity.other,
+            parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
+            upon=upon,
+        )
+    adjectives, head = words[:-1], words[-1]
+    every = match_words((head,), vocabulary, phrase.text, noun)
+    if every.plural:
+        # "The red and blue mugs": some are red, some are blue.
+        parts = [match_words((word, head), vocabulary, phrase.text, noun) for word in adjectives]
+        found = {entry.thing: entry for part in parts for entry in part.entries}
+        notes = tuple(note for part in parts for note in part.notes)
+        entries = tuple(entry for entry in every.entries if entry.thing in found)
+        return Match(entries, plural=True, notes=notes)
+    both = tuple(e for e in every.entries if all(e.has_word(word) for word in adjectives))
+    if not both:
+        raise ReferenceProblem(phrase.text, f"no {head} is called both {' and '.join(adjectives)}")
+    return Match(both)
+
+
+def parts_of(
+    match: Match, words: tuple[str, ...], phrase: NounPhrase, vocabulary: Vocabulary
+) -> Match:
+    """Of "every drawer" of the only chest the drawers, not the chest."""
+    if len(match.entries) > 1 or not is_of_parts(match.entries[0], words[-1], vocabulary):
+        return match
+    return match_words(words, vocabulary, phrase.text, by_name=False, parts_first=True)
+
+
+def with_quality(
+    things: Sequence[Thing],
+    word: str,
+    phrase: NounPhrase,
+    vocabulary: Vocabulary,
+    scene: SceneState,
+) -> set[Thing]:
+    """The things that an adjective is true of.
+
+    Raises:
+        ReferenceProblem: the word is no adjective that is known.
+    """
+    if word in STATES:
+        return {thing for thing in things if state_holds(word, thing, scene)}
+    color = basic_color(word)
+    entries = vocabulary.entries()
+    if color is not None:
+        return {thing for thing in things if entries[thing].has_color(color)}
+    if any(entry.has_word(word) for entry in entries.values()):
+        return {thing for thing in things if entries[thing].has_word(word)}
+    if word in SIDES or word in SIZES:
+        return set(select((word,), (), list(things), 1, scene, phrase.text))
+    raise ReferenceProblem(phrase.text, f"{word!r} is not understood", 3, word=word)
