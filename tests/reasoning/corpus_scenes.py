@@ -736,3 +736,219 @@ def atelier() -> SceneState:
         drawers("cart", (0.66, 0.46), {"top": 0.0, "middle": 0.9, "bottom": 0.0}, color="gray"),
         cabinet("locker", (0.66, -0.46), 0.9, color="blue"),
     )
+
+
+def canteen() -> SceneState:
+    """Two trays, three spoons of growing length, bowls, teacups, a rack, a sideboard of drawers."""
+    return scene(
+        item("red_tray", "box", (0.32, 0.30), size=(0.26, 0.20, 0.02), color="red"),
+        item("green_tray", "box", (0.32, -0.32), size=(0.26, 0.20, 0.02), color="green"),
+        item(
+            "sugar",
+            "box",
+            (0.30, 0.32),
+            size=(0.06, 0.04, 0.08),
+            label="sugar box",
+            color="white",
+            on="red_tray",
+            z=0.2,
+        ),
+        item("spoon_1", "pen", (0.25, 0.10), size=(0.12, 0.02, 0.02), label="spoon", color="gray"),
+        item("spoon_2", "pen", (0.25, 0.00), size=(0.16, 0.02, 0.02), label="spoon", color="gray"),
+        item("spoon_3", "pen", (0.25, -0.12), size=(0.20, 0.02, 0.02), label="spoon", color="gray"),
+        item("soup_bowl", "bowl", (0.42, 0.08), size=BOWL, color="white"),
+        ball("lemon", (0.42, 0.08), on="soup_bowl", inside="soup_bowl", color="yellow", z=0.17),
+        item("salad_bowl", "bowl", (0.42, -0.12), size=(0.20, 0.20, 0.08), color="green"),
+        cup("teapot", (0.55, 0.15), size=(0.12, 0.12, 0.14), color="blue"),
+        cup("teacup_1", (0.55, -0.02), size=(0.08, 0.08, 0.06), label="teacup", color="white"),
+        cup("teacup_2", (0.55, -0.18), size=(0.08, 0.08, 0.06), label="teacup", color="white"),
+        item("rack", "shelf", (0.68, -0.42), size=(0.25, 0.30, 0.4), boards=("lower", "upper")),
+        item(
+            "jar",
+            "cylinder",
+            (0.68, -0.42),
+            size=(0.06, 0.06, 0.1),
+            on="rack.lower",
+            color="red",
+            z=0.3,
+        ),
+        cabinet("cupboard", (0.68, 0.05), 0.0, color="brown"),
+        drawers("sideboard", (0.68, 0.45), {"upper": 0.9, "lower": 0.0}, color="white"),
+        item(
+            "napkin",
+            "box",
+            (0.60, 0.42),
+            size=(0.10, 0.10, 0.01),
+            on="sideboard",
+            inside="sideboard.upper",
+            color="white",
+        ),
+    )
+
+
+def study() -> SceneState:
+    """A letter on an envelope, scissors in one of two mugs, erasers, a letter tray, a cabinet."""
+    return scene(
+        item("pencil_case", "bowl", (0.30, 0.30), size=(0.22, 0.10, 0.05), color="blue"),
+        item("envelope", "box", (0.30, 0.05), size=(0.22, 0.11, 0.005), color="white"),
+        item(
+            "letter",
+            "box",
+            (0.30, 0.05),
+            size=(0.20, 0.10, 0.003),
+            on="envelope",
+            color="white",
+            z=0.14,
+        ),
+        item("sticky_notes", "box", (0.30, -0.15), size=(0.08, 0.08, 0.02), color="yellow"),
+        item("glue_stick", "cylinder", (0.40, 0.20), size=(0.03, 0.03, 0.10), color="white"),
+        cup("black_mug", (0.42, -0.05), color="black"),
+        item(
+            "scissors",
+            "capsule",
+            (0.42, -0.05),
+            size=(0.15, 0.05, 0.01),
+            on="black_mug",
+            inside="black_mug",
+            color="red",
+            z=0.2,
+        ),
+        cup("white_mug", (0.42, -0.25), color="white"),
+        item("laptop", "box", (0.55, 0.05), size=(0.32, 0.22, 0.02), color="gray"),
+        item(
+            "letter_tray",
+            "shelf",
+            (0.66, -0.35),
+            size=(0.25, 0.33, 0.20),
+            boards=("lower", "upper"),
+        ),
+        drawers("filing_cabinet", (0.66, 0.40), {"top": 0.0, "bottom": 0.9}, color="gray"),
+        item("pink_eraser", "box", (0.25, -0.30), size=(0.04, 0.02, 0.015), color="pink"),
+        item("white_eraser", "box", (0.25, -0.40), size=(0.04, 0.02, 0.015), color="white"),
+        item("ruler", "capsule", (0.36, -0.36), size=(0.20, 0.02, 0.01), color="yellow"),
+    )
+
+
+def toys() -> SceneState:
+    """Blocks, one of them in the open drawer, two cars, a duck on a tray, a teddy on a shelf."""
+    return scene(
+        item("red_block", "box", (0.30, 0.25), size=CUBE, color="red"),
+        item("blue_block", "box", (0.30, 0.10), size=CUBE, color="blue"),
+        drawers("drawer", (0.62, 0.10), {"main": 0.9}, color="brown"),
+        item(
+            "pink_block", "box", (0.55, 0.10), size=CUBE, on="drawer", inside="drawer", color="pink"
+        ),
+        item("tray", "box", (0.42, -0.15), size=(0.25, 0.18, 0.02), color="green"),
+        item(
+            "duck",
+            "sphere",
+            (0.40, -0.12),
+            size=(0.05, 0.05, 0.05),
+            on="tray",
+            color="yellow",
+            label="rubber duck",
+            z=0.17,
+        ),
+        item(
+            "green_car",
+            "box",
+            (0.30, -0.05),
+            size=(0.10, 0.05, 0.04),
+            label="toy car",
+            color="green",
+        ),
+        item(
+            "blue_car", "box", (0.30, -0.30), size=(0.10, 0.05, 0.04), label="toy car", color="blue"
+        ),
+        item("basket", "bowl", (0.48, 0.38), size=(0.22, 0.22, 0.10), color="brown"),
+        item("shelf", "shelf", (0.66, -0.40), size=(0.25, 0.30, 0.4), boards=("lower", "upper")),
+        item(
+            "teddy",
+            "box",
+            (0.66, -0.40),
+            size=(0.08, 0.08, 0.12),
+            label="teddy bear",
+            color="brown",
+            on="shelf.upper",
+            z=0.5,
+        ),
+    )
+
+
+def garage() -> SceneState:
+    """Three batteries alike, tools, pliers in a toolbox, bins, paint cans, a cart of drawers."""
+    return scene(
+        item(
+            "battery_1",
+            "cylinder",
+            (0.25, 0.30),
+            size=(0.03, 0.03, 0.06),
+            label="battery",
+            color="black",
+        ),
+        item(
+            "battery_2",
+            "cylinder",
+            (0.25, 0.15),
+            size=(0.03, 0.03, 0.06),
+            label="battery",
+            color="black",
+        ),
+        item(
+            "battery_3",
+            "cylinder",
+            (0.25, 0.00),
+            size=(0.03, 0.03, 0.06),
+            label="battery",
+            color="black",
+        ),
+        item(
+            "flat_driver",
+            "pen",
+            (0.30, -0.15),
+            size=(0.18, 0.02, 0.02),
+            label="flathead screwdriver",
+            color="yellow",
+        ),
+        item(
+            "cross_driver",
+            "pen",
+            (0.30, -0.30),
+            size=(0.18, 0.02, 0.02),
+            label="phillips screwdriver",
+            color="red",
+        ),
+        item("toolbox", "bowl", (0.45, 0.30), size=(0.25, 0.18, 0.10), color="gray"),
+        item(
+            "pliers",
+            "box",
+            (0.45, 0.30),
+            size=(0.12, 0.05, 0.02),
+            on="toolbox",
+            inside="toolbox",
+            color="orange",
+            z=0.17,
+        ),
+        item("small_bin", "bowl", (0.45, 0.05), size=(0.12, 0.12, 0.06), label="bin", color="red"),
+        item(
+            "large_bin", "bowl", (0.45, -0.20), size=(0.18, 0.18, 0.08), label="bin", color="blue"
+        ),
+        item(
+            "paint_1",
+            "cylinder",
+            (0.58, 0.15),
+            size=(0.10, 0.10, 0.12),
+            label="paint can",
+            color="green",
+        ),
+        item(
+            "paint_2",
+            "cylinder",
+            (0.58, -0.05),
+            size=(0.10, 0.10, 0.12),
+            label="paint can",
+            color="white",
+        ),
+        item("lid", "cylinder", (0.45, -0.42), size=(0.10, 0.10, 0.01), color="gray"),
+        drawers("cart", (0.68, -0.35), {"upper": 0.0, "lower": 0.0}, color="black"),
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -15,7 +15,9 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
     found = [first, *more]
     for index in range(len(found) - 1, -1, -1):
         item = found[index]
-        adjectives = bool(item.words) and all(map(is_descriptive, item.words))
+        adjectives = bool(item.words) and all(
+            is_descriptive(word) or word in LEVELS for word in item.words
+        )
         if index and (*item.words, item.determiner)[0].isdigit():
             # "Cubes 1, 2 and 4": the numbers of things, no counts of them.
             before = next((np.words for np in found[index - 1 :: -1] if len(np.words) > 1), ("",))

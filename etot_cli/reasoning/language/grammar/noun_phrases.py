@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import EITHER, LIST, NOUN_WORD, OR
+from etot_cli.reasoning.language.grammar.common import (
+    AND,
+    COMMA,
+    EITHER,
+    NOUN_WORD,
+    OPTIONAL_COMMA,
+    OR,
+)
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
@@ -169,10 +176,23 @@ def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ..
     return None if nps is None or (both and len(nps) < 2) else nps
 
 
+def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
+    """Several phrases; in "the cup, the left one" no "and" says that there are two."""
+    joined = any(said for said, _ in more)
+    apposed = any(np.words[-1:] == ("one",) for _, np in more)
+    return None if apposed and not joined else coordinated(first, tuple(np for _, np in more))
+
+
 _COORDINATION = sequence(
     noun_phrase,
-    some(sequence(LIST, noun_phrase, build=lambda np: np), most=9),
-    build=coordinated,
+    some(
+        either(
+            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(OPTIONAL_COMMA, AND, noun_phrase, build=lambda np: (True, np)),
+        ),
+        most=9,
+    ),
+    build=_listed,
 )
 exceptions.define(_COORDINATION)
 NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))

@@ -159,7 +159,8 @@ class Resolver:
         )
         if (quantity.every or phrase.determiner == "one") and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
-        nameless = noun is None and words[-1] in ("one", "ones") and role is not Role.ANY
+        unnamed = noun is None or matches_any(noun, THING_NOUNS)
+        nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
         if nameless and match.selectors:
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         things = [entry.thing for entry in match.entries]

@@ -18,6 +18,7 @@ DETERMINERS = (
     f"(all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT})",
     "(every|any|each|some) other",
     f"({_COUNT}) [of] [the|these|those|other|more|of the other]",
+    f"one of (the|these|those) ({_COUNT})",
     "one of the (other|remaining), [any] one of (the|these|those|my|your|),"
     " any of (the|these|those|)",
     "exactly one, exactly two, just one, half of the, none of the, no",
