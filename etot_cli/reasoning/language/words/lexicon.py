@@ -6,6 +6,7 @@ Words for particular objects come from the scene itself, from each object's name
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 from etot_cli.world.colors import BASIC_COLORS, NAMED_COLORS, nearest_basic
 
@@ -167,6 +168,7 @@ def is_descriptive(text: str) -> bool:
     return described or basic_color(text) is not None
 
 
+@lru_cache(maxsize=4096)
 def singular(word: str) -> str:
     """The singular of a regular noun; other words come back as they are."""
     if word in _IRREGULAR:
