@@ -18,6 +18,9 @@ PARENT_CHECK_S = 0.25
 """Between two looks at whether the parent lives, where the kernel does not tell [s]."""
 OUT_OF_MEMORY = 77
 """Exit code of a worker that memory ran out in; what it still holds is not worth keeping."""
+SELDOM = 50_000
+"""New objects between two searches for garbage: working out and stepping an action makes some
+hundred thousand, hardly any in cycles; at Python's own 700 that took a twentieth of the time."""
 _PR_SET_PDEATHSIG = 1
 """From Linux's ``prctl.h``."""
 
@@ -71,6 +74,7 @@ def work(
         # What stays as long as the worker does is not searched for garbage again and again, nor are
         # the pages that it shares with the parent copied for that.
         gc.freeze()
+        gc.set_threshold(SELDOM)
         while True:
             function, given = pipe.recv()
             try:
