@@ -116,8 +116,11 @@ def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = No
                     break
     except KeyboardInterrupt:
         interrupted = True
-    trials.sort(key=lambda trial: trial.number)
-    return Execution(_report(options, task, trials, interrupted, watch), task, trials)
+    try:
+        report = _report(options, task, trials, interrupted, watch)
+    except KeyboardInterrupt:  # further ones are held off for longer than this takes
+        report = _report(options, task, trials, True, watch)
+    return Execution(report, task, trials)
 
 
 def _trials(
@@ -207,6 +210,7 @@ def _report(
     interrupted: bool,
     watch: Stopwatch,
 ) -> ExecuteReport:
+    trials.sort(key=lambda trial: trial.number)
     interrupted = interrupted or any(trial.status == "interrupted" for trial in trials)
     successes = sum(trial.success for trial in trials)
     good = sum(trial.success or trial.status == "planned" for trial in trials)

@@ -16,6 +16,7 @@ import pytest
 from rich.console import Console
 
 from etot_cli.cli.app import run
+from etot_cli.commands import execute
 from etot_cli.commands.execute import ExecuteOptions, run_execute
 from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
 from etot_cli.reporting.page.execute_page import execute_page
@@ -185,3 +186,17 @@ def test_what_a_worker_is_told_in_secret_is_told_to_nobody(
     said += (out / "report.html").read_text("utf-8")
     assert "bridge.py" in said and "[redacted]" in said
     assert "-secret" not in said
+
+
+def test_ctrl_c_while_the_report_is_made_does_not_cost_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    genuine = execute.attribution_of
+
+    def once(trials: object) -> object:
+        monkeypatch.setattr(execute, "attribution_of", genuine)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(execute, "attribution_of", once)
+    found = run_execute(ExecuteOptions(task=Path(write(tmp_path)), dry_run=True))
+    assert found.report.interrupted and len(found.trials) == 1
