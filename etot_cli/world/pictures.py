@@ -90,8 +90,10 @@ class PictureRenderer:
         if outlined:
             _, geoms = self._renderer.depth_and_geoms()
             owners = np.array(self._world.geom_object)
-            for name in outlined:
-                image = outline(image, np.isin(geoms, np.flatnonzero(owners == name)), name)
+            seen = {name: np.isin(geoms, np.flatnonzero(owners == name)) for name in outlined}
+            # Small things last: a large one's line does not cross their names.
+            for name in sorted(seen, key=lambda name: -int(seen[name].sum())):
+                image = outline(image, seen[name], name)
         return write_caption(image, caption, tone) if caption else image
 
 
