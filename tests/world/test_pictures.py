@@ -111,7 +111,8 @@ def test_long_captions_are_cut() -> None:
     image = np.full((200, 320, 3), 200, dtype=np.uint8)
     captioned = write_caption(image.copy(), "long words " * 40, "plain")
     assert captioned.shape == image.shape
-    assert (captioned[:150] == 200).all()
+    assert (captioned[:134] == 200).all(), "three lines of 19 px, no more"
+    assert (captioned[140:150] != 200).any()
     assert captioned[-20:, -4:].min() > 180, "nothing runs out of the picture"
 
 
