@@ -19,8 +19,8 @@ PARENT_CHECK_S = 0.25
 OUT_OF_MEMORY = 77
 """Exit code of a worker that memory ran out in; what it still holds is not worth keeping."""
 SELDOM = 50_000
-"""New objects between two searches for garbage: working out and stepping an action makes some
-hundred thousand, hardly any in cycles; at Python's own 700 that took a twentieth of the time."""
+"""New objects between two searches for garbage. Hardly any are in cycles; at Python's own 700 the
+searches took a twentieth of a plan's time and more."""
 _PR_SET_PDEATHSIG = 1
 """From Linux's ``prctl.h``."""
 
