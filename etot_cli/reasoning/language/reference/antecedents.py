@@ -1,10 +1,11 @@
-"""What is said of words that may mean several things, or nothing."""
+"""What was spoken of, and what is said of words that may mean several things, or nothing."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 
 UNCLEAR = "it is not clear what this refers to"
 
@@ -20,3 +21,17 @@ class AmbiguousReference(ReferenceProblem):
 
     def __init__(self, text: str, named: Sequence[str], why: str = "it may mean") -> None:
         super().__init__(text, f"{why} {' or '.join(dict.fromkeys(named))}; name it", 4)
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """A referent spoken of in a clause, in a role."""
+
+    referent: int
+    role: Role
+    clause: int
+    noun: str
+    several: bool = False
+    """It speaks of all that fit, even where that is one."""
+    whatever: bool = False
+    """It speaks of whatever is somewhere, which nothing is put into or onto."""

@@ -7,7 +7,11 @@ from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import (
+    UNCLEAR,
+    AmbiguousReference,
+    Mention,
+)
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun, singular
 from etot_cli.world.state import DESK, SceneState
@@ -17,20 +21,6 @@ FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mention:
-    """A referent spoken of in a clause, in a role."""
-
-    referent: int
-    role: Role
-    clause: int
-    noun: str
-    several: bool = False
-    """It speaks of all that fit, even where that is one."""
-    whatever: bool = False
-    """It speaks of whatever is somewhere, which nothing is put into or onto."""
 
 
 @dataclass

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
@@ -75,3 +76,27 @@ def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:
     if len(landmarks) == 1:
         return [(mark,) for mark in landmarks[0]]
     return [(one, two) for one in landmarks[0] for two in landmarks[1] if one != two]
+
+
+def means_the_others(modifier: Modifier) -> bool:
+    """Whether "between the other two" is said of one of three."""
+    (first, *more) = modifier.phrases
+    return not more and not first.pronoun and quantity_of(first.determiner).other
+
+
+def between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneState) -> list[Thing]:
+    """Of three things the one in the middle.
+
+    Raises:
+        ReferenceProblem: none is, or several are.
+    """
+    found = [
+        thing
+        for thing in things
+        if len(others := [item for item in things if item != thing]) == 2
+        and space.holds_at(Prep.BETWEEN, thing, others, scene)
+    ]
+    if len(found) != 1:
+        names = ", ".join(thing.name for thing in things)
+        raise ReferenceProblem(phrase.text, f"one of {names} should be between two others", 2)
+    return found

@@ -18,7 +18,12 @@ from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
-from etot_cli.reasoning.language.reference.landmarks import RANKED, related
+from etot_cli.reasoning.language.reference.landmarks import (
+    RANKED,
+    between_the_others,
+    means_the_others,
+    related,
+)
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
@@ -77,25 +82,6 @@ def _is_one(phrase: NounPhrase) -> bool:
     quantity = quantity_of(phrase.determiner)
     plural = not phrase.words or singular(phrase.words[-1]) != phrase.words[-1]
     return quantity.definite and not quantity.every and quantity.count in (None, 1) and not plural
-
-
-def _means_the_others(modifier: Modifier) -> bool:
-    """Whether "between the other two" is said of one of three."""
-    (first, *more) = modifier.phrases
-    return not more and not first.pronoun and quantity_of(first.determiner).other
-
-
-def _between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneState) -> list[Thing]:
-    found = [
-        thing
-        for thing in things
-        if len(others := [item for item in things if item != thing]) == 2
-        and space.holds_at(Prep.BETWEEN, thing, others, scene)
-    ]
-    if len(found) != 1:
-        names = ", ".join(thing.name for thing in things)
-        raise ReferenceProblem(phrase.text, f"one of {names} should be between two others", 2)
-    return found
 
 
 class Resolver:
@@ -278,8 +264,8 @@ class Resolver:
                 raise ReferenceProblem(phrase.text, why, 2)
             if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
                 continue
-            if modifier.prep is Prep.BETWEEN and _means_the_others(modifier):
-                things = _between_the_others(things, phrase, self._scene)
+            if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
+                things = between_the_others(things, phrase, self._scene)
                 continue
             if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
                 raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)

@@ -13,10 +13,8 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
-from etot_cli.reasoning.language.reference.usual_form import is_robot
+from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
-    LEVELS,
     ORDINALS,
     THING_NOUNS,
     is_descriptive,
@@ -104,7 +102,7 @@ class Phrases:
     ) -> tuple[int, ...]:
         """The referents of a phrase, none of ``excluded``; a plural pronoun may have several."""
         plain_pronoun = phrase.pronoun and not phrase.modifiers
-        if plain_pronoun and not _chooses(phrase.determiner):
+        if plain_pronoun and not chooses(phrase.determiner):
             found = self.discourse.antecedents(
                 "them" if phrase.determiner else phrase.pronoun, role, phrase.text, excluded
             )
@@ -250,7 +248,7 @@ class Phrases:
         elliptic = phrase.words[-1:] in (("one",), ("ones",))
         if noun is not None and elliptic:
             self._check_count(phrase, noun)
-        if noun is not None and not is_descriptive(noun) and _leaves_noun_out(phrase):
+        if noun is not None and not is_descriptive(noun) and leaves_noun_out(phrase):
             self._check_count(phrase, noun)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other
@@ -343,21 +341,3 @@ class Phrases:
             return found
         indices = self.discourse.antecedents(phrase.pronoun, Role.ANY, phrase.text)
         return [tuple(thing for index in indices for thing in self.discourse.things(index))]
-
-
-def _leaves_noun_out(phrase: NounPhrase) -> bool:
-    """Whether a phrase has but adjectives ("on the middle board … on the highest")."""
-    several = any(item.prep is Prep.OF for item in phrase.modifiers)  # "the left of the cups"
-    return (
-        bool(phrase.words)
-        and not several
-        and all(
-            (is_descriptive(word) or word in LEVELS) and word not in COMMON_NOUNS
-            for word in phrase.words
-        )
-    )
-
-
-def _chooses(determiner: str) -> bool:
-    """Whether a determiner before a pronoun picks some of them ("one of them")."""
-    return bool(determiner) and determiner.split()[0] not in ("all", "both", "each", "every")

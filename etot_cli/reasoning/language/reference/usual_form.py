@@ -7,7 +7,15 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIDES, SIZES, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    ORDINALS,
+    SIDES,
+    SIZES,
+    is_descriptive,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
@@ -73,3 +81,21 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
         )
     return phrase
+
+
+def leaves_noun_out(phrase: NounPhrase) -> bool:
+    """Whether a phrase has but adjectives ("on the middle board … on the highest")."""
+    several = any(item.prep is Prep.OF for item in phrase.modifiers)  # "the left of the cups"
+    return (
+        bool(phrase.words)
+        and not several
+        and all(
+            (is_descriptive(word) or word in LEVELS) and word not in COMMON_NOUNS
+            for word in phrase.words
+        )
+    )
+
+
+def chooses(determiner: str) -> bool:
+    """Whether a determiner before a pronoun picks some of them ("one of them")."""
+    return bool(determiner) and determiner.split()[0] not in ("all", "both", "each", "every")
