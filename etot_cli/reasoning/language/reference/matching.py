@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.reference.unmatched import (
+    names_of,
+    not_understood,
+    nothing_fits,
+)
 from etot_cli.reasoning.language.reference.vocabulary import (
     EXACT,
     GENERIC,
@@ -16,12 +20,10 @@ from etot_cli.reasoning.language.reference.vocabulary import (
     is_general_noun,
     is_of_parts,
 )
-from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
     LEVELS,
-    MATERIALS,
     ORDINALS,
     PURPOSES,
     SIDES,
@@ -104,7 +106,7 @@ def match_words(
                 found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
         if found is not None:
             return found
-    raise _nothing(head, adjectives, number, vocabulary, phrase)
+    raise nothing_fits(head, adjectives, number, vocabulary, phrase)
 
 
 def _by_color(
@@ -121,7 +123,7 @@ def _by_color(
     found = _match_in(colored, words, "object", number, vocabulary, phrase)
     if found is None:
         return None
-    names = _names(found.entries)
+    names = names_of(found.entries)
     return replace(found, notes=(*found.notes, f"read {color!r} as the colour of {names}"))
 
 
@@ -192,7 +194,7 @@ def _match_in(
     best = min(grade for _, grade in sifted.graded)
     entries = tuple(entry for entry, grade in sifted.graded if grade == best)
     if sifted.unknown:
-        raise _not_understood(sifted.unknown[0], entries, vocabulary, phrase)
+        raise not_understood(sifted.unknown[0], entries, phrase)
     if matches_any(head, THING_NOUNS):
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
@@ -201,7 +203,7 @@ def _match_in(
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
     if loose and any(_is_object(entry) for entry in entries):
-        sifted.notes.append(f"read {head!r} as {_names(entries)}")
+        sifted.notes.append(f"read {head!r} as {names_of(entries)}")
     return Match(
         entries,
         tuple(sifted.selectors),
@@ -243,7 +245,7 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
             sifted.unknown.append(word)
             return
         sifted.graded = apt
-        names = _names([entry for entry, _ in apt])
+        names = names_of([entry for entry, _ in apt])
         sifted.notes.append(f"took {word!r} for what {names} is for")
         sifted.dropped.append(word)
     else:
@@ -269,13 +271,9 @@ def _of_color(sifted: _Sifted, word: str, color: str) -> list[tuple[Entry, int]]
     # A thing of unknown colour may have any.
     found = near or [item for item in graded if not item[0].is_colored()]
     if found:
-        names = _names([entry for entry, _ in found])
+        names = names_of([entry for entry, _ in found])
         sifted.notes.append(f"took {names} for {word!r}")
     return found
-
-
-def _names(entries: Iterable[Entry]) -> str:
-    return " or ".join(dict.fromkeys(entry.exact[0] for entry in entries))
 
 
 def _graded(pool: list[Entry], head: str) -> list[tuple[Entry, int]]:
@@ -315,43 +313,3 @@ def _at_level(graded: list[tuple[Entry, int]], level: str) -> list[tuple[Entry, 
         if level != "middle" or len(stacked) % 2:
             found.append(stacked[index])
     return found
-
-
-def _not_understood(
-    word: str, entries: Sequence[Entry], vocabulary: Vocabulary, phrase: str
-) -> ReferenceProblem:
-    names = _names(entries)
-    if word in MATERIALS:
-        why = f"the scene does not say what {names} is made of"
-    else:
-        why = f"no word of {names}, and no word for a place, size or state"
-    return ReferenceProblem(phrase, f"{word!r} is not understood: {why}", 3, word=word)
-
-
-def _nothing(
-    head: str,
-    adjectives: Sequence[str],
-    number: str | None,
-    vocabulary: Vocabulary,
-    phrase: str,
-) -> ReferenceProblem:
-    everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards)
-    alike = [entry for entry in everything if entry.grade(head) is not None]
-    what = " ".join((*adjectives, head, *((number,) if number else ())))
-    if alike:
-        names = ", ".join(dict.fromkeys(entry.exact[0] for entry in alike))
-        return ReferenceProblem(
-            phrase, f"there is no {what!r}; what fits {head!r}: {names}", 1, word=what,
-            candidates=tuple(dict.fromkeys(entry.exact[0] for entry in alike)),
-        )  # fmt: skip
-    known = REASONS.get(head)
-    if known:
-        return ReferenceProblem(phrase, f"{head!r}: {known}", 3, word=head)
-    near = vocabulary.nearest(head)
-    return ReferenceProblem(
-        phrase,
-        f"nothing in the scene is called {head!r}; "
-        + (f"nearest: {', '.join(near)}" if near else f"it has {vocabulary.names()} and the desk"),
-        word=head,
-        candidates=tuple(near),
-    )
