@@ -115,7 +115,7 @@ def execute(
         dry_run=dry_run,
         yes=yes,
         grasp_url=grasp_url,
-        record=video,
+        record=(html or video) and not dry_run,
         limits=Limits(max_nodes=max_nodes),
     )
     with session.execution_observer() as observer:
@@ -134,7 +134,9 @@ def execute(
             report.interrupted = True
             session.save(report)
         if html and not report.interrupted:
-            session.add_page(report, lambda told: write_execute_page(execution, session.folder))
+            session.add_page(
+                report, lambda told: write_execute_page(execution, session.folder, told)
+            )
     from etot_cli.reporting.run_summary import execute_summary
 
     code = session.conclude(report, path, lambda out: execute_summary(out, report, path))

@@ -53,6 +53,7 @@ class ExecuteOptions:
     yes: bool = False
     grasp_url: str | None = None
     record: bool = False
+    """Keep the first trial's motions, and foresee them, for pages and films."""
     limits: Limits = field(default_factory=Limits)
 
     def trial(self, number: int) -> TrialOptions:
@@ -63,7 +64,7 @@ class ExecuteOptions:
             disturb=self.disturb,
             replan=self.replan,
             perception=self.perception,
-            record=self.record,
+            record=self.record and number == 0,
             dry_run=self.dry_run,
         )
 

@@ -2,29 +2,46 @@
 
 from __future__ import annotations
 
-import base64
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from etot_cli.commands.execute import Execution
-from etot_cli.commands.pages import PAGE_NAME, cores
+from etot_cli.commands.pages import (
+    MAX_REPLAY_FRAMES,
+    PAGE_NAME,
+    Wanted,
+    coarse_first,
+    cores,
+    take_pictures,
+)
 from etot_cli.commands.render import rendering
-from etot_cli.execution.records import Trial
+from etot_cli.execution.records import Carried, Trial
+from etot_cli.execution.world import AWAY, AWAY_SPACING
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.execute_page import execute_page
+from etot_cli.reporting.page.replay import Track
+from etot_cli.reporting.page.topview import top_view
 from etot_cli.reporting.provenance import add_phase
 from etot_cli.specs.scene import Scene
+from etot_cli.world.configurations import states_of
+from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
+from etot_cli.world.state import ObjectState, SceneState
+from etot_cli.world.studio import Progress, Shot, alike
 
 if TYPE_CHECKING:
     from etot_cli.world.film import Take
     from etot_cli.world.pictures import Tone
-    from etot_cli.world.studio import Progress
 
 FILM_SIZE = (640, 360)
-"""Of each of the two films, which a page shows side by side [px]."""
-EMBEDDED_BYTES = 4_000_000
-"""Larger films are not put into the page but stay beside it."""
+"""Of each of the two films, to be played side by side [px]."""
+FRAMES_PER_S = 2.0
+"""Of each world in the page's replay: two worlds take twice the pictures of a simulation's."""
 
 
 def write_films(execution: Execution, folder: Path, progress: Progress | None = None) -> None:
@@ -76,21 +93,135 @@ def _takes(trial: Trial, *, foreseen: bool) -> list[Take]:
     return found
 
 
-def write_execute_page(execution: Execution, folder: Path) -> Path:
-    """Writes the page, with the films that are in the folder.
+def write_execute_page(
+    execution: Execution, folder: Path, progress: Progress | None = None
+) -> Path:
+    """Writes the page, with the replay of the first trial where its motions were recorded.
 
     Raises:
-        EtotError: it cannot be written.
+        EtotError: the page cannot be written.
     """
-    films = []
-    for name, caption in (
-        ("world", "The world, as it went"),
-        ("twin", "The twin: what was foreseen from what was seen"),
-    ):
-        file = execution.report.files.get(name)
-        if file is not None and (folder / file).stat().st_size <= EMBEDDED_BYTES:
-            content = base64.b64encode((folder / file).read_bytes()).decode()
-            films.append((caption, f"data:video/mp4;base64,{content}"))
+    report = execution.report
+    begun = time.monotonic()
+    films = _films(execution.trials[0]) if execution.trials else []
+    pictures, notice = take_pictures(
+        [(film.scene, coarse_first(film.wanted)) for film in films], progress
+    )
+    if films:
+        add_phase(report.timing, "render", time.monotonic() - begun)
     path = folder / PAGE_NAME
-    write_atomically(path, execute_page(execution.report, execution.trials, films))
+    tracks = [film.track for film in films]
+    write_atomically(path, execute_page(report, execution.trials, tracks, pictures, notice))
     return path
+
+
+@dataclass(frozen=True, slots=True)
+class _Film:
+    """A world's pictures on the robot's time."""
+
+    scene: Scene
+    wanted: Sequence[Wanted]
+    track: Track
+
+
+def _films(trial: Trial) -> list[_Film]:
+    """What happened, and what was foreseen, as single frames."""
+    named = (
+        ("w", "The world, as it went", trial.true_scene, False),
+        ("t", "The twin: what was foreseen from what was seen", trial.scene, True),
+    )
+    there = [
+        (letter, name, scene, pieces)
+        for letter, name, scene, foreseen in named
+        if scene is not None and (pieces := _pieces(trial, foreseen=foreseen))
+    ]
+    seconds = sum(piece.seconds for *_, pieces in there for piece in pieces)
+    rate = min(FRAMES_PER_S, MAX_REPLAY_FRAMES / max(seconds, 1e-3))
+    return [_film(letter, name, scene, pieces, rate) for letter, name, scene, pieces in there]
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """One motion in a world: on the robot's time from ``start`` on, for so many seconds."""
+
+    item: Carried
+    trajectory: Trajectory
+    start: float
+    seconds: float
+    foreseen: bool
+
+    @property
+    def parted_s(self) -> list[float]:
+        """When the worlds parted within it, since its start [s]; empty where they did not."""
+        parted = self.item.parted
+        since = -1.0 if parted is None else parted.time_s - self.start
+        return [since] if 0.0 <= since <= self.seconds else []
+
+    def outlined(self, time_s: float) -> tuple[str, ...]:
+        """What failed, at its end, and what has parted from the other world by then."""
+        item, names = self.item, []
+        if item.parted is not None and time_s >= item.parted.time_s:
+            names.append(item.parted.name)
+        if item.cause is not None and not self.foreseen and time_s > item.end_s - FRAME_PERIOD:
+            names += item.cause.objects
+        return tuple(dict.fromkeys(names))
+
+
+def _pieces(trial: Trial, *, foreseen: bool) -> list[_Piece]:
+    """The motions of a trial in one of its worlds, in order of time."""
+    found = []
+    widths = [len(one.qpos[0]) for item in trial.actions for one in item.foreseen]
+    for item in trial.actions:
+        start = item.begin_s
+        trajectories = item.foreseen if foreseen else item.trajectories
+        if len(trajectories) != len(item.traces):
+            continue  # which motion was not recorded is not known
+        for trace, trajectory in zip(item.traces, trajectories, strict=True):
+            lasted = trace.phases[-1].end_s if trace.phases else 0.0
+            # Before something came onto the scene, the twin was another model.
+            if len(trajectory.times) and (not foreseen or len(trajectory.qpos[0]) == max(widths)):
+                # What the twin goes on to do after the robot stopped did not come to pass.
+                whole = float(trajectory.times[-1] - trajectory.times[0])
+                found.append(_Piece(item, trajectory, start, min(whole, lasted), foreseen))
+            start += lasted
+    return found
+
+
+def _film(letter: str, name: str, scene: Scene, pieces: Sequence[_Piece], rate: float) -> _Film:
+    shots: list[Shot] = []
+    frames: list[tuple[float, str]] = []
+    for piece in pieces:
+        times = piece.trajectory.times - piece.trajectory.times[0]
+        even = np.linspace(0.0, piece.seconds, max(2, round(piece.seconds * rate) + 1))
+        for moment in np.union1d(even, piece.parted_s):
+            now = piece.start + float(moment)
+            row = int(np.argmin(np.abs(times - moment)))
+            shot = Shot(piece.trajectory.qpos[row], piece.outlined(now))
+            if shots and alike(shots[-1], shot):
+                continue  # what stands still needs no second picture
+            frames.append((now, f"{letter}{len(shots)}"))
+            shots.append(shot)
+
+    @cache
+    def states() -> list[SceneState]:
+        found = states_of(scene, [shot.qpos for shot in shots])
+        return [
+            replace(state, states={n: s for n, s in state.states.items() if not _away(s)})
+            for state in found
+        ]
+
+    def drawn(index: int) -> bytes:
+        return top_view(states()[index], culprits=shots[index].outlined, framed=states()[0])
+
+    wanted = [
+        Wanted(key, shot, partial(drawn, index))
+        for index, ((_, key), shot) in enumerate(zip(frames, shots, strict=True))
+    ]
+    return _Film(scene, wanted, Track(name, frames))
+
+
+def _away(state: ObjectState) -> bool:
+    """Whether an object is not on the scene: taken away, or not there yet."""
+    return all(
+        at > beyond - AWAY_SPACING / 2 for at, beyond in zip(state.position[:2], AWAY, strict=True)
+    )

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import sqrt
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,8 @@ from etot_cli.errors import EtotError
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.pictures import Frame, Picture
 from etot_cli.reporting.page.plan_page import plan_page
-from etot_cli.reporting.page.simulate_page import Track, simulate_page
+from etot_cli.reporting.page.replay import Track
+from etot_cli.reporting.page.simulate_page import simulate_page
 from etot_cli.reporting.page.topview import top_view
 from etot_cli.reporting.provenance import add_phase
 from etot_cli.specs.scene import Scene
@@ -57,16 +59,20 @@ AFTERMATH_S = 0.25
 """A failure is best seen when its effect shows, shortly after its cause [s]."""
 
 
-@dataclass(slots=True)
-class _Plan:
-    """A picture that a page wants: what to render, and what to draw instead."""
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A picture that a page wants: what to render, and how to draw it instead, as SVG."""
 
     key: str
     shot: Shot | None
-    record: RolloutRecord
-    first: bool
-    """Of the moment before the action, not after it."""
-    culprits: tuple[str, ...]
+    drawn: Callable[[], bytes]
+
+
+def _from_above(record: RolloutRecord, culprits: tuple[str, ...], *, first: bool) -> bytes:
+    """The desk before an action, or after it."""
+    if first:
+        return top_view(record.before)
+    return top_view(record.after, before=record.before, culprits=culprits)
 
 
 def write_plan_page(planning: Planning, folder: Path, progress: Progress | None = None) -> Path:
@@ -81,7 +87,7 @@ def write_plan_page(planning: Planning, folder: Path, progress: Progress | None 
         EtotError: the page cannot be written.
     """
     report = planning.report
-    wanted: list[_Plan] = []
+    wanted: list[Wanted] = []
     frames: dict[int, list[Frame]] = {}
     parents = {node.id: node.parent for node in report.tree.nodes}
     for number in _by_importance(planning):
@@ -91,7 +97,7 @@ def write_plan_page(planning: Planning, folder: Path, progress: Progress | None 
         frames[number] = _frames_of(number, outcome, culprits, cause.time_s if cause else None,
                                     parents[number], planning, wanted)  # fmt: skip
     begun = time.monotonic()
-    pictures, notice = _take(planning.scene, wanted, progress)
+    pictures, notice = take_pictures([(planning.scene, wanted)], progress)
     add_phase(report.timing, "render", time.monotonic() - begun)
     path = folder / PAGE_NAME
     write_atomically(path, plan_page(report, frames, pictures, notice))
@@ -112,7 +118,7 @@ def write_simulate_page(
     durations = (
         [float(t.times[-1] - t.times[0]) for t in films] if whole else [1.0] * len(report.steps)
     )
-    wanted: list[_Plan] = []
+    wanted: list[Wanted] = []
     frames: list[tuple[float, str]] = []
     start = 0.0
     rate = min(REPLAY_RATE, MAX_REPLAY_FRAMES / max(sum(durations), 1e-3))
@@ -132,11 +138,11 @@ def write_simulate_page(
             if shot is not None and last is not None and alike(last, shot):
                 continue  # what stands still needs no second picture
             first = time_s < duration / 2
-            wanted.append(_Plan(key, shot, record, first, () if first else culprits))
+            wanted.append(Wanted(key, shot, partial(_from_above, record, culprits, first=first)))
             frames.append((start + float(time_s), key))
         start += duration
     begun = time.monotonic()
-    pictures, notice = _take(simulation.scene, _coarse_first(wanted), progress)
+    pictures, notice = take_pictures([(simulation.scene, coarse_first(wanted))], progress)
     add_phase(report.timing, "render", time.monotonic() - begun)
     track = Track("The simulation", frames)
     path = folder / PAGE_NAME
@@ -144,7 +150,7 @@ def write_simulate_page(
     return path
 
 
-def _coarse_first(wanted: Sequence[_Plan]) -> list[_Plan]:
+def coarse_first(wanted: Sequence[Wanted]) -> list[Wanted]:
     """In such an order that those rendered when time is up are evenly spread over the film."""
     order = sorted(range(len(wanted)), key=lambda index: -((index & -index) or len(wanted)))
     return [wanted[index] for index in order]
@@ -165,7 +171,7 @@ def _frames_of(
     failed_s: float | None,
     parent: int | None,
     planning: Planning,
-    wanted: list[_Plan],
+    wanted: list[Wanted],
 ) -> list[Frame]:
     """Before, the key moment and after an action; enters what has to be rendered."""
     record = outcome.record
@@ -181,7 +187,7 @@ def _frames_of(
         shot = None
         if rows is not None and row is not None:
             shot = Shot(rows[row], () if first else culprits)
-        wanted.append(_Plan(key, shot, record, first, () if first else culprits))
+        wanted.append(Wanted(key, shot, partial(_from_above, record, culprits, first=first)))
 
     if before == "start":
         want(before, 0, True)
@@ -210,37 +216,45 @@ def _key_moment(trajectory: Trajectory, failed_s: float | None, duration: float)
     return next((t for t in candidates if AFTERMATH_S < t < duration - AFTERMATH_S), None)
 
 
-def _take(
-    scene: Scene | None, wanted: Sequence[_Plan], progress: Progress | None
+def take_pictures(
+    films: Sequence[tuple[Scene | None, Sequence[Wanted]]], progress: Progress | None
 ) -> tuple[dict[str, Picture], str]:
-    """The pictures by key, rendered where that can be done, and a line on why where it cannot."""
+    """The pictures by key, rendered where that can be done, and a line on why where it cannot.
+
+    Args:
+        films: scenes with what is wanted of each, the most important first.
+        progress: told of every picture.
+    """
     pictures: dict[str, Picture] = {}
     notice = ""
-    shots = [plan for plan in wanted if plan.shot is not None]
-    if scene is not None and shots:
-        framed = next(plan.shot.qpos for plan in wanted if plan.shot is not None)
-        studio = page_studio(scene, framed, len(shots))
-        try:
+    count = sum(plan.shot is not None for scene, film in films if scene for plan in film)
+
+    def told(done: int, total: int, before: int) -> None:
+        if progress is not None:
+            progress(before + done, count)
+
+    deadline = time.monotonic() + RENDER_SECONDS
+    try:
+        for scene, film in films:
+            own = {plan.key: plan.shot for plan in film if plan.shot is not None}
+            if scene is None or not own:
+                continue
+            share = max(deadline - time.monotonic(), 0.0) * len(own) / (count - len(pictures))
             taken = take(
-                studio, [plan.shot for plan in shots if plan.shot is not None],
-                jobs=cores(), seconds=RENDER_SECONDS, progress=progress,
+                page_studio(scene, next(iter(own.values())).qpos, count), list(own.values()),
+                jobs=cores(), seconds=share, progress=partial(told, before=len(pictures)),
             )  # fmt: skip
-            for plan, content in zip(shots, taken, strict=True):
+            for key, content in zip(own, taken, strict=True):
                 if isinstance(content, bytes):
-                    pictures[plan.key] = Picture("webp", content)
-            if None in taken:
-                notice = f"Only {len(pictures)} of {len(shots)} pictures were rendered in time."
-        except EtotError as error:
-            notice = f"Views from above are drawn instead of pictures: {error}"
-    for plan in wanted:
-        if plan.key not in pictures:
-            record = plan.record
-            drawn = (
-                top_view(record.before)
-                if plan.first
-                else top_view(record.after, before=record.before, culprits=plan.culprits)
-            )
-            pictures[plan.key] = Picture("svg", drawn)
+                    pictures[key] = Picture("webp", content)
+        if len(pictures) < count:
+            notice = f"Only {len(pictures)} of {count} pictures were rendered in time."
+    except EtotError as error:
+        notice = f"Views from above are drawn instead of pictures: {error}"
+    for _, film in films:
+        for plan in film:
+            if plan.key not in pictures:
+                pictures[plan.key] = Picture("svg", plan.drawn())
     return pictures, notice
 
 

@@ -17,6 +17,7 @@ from etot_cli.execution.disturbing import Somebody
 from etot_cli.execution.looking import Believed
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.observers import TrialObserver
+from etot_cli.execution.parting import parting
 from etot_cli.execution.protocols import Planned
 from etot_cli.execution.records import (
     Carried,
@@ -25,6 +26,7 @@ from etot_cli.execution.records import (
     FailureClass,
     Happened,
     Look,
+    Parted,
     PlanMade,
     Trial,
 )
@@ -224,6 +226,7 @@ class Loop:
             after=believed.scene,
             trajectories=tuple(one.trajectory for one in tried if one.trajectory is not None),
             foreseen=tuple(one.foreseen for one in tried if one.foreseen is not None),
+            parted=next((one.parted for one in tried if one.parted is not None), None),
         )
         if verdict.outcome is not Outcome.SUCCESS:
             carried = replace(carried, failure_class=self._class_of(carried, tried[-1]))
@@ -258,6 +261,7 @@ class Loop:
             nothing = failed(CauseKind.NO_EFFECT, [], "there is no motion for it")
             return _Tried(motion or nothing, look, command, truth)
         foreseen = twin.foresee(motion) if self._options.record else None
+        begun_s = account.robot_s()
         true_before = None if world is None else world.read()
         if world is not None:
             world.watch()
@@ -265,14 +269,16 @@ class Loop:
         with account.timed("execution"):
             trace = run_motion(motion, FromNow(robot, command), twin.limits)
         believed.moved(trace)
-        trajectory = None
+        trajectory = parted = None
         if world is not None and true_before is not None:
             account.harm.motion(true_before, world.read(), tuple(self._spare))
             self._spare.clear()
             trajectory = world.watched()[1]
+            if trajectory is not None and foreseen is not None:
+                parted = parting(world.world, trajectory, twin.world, foreseen, begun_s)
         self._look(f"after {action}")
         outcome = outcome_of(belief, action, motion, trace, believed.scene)
-        return _Tried(outcome, look, command, truth, motion, trace, trajectory, foreseen)
+        return _Tried(outcome, look, command, truth, motion, trace, trajectory, foreseen, parted)
 
     def _from_server(self, belief: Belief, action: Action) -> Motion | None:
         grasps = self._cell.grasps
@@ -316,6 +322,7 @@ class _Tried:
     trace: Trace | None = None
     trajectory: Trajectory | None = None
     foreseen: Trajectory | None = None
+    parted: Parted | None = None
 
 
 def _told(unexpected: tuple[Difference, ...]) -> str:

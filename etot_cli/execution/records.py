@@ -63,6 +63,15 @@ class Look:
 
 
 @dataclass(frozen=True)
+class Parted:
+    """An object that ended elsewhere than foreseen: by how far, and since when [s]."""
+
+    name: str
+    text: str
+    time_s: float
+
+
+@dataclass(frozen=True)
 class Carried:
     """An action that was carried out, or could not be.
 
@@ -86,6 +95,8 @@ class Carried:
     trajectories: tuple[Trajectory, ...] = ()
     foreseen: tuple[Trajectory, ...] = ()
     """What the twin did with the same motions from what was seen, where that was to be recorded."""
+    parted: Parted | None = None
+    """Where the world first went another way than that, where both are known."""
     failure_class: FailureClass | None = None
 
 

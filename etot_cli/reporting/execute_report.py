@@ -103,6 +103,16 @@ class AttemptModel(Model):
     phases: list[PhaseModel]
 
 
+class PartedModel(Model):
+    """An object that went another way in the world than in the twin, with the same motion."""
+
+    object: str = Field(validation_alias="name")
+    text: str
+    """How far from the twin's it ended."""
+    time_s: Seconds
+    """From when on; the robot's time since the trial began."""
+
+
 class CarriedModel(ActionModel):
     """One action that was carried out, or could not be."""
 
@@ -120,6 +130,9 @@ class CarriedModel(ActionModel):
     begin_s: Seconds
     end_s: Seconds
     """The robot's time since the trial began."""
+    parted: PartedModel | None
+    """Null where world and twin stayed together, and where motions were not recorded for a page or
+    a film: with --no-html, after the first trial, and where the true world is not known."""
     failure_class: FailureClassName | None
 
 
@@ -255,6 +268,7 @@ def _carried(index: int, item: Carried) -> CarriedModel:
             "looks": item.looks,
             "begin_s": item.begin_s,
             "end_s": item.end_s,
+            "parted": item.parted,
             "failure_class": item.failure_class,
         }
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.commands.pages import _coarse_first, write_simulate_page
+from etot_cli.commands.pages import coarse_first, write_simulate_page
 from etot_cli.commands.simulate import SimulateOptions, Simulation, run_simulate
 from tests.pages.browser import Browser
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails
@@ -72,7 +72,7 @@ def test_page_tells_what_was_not_tried(page: Path) -> None:
 
 
 def test_frames_rendered_first_are_spread_over_the_film() -> None:
-    order = _coarse_first(list(range(64)))  # type: ignore[arg-type]
+    order = coarse_first(list(range(64)))  # type: ignore[arg-type]
     assert sorted(order) == list(range(64))
     gaps = np.diff(sorted(order[:16]))
     assert gaps.max() <= 4

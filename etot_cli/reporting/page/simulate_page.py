@@ -4,21 +4,13 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from etot_cli.reporting.evidence import moved_text
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Store
+from etot_cli.reporting.page.replay import Block, Event, Replay, Track
 from etot_cli.reporting.page.timeline import time_parts
 from etot_cli.reporting.simulate_report import SimulateReport
-
-
-@dataclass(frozen=True, slots=True)
-class Track:
-    """A film of one world: ``frames`` are (time [s], picture key), in order of time."""
-
-    name: str
-    frames: Sequence[tuple[float, str]]
 
 
 def simulate_page(
@@ -38,7 +30,8 @@ def simulate_page(
         notice: shown at the top.
     """
     steps = []
-    events: list[tuple[float, str]] = []
+    blocks: list[Block] = []
+    events: list[Event] = []
     start = 0.0
     for step, duration in zip(report.steps, durations, strict=True):
         cause = step.cause
@@ -50,29 +43,25 @@ def simulate_page(
                 "cause": cause.text if cause else "",
                 "moved": [moved_text(item) for item in step.moved],
                 "simulated_s": step.simulated_s,
-                "start": start,
-                "end": start + duration,
             }
         )
-        events.append((start, f"{step.action} begins"))
+        blocks.append(Block(step.action, step.status, start, start + duration))
+        events.append(Event(start, "action", f"{step.action} begins"))
         for contact in step.contacts:
             if contact.time_s <= duration:
                 text = f"{contact.first} touches {contact.second} ({contact.peak_force_n:.0f} N)"
-                events.append((start + contact.time_s, text))
+                events.append(Event(start + contact.time_s, "touch", text))
         if cause is not None:
             when = duration if cause.time_s is None else min(cause.time_s, duration)
-            events.append((start + when, f"{cause.kind.value.replace('_', ' ')}: {cause.text}"))
+            text = f"{cause.kind.value.replace('_', ' ')}: {cause.text}"
+            events.append(Event(start + when, "failure", text))
         start += duration
     conditions = report.success_conditions
+    replay = Replay([track for track in tracks if track.frames], blocks, events, start)
     return assemble(
         "simulate.html.j2",
         scripts=("replay.js",),
-        data={
-            "tracks": [
-                {"frames": [{"time": round(t, 3), "key": key} for t, key in track.frames]}
-                for track in tracks
-            ]
-        },
+        data=replay.data,
         pictures=pictures,
         command="simulate",
         title=f"{report.task.name}: {report.status}",
@@ -81,11 +70,9 @@ def simulate_page(
         head=report,
         lead=report.cause or " ".join(report.plan),
         notice=notice,
-        tracks=[track for track in tracks if track.frames],
+        replay=replay.shown,
         steps=steps,
         untried=report.plan[len(report.steps) :],
-        events=[{"time": time, "text": text} for time, text in sorted(events)],
-        length=max(start, 0.05),
         conditions=conditions.conditions if conditions is not None else None,
         repeat=shlex.join(
             ["etot", "simulate", report.task.file, "--plan", " ".join(report.plan)]

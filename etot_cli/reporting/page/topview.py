@@ -34,7 +34,11 @@ PAINT = {
 
 
 def top_view(
-    scene: SceneState, *, before: SceneState | None = None, culprits: Iterable[str] = ()
+    scene: SceneState,
+    *,
+    before: SceneState | None = None,
+    culprits: Iterable[str] = (),
+    framed: SceneState | None = None,
 ) -> bytes:
     """An SVG of the desk seen from above, the robot at the bottom.
 
@@ -42,9 +46,10 @@ def top_view(
         scene: what is drawn.
         before: an earlier state; what has moved since is joined to its old place by an arrow.
         culprits: objects drawn in red, with a mark.
+        framed: the state whose part of the desk is shown; that of the others where None.
     """
     x_min, x_max, y_min, y_max = scene.desk_bounds
-    x_high, y_high, scale = _window([scene, *([before] if before else [])])
+    x_high, y_high, scale = _window([framed] if framed else [scene, *([before] if before else [])])
 
     # The robot looks up the picture: base x is up, base y is left.
     def at(x: float, y: float) -> tuple[float, float]:

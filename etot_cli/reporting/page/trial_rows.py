@@ -6,7 +6,7 @@ from typing import Any
 
 from etot_cli.execution.records import Trial
 from etot_cli.reporting.evidence import moved_text
-from etot_cli.reporting.execute_report import LookModel, TrialModel
+from etot_cli.reporting.execute_report import LookModel, PlanMadeModel, TrialModel
 from etot_cli.reporting.page.pictures import Picture
 from etot_cli.reporting.page.topview import top_view
 
@@ -53,8 +53,7 @@ def _rows(trial: TrialModel, keys: dict[int, str]) -> list[dict[str, Any]]:
     # itself, and what was made of it.
     rows = [(look.index * 4 + 2, _look_row(look, keys.get(look.index))) for look in trial.looks]
     for plan in trial.plans:
-        text = " ".join(plan.actions) or plan.stopped or "nothing is to be done"
-        row = _row("plan", plan.reason, text, plan.wall_s)
+        row = _row("plan", plan.reason, plan_text(plan), plan.wall_s)
         if plan.status != "feasible":
             row["status"] = "failure"
         rows.append((plan.look * 4 + 3, row))
@@ -65,10 +64,27 @@ def _rows(trial: TrialModel, keys: dict[int, str]) -> list[dict[str, Any]]:
         text = moved if action.cause is None else action.cause.text
         row = _row("action", action.action, text, action.end_s - action.begin_s, action.status)
         rows.append((last * 4 + (1 if looked_after else 3), row))
-    for item in trial.disturbances:
-        seen = (look.index for look in trial.looks if look.time_s >= item.time_s)
-        rows.append((min(seen, default=len(trial.looks)) * 4, _row("somebody", item.text)))
+    rows += [
+        (look_after(trial, item.time_s) * 4, _row("somebody", item.text))
+        for item in trial.disturbances
+    ]
     return [row for _, row in sorted(rows, key=lambda entry: entry[0])]
+
+
+def look_after(trial: TrialModel, time_s: float) -> int:
+    """Index of the first look that could see what happened then."""
+    seen = (look.index for look in trial.looks if look.time_s >= time_s)
+    return min(seen, default=len(trial.looks))
+
+
+def look_text(look: LookModel) -> str:
+    """What was not as believed."""
+    return "; ".join(f"{item.object} {item.text}" for item in look.differs) or "as believed"
+
+
+def plan_text(plan: PlanMadeModel) -> str:
+    """The plan's actions, or why there are none."""
+    return " ".join(plan.actions) or plan.stopped or "nothing is to be done"
 
 
 def _row(
@@ -78,7 +94,6 @@ def _row(
 
 
 def _look_row(look: LookModel, key: str | None) -> dict[str, Any]:
-    text = "; ".join(f"{item.object} {item.text}" for item in look.differs) or "as believed"
     unseen = [f"{item.object} {item.mark}" for item in look.objects if item.mark != "seen"]
-    row = _row("look", look.why, "; ".join([text, *unseen]), look.wall_s)
+    row = _row("look", look.why, "; ".join([look_text(look), *unseen]), look.wall_s)
     return row | {"picture": key}
