@@ -87,6 +87,9 @@ def work(
                 pipe.send(result)
             except (TypeError, AttributeError, ValueError) as error:
                 pipe.send((True, RuntimeError(f"the result cannot be sent: {error}")))
+            # A world that is done with is in cycles, and holds memory that Python does not count.
+            del function, given, result
+            gc.collect()
     except MemoryError:
         os._exit(OUT_OF_MEMORY)
     except (EOFError, OSError):

@@ -52,6 +52,20 @@ def wrong() -> None:
     raise ValueError("as it says")
 
 
+class Tangled:
+    """In a cycle with itself, as what a world is made of; leaves a mark when it goes."""
+
+    def __init__(self, mark: Path) -> None:
+        self.myself, self.mark = self, mark
+
+    def __del__(self) -> None:
+        self.mark.touch()
+
+
+def tangle(mark: Path) -> None:
+    Tangled(mark)
+
+
 @pytest.fixture
 def pool() -> Iterator[WorkerPool]:
     pool = WorkerPool(2, nothing)
@@ -75,6 +89,13 @@ def test_results_and_errors_come_back(pool: WorkerPool) -> None:
     with pytest.raises(Exception, match="pickle"):
         pool.submit(lambda: 1).result(SOON_S)
     assert pool.submit(add, 1, 1).result(SOON_S) == 2
+
+
+def test_what_a_call_leaves_behind_is_gone_before_the_next(tmp_path: Path) -> None:
+    mark = tmp_path / "gone"
+    with closing(WorkerPool(1, nothing)) as pool:
+        pool.submit(tangle, mark).result(SOON_S)
+        assert pool.submit(mark.exists).result(SOON_S)
 
 
 def test_a_lost_worker_is_replaced_and_its_task_tried_again(
