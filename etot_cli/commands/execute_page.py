@@ -35,8 +35,8 @@ from etot_cli.world.state import ObjectState, SceneState
 from etot_cli.world.studio import Progress, Shot, alike
 
 if TYPE_CHECKING:
+    from etot_cli.world.captions import Tone
     from etot_cli.world.film import Take
-    from etot_cli.world.pictures import Tone
 
 FILM_SIZE = (640, 360)
 """Of each of the two films, to be played side by side [px]."""

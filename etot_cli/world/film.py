@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import ServiceError
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.writing import replacing
-from etot_cli.world.pictures import Tone
+from etot_cli.world.captions import Tone
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.studio import Progress, Shot, Studio, alike, take
 

@@ -1,9 +1,9 @@
-"""Pictures for people: the dressed world, framed on the work, with outlines and captions."""
+"""Pictures for people: the dressed world, framed on the work, with outlines."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from collections.abc import Sequence
+from typing import Any
 
 import cv2
 import mujoco
@@ -11,24 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.specs.scene import Scene
+from etot_cli.world.captions import FACE, PAPER, text_size
 from etot_cli.world.framing import workspace_camera
 from etot_cli.world.model import build_world
 from etot_cli.world.offscreen import Image, OffscreenRenderer
 
-Tone = Literal["plain", "good", "bad"]
-TONES: dict[Tone, tuple[int, int, int]] = {
-    "plain": (90, 96, 108), "good": (28, 124, 60), "bad": (190, 38, 30),
-}  # fmt: skip
-"""Colours of a caption's edge, RGB."""
 CULPRIT = (235, 40, 25)
 """Red, of outlines and tags, RGB."""
-INK, PAPER = (34, 36, 42), (250, 250, 248)
 SMALLEST_SEEN = 12
 """Objects of which fewer pixels are seen get no outline."""
-MOST_LINES = 3
-"""Of a caption; more would hide what it is about."""
-FACE = "sans"
-"""One of the fonts inside OpenCV; every installation has the same."""
 
 
 class PictureRenderer:
@@ -69,16 +60,12 @@ class PictureRenderer:
         self,
         qpos: NDArray[Any],
         outlined: Sequence[str] = (),
-        caption: str = "",
-        tone: Tone = "plain",
     ) -> Image:
         """A picture (height, width, 3) of a configuration (nq,).
 
         Args:
             qpos: the configuration.
             outlined: objects to outline and name.
-            caption: written below the scene; none when empty.
-            tone: colour of the caption's edge.
         """
         model, data = self._world.model, self._data
         data.qpos[:] = qpos
@@ -94,7 +81,7 @@ class PictureRenderer:
             # Small things last: a large one's line does not cross their names.
             for name in sorted(seen, key=lambda name: -int(seen[name].sum())):
                 image = outline(image, seen[name], name)
-        return write_caption(image, caption, tone) if caption else image
+        return image
 
 
 def outline(image: Image, mask: NDArray[np.bool_], name: str) -> Image:
@@ -117,7 +104,7 @@ def outline(image: Image, mask: NDArray[np.bool_], name: str) -> Image:
 def _tag(image: Image, text: str, x: int, y: int, scale: float) -> Image:
     """A name on a red tag above a point."""
     face, size = cv2.FontFace(FACE), round(8 * scale)
-    width, height = _text_size(image, text, face, size)
+    width, height = text_size(text, image.shape[1], size)
     pad = round(4 * scale)
     left = int(np.clip(x - width // 2 - pad, 2, max(2, image.shape[1] - width - 2 * pad - 2)))
     top = max(2, y - height - 2 * pad - round(5 * scale))
@@ -129,44 +116,3 @@ def _tag(image: Image, text: str, x: int, y: int, scale: float) -> Image:
         image, text, (left + pad, top + pad + height - round(1 * scale)), PAPER, face, size, 600
     )
     return image
-
-
-def write_caption(image: Image, caption: str, tone: Tone) -> Image:
-    """A picture with a few lines of text over its lower edge; what is longer is cut."""
-    drawn = np.ascontiguousarray(image)
-    rows, columns = drawn.shape[:2]
-    scale = max(1.0, columns / 640)
-    face, size = cv2.FontFace(FACE), round(13 * scale)
-    step, edge = round(19 * scale), round(6 * scale)
-    room = columns - edge - round(20 * scale)
-
-    def fits(text: str) -> bool:
-        return bool(_text_size(drawn, text, face, size)[0] <= room)
-
-    lines = _lines(caption, fits)
-    strip = drawn[rows - round(9 * scale) - step * len(lines) :]
-    strip[:] = (0.12 * strip + 0.88 * np.array(PAPER)).astype(np.uint8)
-    strip[:, :edge] = TONES[tone]
-    for number, line in enumerate(reversed(lines)):
-        place = edge + round(10 * scale), rows - round(9 * scale) - step * number
-        cv2.putText(drawn, line, place, INK, face, size, 500)
-    return drawn
-
-
-def _lines(text: str, fits: Callable[[str], bool]) -> list[str]:
-    """A text broken at spaces into lines, ``MOST_LINES`` at most; what is left over is cut off."""
-    found: list[str] = []
-    while len(found) < MOST_LINES - 1 and not fits(text):
-        breaks = [place for place, sign in enumerate(text) if sign == " " and fits(text[:place])]
-        if not breaks:
-            break
-        found.append(text[: breaks[-1]].rstrip())
-        text = text[breaks[-1] :].strip()
-    while len(text) > 4 and not fits(text):
-        text = text.rstrip("…")[:-1].rstrip() + "…"
-    return [*found, text]
-
-
-def _text_size(image: Image, text: str, face: Any, size: int) -> tuple[int, int]:
-    box = cv2.getTextSize((image.shape[1], image.shape[0]), text, (0, 0), face, size, 500)
-    return int(box[2]), max(int(box[3]), size * 2 // 3)

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, wait
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -25,7 +25,7 @@ from etot_cli.world.opengl import untouched
 from etot_cli.world.workers import WorkerLostError, WorkerPool
 
 if TYPE_CHECKING:
-    from etot_cli.world.pictures import Tone
+    from etot_cli.world.captions import Tone
 
 FEW = 6
 """So many pictures are drawn sooner here than processes and worlds come up."""
@@ -70,6 +70,8 @@ class Studio:
     """Renders per picture; more make edges and shadows softer."""
     encoding: Literal["webp", "jpg"] | None = None
     """None keeps the pixels."""
+    strip: int = 0
+    """Lowest rows, which are the caption's [px]; :func:`take` sees to it."""
     quality: int = 75
     """Of the encoding, 0 to 100."""
 
@@ -84,6 +86,9 @@ def take(
 ) -> list[Image | bytes | None]:
     """Takes pictures, the first ones first.
 
+    Captions stand below what is seen, on a strip as high as the longest of them needs, so that all
+    pictures show the same piece of the world.
+
     Args:
         studio: scene, size and encoding.
         shots: what to take.
@@ -96,6 +101,11 @@ def take(
         WorldError: the scene cannot be built.
     """
     deadline = time.monotonic() + seconds
+    captions = sorted({shot.caption for shot in shots if shot.caption})
+    if captions:
+        from etot_cli.world.captions import strip_height
+
+        studio = replace(studio, strip=strip_height(captions, studio.width))
     results: list[Image | bytes | None] = [None] * len(shots)
     done = 0
     with _crew(studio, min(jobs, len(shots)), len(shots)) as submit:
@@ -159,11 +169,20 @@ class _Worker:
 
         self._studio = studio
         self._renderer = PictureRenderer(
-            studio.scene, studio.framed, studio.width, studio.height, studio.samples
+            studio.scene,
+            studio.framed,
+            studio.width,
+            studio.height - studio.strip,
+            studio.samples,
         )
 
     def take(self, shot: Shot) -> Image | bytes:
-        image = self._renderer.take(shot.qpos, shot.outlined, shot.caption, shot.tone)
+        image = self._renderer.take(shot.qpos, shot.outlined)
+        if self._studio.strip:
+            from etot_cli.world.captions import caption_strip
+
+            size = self._studio.width, self._studio.strip
+            image = np.vstack([image, caption_strip(shot.caption, *size, shot.tone)])
         if self._studio.encoding is None:
             return image
         import cv2
