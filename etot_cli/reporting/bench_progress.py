@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from etot_cli.benchmark.trial import TrialResult, TrialStatus
-from etot_cli.reporting.style import LOOKS, badge, speaks_unicode, symbol
+from etot_cli.reporting.style import LOOKS, badge, hanging_lines, speaks_unicode, symbol
 from etot_cli.specs.reading import visible
 
 MINUTE, HOUR = 60.0, 3600.0
@@ -57,7 +57,8 @@ class TrialBar:
         self._bars.update(self._bar, completed=done, total=total, left=left)
         if not result.success:
             line = badge(_look(result), self._unicode).append(f" {_told(result)}")
-            self._console.print(line, soft_wrap=True)
+            for part in hanging_lines(line, self._console, "", "  "):
+                self._console.print(part, soft_wrap=True)
 
 
 def spoken(seconds: float) -> str:

@@ -10,7 +10,15 @@ from rich.live import Live
 from rich.text import Text
 
 from etot_cli.execution.records import Carried, Happened, Look, PlanMade, Trial
-from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unicode, symbol
+from etot_cli.reporting.style import (
+    LOOKS,
+    RUNNING,
+    badge,
+    counted,
+    hanging_lines,
+    speaks_unicode,
+    symbol,
+)
 from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.reading import visible
 
@@ -87,7 +95,7 @@ class ExecutionView:
     """
 
     def __init__(self, console: Console, title: str) -> None:
-        self._title = title
+        self._console, self._title = console, title
         self._unicode = speaks_unicode(console.file)
         self._started = time.monotonic()
         self._trials: list[Text] = []
@@ -163,28 +171,33 @@ class ExecutionView:
         self._event(f"somebody: {happened.text}", "bold magenta")
 
     def _event(self, text: str, style: str) -> None:
-        self._events.append(Text(text, style=style, no_wrap=True, overflow="ellipsis"))
+        self._events.append(Text(text, style=style))
         del self._events[:-EVENTS_KEPT]
 
     def _render(self) -> Group:
         lines = [Text(f"{self._title}  {self._trial}".rstrip(), style="bold")]
-        lines += self._trials[-TRIALS_KEPT:]
+
+        def hang(text: Text, first: str = "  ", rest: str = "    ") -> None:
+            lines.extend(hanging_lines(text, self._console, first, rest))
+
+        for ended in self._trials[-TRIALS_KEPT:]:
+            hang(ended, "", "  ")
         for number, words in sorted(self._beside.items()):
             line = badge(RUNNING, self._unicode).append(f" trial {number + 1}: {words}")
             line.no_wrap, line.overflow = True, "ellipsis"
             lines.append(line)
         for carried in self._done:
-            line = Text("  ").append_text(badge(carried.status, self._unicode))
-            line.append(f" {carried.action}")
+            line = badge(carried.status, self._unicode).append(f" {carried.action}")
             if carried.cause is not None:
                 line.append(f"  {carried.cause.text}", style=LOOKS[carried.status].style)
-            lines.append(line)
+            hang(line)
         coming = self._plan[len(self._plan) - self._left :] if self._left > 0 else ()
         for index, action in enumerate(coming):
             running = index == 0 and self._running is not None
-            line = Text("  ").append_text(badge(RUNNING if running else "pending", self._unicode))
-            lines.append(line.append(f" {action}", style="bold" if running else "dim"))
-        lines += [Text("  ").append_text(event) for event in self._events]
+            line = badge(RUNNING if running else "pending", self._unicode)
+            hang(line.append(f" {action}", style="bold" if running else "dim"))
+        for event in self._events:
+            hang(event)
         footer = f"{counted(len(self._done), 'action')}, {counted(self._replans, 'replan')}, "
         footer += f"{time.monotonic() - self._started:.0f} s elapsed"
         lines.append(Text(f"{footer}  {self._note}".rstrip(), style="dim"))

@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.text import Text
 
-from etot_cli.reporting.style import LOOKS, Verbosity, badge, speaks_unicode
+from etot_cli.reporting.style import LOOKS, Verbosity, badge, hanging_lines, speaks_unicode
 
 WIDE = 64
 """From this width on, what an action changed stands beside it [columns]."""
@@ -96,11 +96,8 @@ class Printer:
         if not self.console.is_terminal:
             self.console.print(Text(first).append_text(text), soft_wrap=True)
             return
-        width = max(8, self.console.width - len(rest))
-        for number, line in enumerate(text.wrap(self.console, width)):
-            line.rstrip()
-            start = Text(first if number == 0 else rest)
-            self.console.print(start.append_text(line), soft_wrap=True)
+        for line in hanging_lines(text, self.console, first, rest):
+            self.console.print(line, soft_wrap=True)
 
 
 def named(action: str, safe: bool) -> Text:

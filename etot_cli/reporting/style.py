@@ -79,6 +79,18 @@ class _Shown:
                 yield Segment(visible(segment.text), segment.style)
 
 
+def hanging_lines(text: Text, console: Console, first: str, rest: str) -> list[Text]:
+    """A text as lines that fit a terminal, broken between words.
+
+    The first one comes after ``first``, what does not fit on it below, after ``rest``.
+    """
+    width = max(8, console.width - max(len(first), len(rest)))
+    lines = text.wrap(console, width)
+    for line in lines:
+        line.rstrip()
+    return [Text(rest if number else first).append_text(line) for number, line in enumerate(lines)]
+
+
 def counted(count: int, noun: str) -> str:
     """A number with its noun, e.g. ``1 branch``, ``2 branches``."""
     ending = "" if count == 1 else "es" if noun.endswith(("ch", "sh", "s", "x")) else "s"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -155,13 +156,14 @@ def test_a_signal_leaves_a_report(tmp_path: Path) -> None:
 def test_the_terminal_shows_plan_looks_and_replans(tmp_path: Path) -> None:
     task = Path(write(tmp_path, REMOVED.replace("remove: chosen", "move: chosen, by: [0, -0.1]")))
     plain, screen = io.StringIO(), io.StringIO()
-    console = Console(file=screen, force_terminal=True, width=100, height=40)
+    console = Console(file=screen, force_terminal=True, width=40, height=40, color_system=None)
     with ExecutionView(console, "small") as view:
         execution = run_execute(ExecuteOptions(task=task), view)
     assert execution.report.status == "success"
     shown = screen.getvalue()
     for words in ("[PICK UP, ball]", "somebody: move ball by 0 -0.1", "planned anew: ball stands"):
         assert words in shown
+    assert re.search(r"\n {4}(from )?where it was", shown), "on, below its own line"
     log = ExecutionLog(plain, detailed=True)
     (trial,) = execution.trials
     log.planned(trial.plans[1])
