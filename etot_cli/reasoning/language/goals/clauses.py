@@ -10,6 +10,8 @@ from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import again, cover, ensure, put, remove
+from etot_cli.reasoning.language.goals.standing import reorient
+from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -44,7 +46,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case RemoveClause():
             remove(context, clause)
         case MoveClause():
-            for index in context.phrases.things(clause.things, Role.PART):
+            for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 context.steps.append(Open(index) if clause.opens else Close(index))
         case EnsureClause(waits=True, states=states):
             text = f"until {states[0].subjects[0].text} …"
@@ -64,7 +66,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case AvoidClause():
             avoid(context, clause)
         case _:
-            context.turned += context.phrases.things(clause.things, Role.THEME)
+            reorient(context, clause)
     context.done = tuple(context.steps) or context.done
     return context.steps
 

@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.skills.action import Action, Verb
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import SceneState
 
 MAX_BRANCHES = 16
@@ -43,6 +44,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     for sentence in sentences:
         state = _best_reading(state, sentence)
     _check_kept(state.goal())
+    _check_run(state.goal())
     goal = settled(state.goal(), scene, state.context.turned)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
@@ -59,6 +61,21 @@ def _check_kept(goal: Goal) -> None:
         for name in sorted(always & kept):
             why = f"{name} cannot both be put somewhere and be left as it is"
             raise ReferenceProblem(referent.text, why, 4)
+
+
+def _check_run(goal: Goal) -> None:
+    """Whether puts of one sentence that no word puts in an order send something to two places."""
+    gone: set[tuple[int, int]] = set()
+    for step in goal.steps:
+        returned = isinstance(step, Put) and any(
+            near.relation is Nearby.AT_POINT for place in step.places for near in place.beside
+        )
+        if isinstance(step, Put) and not (step.removal or step.aside or returned):
+            for index in step.what:
+                if (step.run, index) in gone:
+                    why = "it cannot go to two places at once; say 'then'"
+                    raise ReferenceProblem(goal.referents[index].text, why, 4)
+                gone.add((step.run, index))
 
 
 class _State:

@@ -14,15 +14,17 @@ from etot_cli.reasoning.builtin.goal import (
     Put,
     Relation,
     Step,
-    Thing,
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import by_color, is_by_color, is_one_each, one_each
 from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
+from etot_cli.reasoning.language.goals.standing import upright
+from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     CoverClause,
+    Destination,
     Modifier,
     NounPhrase,
     PutClause,
@@ -31,18 +33,18 @@ from etot_cli.reasoning.language.grammar.syntax import (
     State,
     Things,
     Toward,
+    Turns,
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
 from etot_cli.reasoning.language.reference.distribution import distributed, is_different
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, same_noun, singular
+from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
 
 
 def put(context: Context, clause: PutClause) -> None:
     """Adds the steps of a clause that says what goes where."""
-    picked_out = (*clause.first, *clause.last)
-    if picked_out and len(clause.groups) > 1:
-        text = " and ".join(phrase.text for phrase in picked_out)
+    if clause.turns != Turns() and len(clause.groups) > 1:
+        text = " and ".join(phrase.text for phrase in clause.groups[-1].things.phrases)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     placed: set[int] = set()
     for group in clause.groups:
@@ -52,13 +54,15 @@ def put(context: Context, clause: PutClause) -> None:
         if clause.one_each or is_one_each(group):
             one_each(context, group)
             continue
-        themes = _in_said_order(context, group, clause)
+        away = context.places.no_themes(group.destinations)
+        themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
+        themes = _without_riders(context, themes)
         if twice := placed & {*themes}:
             text = context.discourse.referents[min(twice)].text
             raise ReferenceProblem(text, "it cannot go to two places at once", 1)
         placed |= {*themes}
         if any(item.toward is Toward.HOME for item in group.destinations):
-            _put_back(context, themes, group)
+            _put_back(context, themes, group, clause.ruled_out)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         options = [context.discourse.referents[index].options[0] for index in themes]
@@ -67,6 +71,8 @@ def put(context: Context, clause: PutClause) -> None:
             raise ReferenceProblem(text, "say which one", 3, word="different")
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
+        if group.upright:
+            places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(_spread(context, place) for place in places)
         places_of = dict.fromkeys(themes, places)
@@ -78,8 +84,25 @@ def put(context: Context, clause: PutClause) -> None:
             rule_out(context, themes, clause.ruled_out)
 
 
+def _without_riders(context: Context, themes: list[int]) -> list[int]:
+    """Things to be put somewhere, but for what was just put in or on another of them: it comes
+    along ("put the pear on the plate and both on the tray").
+    """
+    riders = {
+        index
+        for step in (*context.done, *context.steps)
+        if isinstance(step, Put) and len(step.places) == 1 and step.places[0].where in themes
+        for index in step.what
+    }
+    return [index for index in themes if index not in riders]
+
+
 def ensure(context: Context, state: State) -> None:
     """Adds the steps after which something is as it is said to be."""
+    for phrase in state.subjects:
+        if state.word and phrase.determiner.startswith(("only", "just")):
+            why = "say what is to become of the others, too"
+            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
     if state.word:
         for phrase in state.subjects:
             for index in context.phrases.refer(phrase, Role.PART):
@@ -188,37 +211,6 @@ def remove(context: Context, clause: RemoveClause) -> None:
     _add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 
-def _in_said_order(context: Context, group: PutGroup, clause: PutClause) -> list[int]:
-    """The things of a group, those that are to go first before the others."""
-    away = context.places.no_themes(group.destinations)
-    themes = context.phrases.things(group.things, Role.THEME, away)
-    if not clause.first and not clause.last:
-        return themes
-    things = [thing for index in themes for thing in context.only(index, "say which ones")]
-    ahead = _picked_out(context, group, clause.first, things)
-    behind = _picked_out(context, group, clause.last, things)
-    between = [thing for thing in things if thing not in ahead and thing not in behind]
-    text = " and ".join(phrase.text for phrase in group.things.phrases)
-    return [context.single(thing, text) for thing in (*ahead, *between, *behind)]
-
-
-def _picked_out(
-    context: Context, group: PutGroup, phrases: Sequence[NounPhrase], things: Sequence[Thing]
-) -> list[Thing]:
-    """What "blue first" or "the small one last" means among the things of a group."""
-    noun = group.things.phrases[-1].words[-1:]
-    found: list[Thing] = []
-    for phrase in phrases:
-        spoken = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun)
-        resolved = context.phrases.meaning(spoken, Role.THEME)
-        if len(resolved.options) != 1:
-            raise ReferenceProblem(phrase.text, "say which one of them", 2)
-        if not all(thing in things for thing in resolved.options[0]):
-            raise ReferenceProblem(phrase.text, "it is none of what is to be put", 2)
-        found += resolved.options[0]
-    return found
-
-
 def _shared(
     context: Context, group: PutGroup, themes: Sequence[int], grouping: Grouping
 ) -> tuple[PutGroup, Grouping]:
@@ -238,21 +230,12 @@ def _shared(
     return replace(group, destinations=tuple(destinations)), grouping
 
 
-def _with_noun(phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
-    """An elliptic phrase ("blue first") with the noun that it leaves out."""
-    single = tuple(map(singular, noun))
-    if phrase.words[-1:] in (("one",), ("ones",)):
-        kept = single if phrase.words[-1] == "one" else noun
-        return replace(phrase, words=(*phrase.words[:-1], *kept))
-    # An adjective alone leaves its noun out; anything else is a noun of its own.
-    descriptive = phrase.words and all(map(is_descriptive, phrase.words))
-    return replace(phrase, words=(*phrase.words, *single)) if descriptive else phrase
-
-
-def _put_back(context: Context, themes: Sequence[int], group: PutGroup) -> None:
+def _put_back(
+    context: Context, themes: Sequence[int], group: PutGroup, ruled_out: Sequence[Destination] = ()
+) -> None:
     """Puts things back to where they are at the start."""
-    if len(group.destinations) > 1:
-        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 2)
+    if len(group.destinations) > 1 or ruled_out:
+        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
     for index in themes:
         for thing in context.only(index, "say which one goes back"):
             place = context.home(thing)
@@ -323,6 +306,12 @@ def _add_put(
         for index in place.referents()
         for thing in discourse.things(index)
     }
+    fixed = {
+        thing
+        for place in places
+        if place.where is not None and len(discourse.referents[place.where].options) == 1
+        for thing in discourse.things(place.where)
+    }
     for theme in themes:
         referent = discourse.referents[theme]
         # "Put everything into the box": the box itself is not meant.
@@ -331,8 +320,9 @@ def _add_put(
             if len(option) > 1
             else option
             for option in referent.options
+            if len(option) < 2 or len(referent.options) == 1 or not fixed & {*option}
         )
-        if not all(options):
+        if not options or not all(options):
             raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
         discourse.referents[theme] = replace(referent, options=options)
         where = places[0].where if len(places) == 1 else None

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
     TowerClause,
+    Turns,
 )
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -157,6 +158,8 @@ def _said(node: object) -> Iterator[str]:
             yield from (_ORDER, "top", "bottom")
         case PickClause(poses=poses) if len(poses) > 1:
             yield "either"
+        case Turns(first=first, last=last) if first or last:
+            yield _ORDER
         case SwapClause():
             yield "other"
         case AgainClause():
@@ -175,8 +178,6 @@ def _said(node: object) -> Iterator[str]:
 
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:
-    if clause.first or clause.last:
-        yield _ORDER
     if clause.ruled_out:
         yield _DENIAL
     if clause.one_each or clause.grouping is Grouping.SEPARATELY:

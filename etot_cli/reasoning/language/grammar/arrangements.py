@@ -16,25 +16,36 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
+    NounPhrase,
     ReorientClause,
     SwapClause,
     Things,
     TowerClause,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words.lexicon import basic_color
 
 REORIENT = either(
     sequence(
-        silent(phrase(verbs.REORIENT)),
+        phrase(verbs.REORIENT),
         THINGS,
-        silent(optional(either(phrase(manner.UPRIGHT), phrase(manner.STANDING)), None)),
-        build=ReorientClause,
+        optional(
+            either(
+                phrase(f"{manner.UPRIGHT}, {manner.STANDING}", True), phrase(manner.FITTING, False)
+            ),
+            False,
+        ),
+        build=lambda verb, things, upright: ReorientClause(things, upright or verb == "upright"),
     ),
     sequence(
-        silent(phrase(verbs.TURN)), THINGS, silent(phrase(manner.UPRIGHT)), build=ReorientClause
+        silent(phrase(verbs.TURN)),
+        THINGS,
+        silent(phrase(f"back {manner.UPRIGHT}, {manner.UPRIGHT}")),
+        build=lambda things: ReorientClause(things, upright=True),
     ),
 )
 _ENDS = separated(
@@ -59,6 +70,11 @@ def _tower(
 
 
 _ON = silent(phrase(places.ONTO))
+_COLOR = sequence(
+    word(lambda given, text: basic_color(text) is not None),
+    build=lambda text: NounPhrase(words=(text,), text=text),
+)
+"""A colour alone ("stack red on blue")."""
 _UPWARD = sequence(
     OPTIONAL_COMMA,
     either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False)),
@@ -74,6 +90,13 @@ TOWER = either(
         noun_phrase,
         some(sequence(_ON, noun_phrase, build=lambda np: np), least=2, most=5),
         build=lambda top, below: TowerClause(Things((top, *below)), upward=False),
+    ),
+    sequence(
+        silent(phrase(verbs.STACK)),
+        _COLOR,
+        _ON,
+        _COLOR,
+        build=lambda top, below: TowerClause(Things((top, below)), upward=False),
     ),
     sequence(
         silent(phrase(verbs.STACK)),

@@ -107,7 +107,7 @@ _contents = either(
     sequence(
         _HAVING,
         silent(phrase("nothing")),
-        _INSIDE_IT,
+        either(_INSIDE_IT, _UPON_IT),
         build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
     ),
     quiet(

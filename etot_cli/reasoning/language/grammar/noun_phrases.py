@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import nouns
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, is_descriptive, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _NUMBER = sequence(
@@ -106,6 +106,17 @@ noun_phrase.define(
     spanned(
         either(
             sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
+            sequence(
+                # "The top two drawers"
+                silent(phrase("the")),
+                word(lambda given, text: is_descriptive(text) or text in LEVELS),
+                word(lambda given, text: NUMBERS.get(text, 1) > 1),
+                WORDS,
+                MODIFIERS,
+                build=lambda first, count, rest, modifiers: NounPhrase(
+                    f"the {count}", (first, *rest), modifiers
+                ),
+            ),
             sequence(_FREE_CHOICE, WORDS, silent(phrase(nouns.AS_YOU_LIKE)), build=NounPhrase),
             sequence(
                 silent(optional(phrase("the, a, their, its, his"), None)),

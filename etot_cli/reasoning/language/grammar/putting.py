@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
@@ -48,6 +49,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
+from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
@@ -57,33 +59,19 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
-
-
-def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
-    """Things that go first or last; none of them is "the first" itself."""
-    return None if any(np.words[-1:] in (("first",), ("last",)) for np in nps) else nps
-
-
-FIRST_OF_THEM = either(
-    sequence(separated(noun_phrase, LIST, most=2), silent(phrase("first")), build=_named_ones),
-    sequence(silent(phrase(manner.STARTING_WITH)), noun_phrase, build=lambda np: (np,)),
-)
-LAST_OF_THEM = sequence(
-    separated(noun_phrase, LIST, most=2), silent(phrase("last")), build=_named_ones
-)
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
         GROUPING,
         CONDITION,
-        silent(phrase(manner.STANDING)),
+        phrase(manner.STANDING, ("upright", ())),
+        silent(phrase(manner.FITTING)),
         sequence(
             silent(phrase(places.BUT_NOT)),
             separated(destination, OR, most=3),
             build=lambda found: ("not", found),
         ),
-        valued(FIRST_OF_THEM, lambda nps: ("first", nps)),
-        valued(LAST_OF_THEM, lambda nps: ("last", nps)),
+        TURN,
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
@@ -97,25 +85,24 @@ def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     groupings = [item for item in extras if isinstance(item, Grouping)]
     conditions = tuple(item for item in extras if isinstance(item, State))
     said = [item for item in extras if isinstance(item, tuple) and item]
-    firsts = [item[1] for item in said if item[0] == "first"]
-    lasts = [item[1] for item in said if item[0] == "last"]
+    turns = turns_of(said)
     named = {item[0] for item in said}
     ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
     if "apart" in named and not groupings and len(groups) == 1:
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
         return None
-    if len(groupings) > 1 or len(firsts) > 1 or len(lasts) > 1:
+    if len(groupings) > 1 or turns is None:
         return None
     grouping = groupings[0] if groupings else Grouping.ANY
-    first = firsts[0] if firsts else ()
+    if "upright" in named:
+        groups = tuple(replace(group, upright=True) for group in groups)
     return PutClause(
         groups,
         grouping,
         conditions,
-        first,
+        turns,
         ruled_out,
-        last=lasts[0] if lasts else (),
         by_color="color" in named,
         one_each="each" in named,
     )
@@ -129,16 +116,16 @@ _ASIDE = silent(
 def _group(directions: Parser, particle: str) -> Parser:
     return sequence(
         THINGS,
-        silent(optional(phrase(particle), None)),
+        optional(either(phrase(manner.STANDING, True), phrase(particle, False)), False),
         _ASIDE,
         directions,
-        build=PutGroup,
+        build=lambda things, upright, where: PutGroup(things, where, upright),
     )
 
 
 PUT_GROUP = _group(
     DESTINATIONS,
-    "down, up, upright, away, back, over, inside, somewhere, anywhere, some place, "
+    "down, up, away, back, over, inside, somewhere, anywhere, some place, "
     "one (by one|at a time|after the other|after another)",
 )
 _GROUPED = sequence(

@@ -9,6 +9,7 @@ from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Rule,
     either,
     optional,
@@ -18,6 +19,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
@@ -26,6 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     State,
     Things,
 )
+from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, verbs
 
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
@@ -90,6 +93,12 @@ MOVE = either(
         either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
         build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
     ),
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        valued(TURN, lambda turn: turns_of((turn,))),
+        build=lambda moved, turns: replace(moved, turns=turns),
+    ),
 )
 IF_NOT_SO = quiet(
     sequence(
@@ -97,7 +106,7 @@ IF_NOT_SO = quiet(
         NP_LIST,
         BE,
         OPEN_OR_CLOSED,
-        COMMA,
+        either(COMMA, sequence(OPTIONAL_COMMA, silent(phrase("then")), build=lambda: NOTHING)),
         _PLAIN_MOVE,
         build=_if_not_so,
     )

@@ -115,6 +115,19 @@ class PutGroup:
 
     things: Things
     destinations: tuple[Destination, ...]
+    upright: bool = False
+    """They are to stand there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turns:
+    """Which of several things come first and last, or from which side to which they are taken
+    ("left right").
+    """
+
+    first: tuple[NounPhrase, ...] = ()
+    last: tuple[NounPhrase, ...] = ()
+    sweep: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,12 +137,9 @@ class PutClause:
     groups: tuple[PutGroup, ...]
     grouping: Grouping = Grouping.ANY
     conditions: tuple[State, ...] = ()
-    first: tuple[NounPhrase, ...] = ()
-    """Those of the things that go first ("the blue one first")."""
+    turns: Turns = Turns()
     ruled_out: tuple[Destination, ...] = ()
     """Where they must not go ("in a cup, but not in the red one")."""
-    last: tuple[NounPhrase, ...] = ()
-    """Those of the things that go last."""
     by_color: bool = False
     """Each goes to a place of its own colour."""
     one_each: bool = False
@@ -154,6 +164,7 @@ class MoveClause:
     opens: bool
     guarded: bool = False
     """It is said with a condition that its own end state answers ("if it is closed, open it")."""
+    turns: Turns = Turns()
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,9 +178,10 @@ class EnsureClause:
 
 @dataclass(frozen=True, slots=True)
 class ReorientClause:
-    """Turn something so that it fits; says nothing about where it goes."""
+    """Turn something so that it fits, or (``upright``) stand it up; says nothing of where it goes."""
 
     things: Things
+    upright: bool = False
 
 
 @dataclass(frozen=True, slots=True)

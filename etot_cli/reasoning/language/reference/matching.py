@@ -84,6 +84,8 @@ def match_words(
         ReferenceProblem: nothing fits, or a word is not understood.
     """
     everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
+    # Two things with one label are called alike, whatever their names are.
+    by_name &= sum(entry.is_called(words) for entry in vocabulary.objects) < 2
     for entry in everything:
         if len(words) == 1 and words[0] in entry.exact and (by_name or not words[0].isalpha()):
             return Match((entry,))
@@ -234,7 +236,7 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
     elif word in LEVELS and any(_is_stacked(entry) for entry, _ in graded):
         # What has parts on several levels has none on this one.
         sifted.graded = [item for item in graded if not _is_stacked(item[0])]
-    elif word in SIDES or word in SIZES or word in ORDINALS or word in STATES:
+    elif any(word in table for table in (SIDES, SIZES, ORDINALS, STATES, LEVELS)):
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned

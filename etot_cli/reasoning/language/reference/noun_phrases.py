@@ -271,7 +271,7 @@ class Resolver:
                 raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
             ways = {
                 tuple(related(modifier, things, landmarks, quantity, count, self._scene))
-                for landmarks in self._landmark_sets(modifier, phrase, pronoun)
+                for landmarks in self._landmark_sets(modifier, phrase, pronoun, quantity)
             } - {()}
             if len(ways) > 1 and unclear < len(waiting):
                 # Another modifier may tell.
@@ -296,7 +296,7 @@ class Resolver:
         return things
 
     def _landmark_sets(
-        self, modifier: Modifier, phrase: NounPhrase, pronoun: Pronoun
+        self, modifier: Modifier, phrase: NounPhrase, pronoun: Pronoun, quantity: Quantity
     ) -> list[list[list[Thing]]]:
         """What each landmark of a modifier may be; "between the bowls" names two at once. All ways
         to understand a pronoun among them.
@@ -314,9 +314,12 @@ class Resolver:
             self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
             for item in modifier.phrases
         ]
-        # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear.
+        # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear;
+        # "everything in a box" is what one box holds.
         ways = (
-            [[thing] for thing in things] if _is_one(item) else [things]
+            [[thing] for thing in things]
+            if _is_one(item) or (quantity.every and quantity_of(item.determiner).count == 1)
+            else [things]
             for item, things in zip(modifier.phrases, each, strict=True)
         )
         return [list(way) for way in product(*ways)]
@@ -325,7 +328,7 @@ class Resolver:
         self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None
     ) -> list[Thing]:
         """What a phrase inside a modifier may mean."""
-        if phrase.pronoun:
+        if phrase.pronoun or (quantity_of(phrase.determiner).other and phrase.words):
             ways = pronoun(phrase)
             if len(ways) != 1:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)

@@ -7,11 +7,17 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.narrowing import (
+    of_last_choice,
+    of_spoken_owner,
+    others,
+    spoken_part,
+)
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import (
@@ -48,8 +54,12 @@ class Phrases:
         of ``excluded``.
         """
         self._check_shared(things, role)
+        for phrase in things.phrases[1:]:
+            if phrase.determiner == "both" and not phrase.words:
+                raise ReferenceProblem(phrase.text, "say which two", 2)
         if not things.either:
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
+            self._check_apart(things, found)
             return list(dict.fromkeys(index for indices in found for index in indices))
         nouns = [phrase.words[-1:] for phrase in things.phrases]
         phrases = [
@@ -64,6 +74,16 @@ class Phrases:
         either = Resolved(options, definite=False, other=False, noun=resolved[-1].noun)
         text = " or ".join(phrase.text for phrase in things.phrases)
         return [self.discourse.add(either, text, role)]
+
+    def _check_apart(self, things: Things, found: Sequence[Sequence[int]]) -> None:
+        """Whether "both drawers, the lower" names one of them twice, which says something else."""
+        named: set[Thing] = set()
+        for phrase, indices in zip(things.phrases, found, strict=True):
+            options = [self.discourse.referents[index].options for index in indices]
+            own = {thing for item in options if len(item) == 1 for thing in item[0]}
+            if own <= named and own:
+                raise ReferenceProblem(phrase.text, "it was named before; say what of it", 2)
+            named |= own
 
     def _check_shared(self, things: Things, role: Role) -> None:
         """In "the cup and the ball on the tray" the cup may be the one on the tray, too.
@@ -137,7 +157,12 @@ class Phrases:
                 for index in found:
                     self.discourse.mention_again(index, role)
                 return found
-        return ()
+        spoken = tuple(dict.fromkeys(item.referent for item in self.discourse.mentions))
+        things = [option for i in spoken for option in self.discourse.referents[i].options]
+        both = len(things) == len(spoken) == 2 and all(
+            len(option) == 1 and can_be(option[0], role, self._scene) for option in things
+        )
+        return spoken if both and not set(spoken) & set(excluded) else ()
 
     def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
         """The latest referent that "the same …" may mean."""
@@ -173,6 +198,8 @@ class Phrases:
             if landmark.determiner == "one":
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
+                if quantity_of(landmark.determiner).other:
+                    continue
                 resolved = self._resolver.resolve(landmark, Role.ANY, pronoun=self._pronoun_things)
                 self.discourse.add(resolved, landmark.text, Role.ANY)
 
@@ -207,17 +234,17 @@ class Phrases:
             # "One cup … the other two": which they are depends on the one.
             with suppress(ReferenceProblem):
                 rest = replace(phrase, determiner="all other")
-                others = self._others(self._with_noun(rest, role, noun_before))
-                if all(len(option) == quantity.count for option in others.options):
-                    return others
+                rest_of = others(self._with_noun(rest, role, noun_before), discourse)
+                if all(len(option) == quantity.count for option in rest_of.options):
+                    return rest_of
         resolved = self._with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
-            return self._others(resolved)
+            return others(resolved, discourse)
         if resolved.other and resolved.definite and quantity.count in (None, 1):
             if phrase.words[-1:] in ((), ("one",)):
-                resolved = self._of_last_choice(resolved)
+                resolved = of_last_choice(resolved, discourse)
             self._check_one_left(phrase, resolved)
-        return self._of_spoken_owner(self._spoken_part(resolved))
+        return of_spoken_owner(spoken_part(resolved, discourse), discourse)
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
         """A phrase that may leave its noun to an earlier one: to the latest, else to the only
@@ -273,38 +300,6 @@ class Phrases:
             if same_noun(mention.noun, noun) and len(referent.options) > 1:
                 raise AmbiguousReference(phrase.text, [f"what {referent.text} leave", "a number"])
 
-    def _spoken_part(self, resolved: Resolved) -> Resolved:
-        """After "the lower drawer" "the drawer" is that one, not the whole chest."""
-        named = {(thing.name, thing.part) for option in resolved.options for thing in option}
-        if not resolved.definite or resolved.other or len(named) != 1:
-            return resolved
-        ((owner, part),) = named
-        for mention in reversed(self.discourse.mentions):
-            things = self.discourse.things(mention.referent)
-            parts = things and all(thing.name == owner and thing.part for thing in things)
-            if part is None and parts and same_noun(mention.noun, resolved.noun):
-                return replace(resolved, options=self.discourse.referents[mention.referent].options)
-        return resolved
-
-    def _of_spoken_owner(self, resolved: Resolved) -> Resolved:
-        """Of several pieces' doors "the door" is that of the piece that was spoken of last."""
-        parts = all(len(option) == 1 and option[0].part for option in resolved.options)
-        if not (resolved.definite and parts and len(resolved.options) > 1):
-            return resolved
-        for mention in reversed(self.discourse.mentions):
-            named = {thing.name for thing in self.discourse.things(mention.referent)}
-            own = tuple(option for option in resolved.options if {option[0].name} == named)
-            if own:
-                return replace(resolved, options=own)
-        return resolved
-
-    def _of_last_choice(self, resolved: Resolved) -> Resolved:
-        """After "a green cup", of two, "the other one" is green, too."""
-        for referent in reversed(self.discourse.referents):
-            if len(referent.options) == 2 and {*referent.options} < {*resolved.options}:
-                return replace(resolved, options=referent.options)
-        return resolved
-
     def _check_one_left(self, phrase: NounPhrase, resolved: Resolved) -> None:
         """Whether "the other one" is one: as many are left as have not been chosen before."""
         if any(len(option) != 1 for option in resolved.options):
@@ -319,21 +314,14 @@ class Phrases:
         if len(things) - chosen > 1:
             raise AmbiguousReference(phrase.text, sorted(thing.name for thing in things))
 
-    def _others(self, resolved: Resolved) -> Resolved:
-        """All others of a choice made before: which they are depends on it."""
-        things = resolved.options[0]
-        for referent in reversed(self.discourse.referents):
-            chosen = [set(option) for option in referent.options]
-            if len(chosen) > 1 and all(option <= set(things) for option in chosen):
-                left = (tuple(t for t in things if t not in option) for option in chosen)
-                return replace(resolved, options=tuple(option for option in left if option))
-        return resolved
-
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
         return self._resolved(phrase, role)
 
     def _pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
+        """All that a pronoun in a modifier may mean, or "the other brush" there."""
+        if not phrase.pronoun:
+            return list(self._resolved(phrase, Role.ANY).options)
         if phrase.pronoun not in PLURAL_PRONOUNS:
             found = [self.discourse.things(index) for index in self.discourse.candidates()]
             if not found:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import contents, is_closed
+from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIDES, SIZES, STATES
+from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
@@ -76,11 +77,11 @@ def select(
     for word in words:
         if word in SIZES:
             things = _by_size(word, things, count, scene, phrase)
-    selected = [word for word in words if word in SIDES]
+    selected = [word for word in words if word in SIDES or word in LEVELS]
     if len(selected) > 1:  # "the far left cup"
         selected = [word for word in selected if word not in ("far", "near")]
     for word in (*selected, *(side for side in sides if side is not None)):
-        things = _at_side(SIDES.get(word, word), things, count, scene, phrase)
+        things = _at_side(SIDES.get(word, LEVELS.get(word, word)), things, count, scene, phrase)
     return things
 
 
@@ -101,11 +102,36 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
             places = [part.address for part in parts] if thing.part else [thing.name]
             places += [part.address for part in parts]
             filled = any(contents(scene, place) for place in places)
-            if not info.container and not parts:
-                filled = any(thing.name in state.on for state in scene.states.values())
+            if thing.board is not None:
+                places = [f"{thing.name}.{thing.board}"]
+            if thing.board is not None or (not info.container and not parts):
+                filled = any(is_on(scene, name, places[0]) for name in scene.states)
             return filled == (STATES[word] == "full")
         case _:
             return state.toppled
+
+
+def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) -> list[Thing]:
+    """Things in order from a side on, be it the ``top`` or the ``bottom``.
+
+    Raises:
+        ReferenceProblem: two of them are as far to that side.
+    """
+    if side not in ("top", "bottom"):
+        ordered = space.by_side(side, things, scene)
+        for one, other in pairwise(ordered):
+            if space.are_level(side, one, other, scene):
+                names = f"{one.name} and {other.name}"
+                raise ReferenceProblem(phrase, f"{names} are as far to that side", 2, word=side)
+        return ordered
+    if len({thing.name for thing in things}) == 1 and (things[0].part or things[0].board):
+        # Parts are listed from the top down, boards from the bottom up.
+        upward = things[0].board is not None
+        return list(things[::-1] if upward == (side == "top") else things)
+    if not space.is_column(things, scene):
+        raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=side)
+    stack = space.upon_each_other(things, scene)
+    return stack[::-1] if side == "top" else stack
 
 
 def _nth(
@@ -116,8 +142,11 @@ def _nth(
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         ordered = things[::-1] if origin == ("top" if upward else "bottom") else things
-    elif origin in ("top", "bottom"):
-        raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=origin)
+    elif origin in ("top", "bottom") or space.is_column(things, scene):
+        if origin not in ("top", "bottom"):
+            why = "they lie upon each other; say 'top', 'middle' or 'bottom'"
+            raise ReferenceProblem(phrase, why, 2, word=ordinal)
+        ordered = in_line(origin, things, scene, phrase)
     else:
         if origin is None and space.is_deep(things, scene):
             why = "they stand one behind the other; say 'front', 'middle' or 'back'"
@@ -177,12 +206,22 @@ def _at_side(
     side: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
     if side in ("top", "bottom"):
-        return [_nth("first", side, things, scene, phrase)]
+        stack = space.upon_each_other(things, scene)
+        ordered = in_line(side, stack or things, scene, phrase)
+        highest = max(things, key=lambda thing: space.position(thing, scene)[2])
+        if stack and side == "top" and highest not in stack:
+            why = f"{highest.name} is higher than {ordered[0].name}"
+            raise ReferenceProblem(phrase, why, 2, word=side)
+        return _leading(ordered, count, phrase)
+    if side == "middle" and space.is_column(things, scene):
+        things = space.upon_each_other(things, scene)
+    elif side == "middle":
+        things = space.in_a_row(things, scene)
     if side == "middle":
         if len(things) % 2 == 0:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
-        return [space.in_a_row(things, scene)[len(things) // 2]]
+        return [things[len(things) // 2]]
     ordered = space.by_side(side, things, scene)
     leading = _leading(ordered, count, phrase)
     next_one = ordered[len(leading) : len(leading) + 1]

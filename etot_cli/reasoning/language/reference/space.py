@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
@@ -207,6 +208,19 @@ def _along(side: str, scene: SceneState) -> Cost:
         "back": lambda thing: -to_the_back(thing, scene),
     }
     return keys[side]
+
+
+def upon_each_other(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Those of the things that lie on one another, from the bottom up; none of several stacks."""
+    stacked = [one for one in things if any(carries(one, other, scene) for other in things)]
+    stacked.sort(key=lambda thing: position(thing, scene)[2])
+    chain = all(low.name in _bearers(high, scene) for low, high in pairwise(stacked))
+    return stacked if chain else []
+
+
+def is_column(things: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether several things lie one upon the other."""
+    return len(things) > 1 and len(upon_each_other(things, scene)) == len(things)
 
 
 def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:

@@ -64,6 +64,12 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         head = out.phrases[0].words[-1]
         return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
     of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
+    first = phrase.words[0] if phrase.words else ""
+    several = (quantity_of(phrase.determiner).count or 1) > 1
+    if several and LEVELS.get(first) in ("top", "bottom") and len(phrase.words) > 1:
+        aside = Modifier(Prep.SIDE, words=(LEVELS[first],))
+        modifiers = (aside, *phrase.modifiers)
+        return usual_form(replace(phrase, words=phrase.words[1:], modifiers=modifiers))
     if not last or of is None:
         return phrase
     rest = tuple(item for item in phrase.modifiers if item is not of)

@@ -204,7 +204,7 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
     own = {singular(head) for head in heads}
     fitting = [group for group in groups if own & set(group)]
     if not fitting and not own & COMMON_NOUNS:
-        fitting = list(groups)
+        fitting = list(groups[-1:] if kind == "pen" else groups)
     if kind in own:
         fitting = list(groups)
     return tuple(noun for group in fitting for noun in group)

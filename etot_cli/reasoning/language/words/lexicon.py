@@ -138,7 +138,8 @@ SIZES = {
 """Comparisons: the quantity, and whether more (1) or less (-1) of it is meant."""
 STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
-    "empty": "empty", "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
+    **dict.fromkeys(("empty", "free", "vacant", "unoccupied"), "empty"),
+    "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
 }  # fmt: skip
 """Adjectives for what the scene's state says about an object."""
 

@@ -52,14 +52,23 @@ BY_COLOR = """
     matched by (color|colour)
 """
 STARTING_WITH = "starting with, beginning with"
+SWEEPS = {
+    f"{one} {other}": f"""
+        [in order|going|working] from [the] {one} [side] to [the] {other} [side], {one} to {other},
+        (starting|beginning) (from|at|on|with) the {one} [side|end]
+    """
+    for pair in (("left", "right"), ("front", "back"), ("top", "bottom"))
+    for one, other in (pair, pair[::-1])
+}
+"""In which direction several things are taken one after the other."""
 IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
 STANDING = """
-    so [that] it (fits|stands) [upright], standing [upright|up], upright,
-    so that (it|they) (fits|fit)
+    so [that] (it|they) (stands|stand) [upright], standing [upright|up], upright, vertically, on end
 """
+FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 HORIZONTAL = """
     horizontally, in a horizontal (pose|grasp), sideways,
     [with|using] [a] horizontal [grasp|grip|pose], (with|using) a side (grasp|grip),

@@ -1,0 +1,73 @@
+"""In which order several things of one clause have their turns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things, Turns
+from etot_cli.reasoning.language.reference.selection import in_line
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+
+
+def in_turns(
+    context: Context, spoken: Things, turns: Turns, role: Role, excluded: Sequence[int] = ()
+) -> list[int]:
+    """Referents of things in the order in which they have their turns.
+
+    Raises:
+        ReferenceProblem: a phrase cannot be resolved, or the words for order do not order them.
+    """
+    found = context.phrases.things(spoken, role, excluded)
+    if turns == Turns():
+        return found
+    things = [thing for index in found for thing in context.only(index, "say which ones")]
+    text = " and ".join(phrase.text for phrase in spoken.phrases)
+    if turns.sweep:
+        if len(spoken.phrases) > 1:
+            why = "say in which order they go, or beside what each of them is to be"
+            raise ReferenceProblem(text, why, 3)
+        ordered = in_line(turns.sweep.split()[0], things, context.scene, text)
+        names = ", ".join(thing.part or thing.board or thing.name for thing in ordered)
+        context.discourse.notes.append(f"one after the other: {names}")
+    else:
+        ahead = _picked_out(context, spoken, turns.first, things, role)
+        behind = _picked_out(context, spoken, turns.last, things, role)
+        between = [thing for thing in things if thing not in ahead and thing not in behind]
+        ordered = [*ahead, *between, *behind]
+    return [context.single(thing, text) for thing in ordered]
+
+
+def _picked_out(
+    context: Context,
+    spoken: Things,
+    phrases: Sequence[NounPhrase],
+    things: Sequence[Thing],
+    role: Role,
+) -> list[Thing]:
+    """What "blue first" or "the small one last" means among several things."""
+    noun = spoken.phrases[-1].words[-1:]
+    found: list[Thing] = []
+    for phrase in phrases:
+        full = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun)
+        resolved = context.phrases.meaning(full, role)
+        if len(resolved.options) != 1:
+            raise ReferenceProblem(phrase.text, "say which one of them", 2)
+        if not all(thing in things for thing in resolved.options[0]):
+            raise ReferenceProblem(phrase.text, "it is none of what is to be put", 2)
+        found += resolved.options[0]
+    return found
+
+
+def _with_noun(phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
+    """An elliptic phrase ("blue first") with the noun that it leaves out."""
+    single = tuple(map(singular, noun))
+    if phrase.words[-1:] in (("one",), ("ones",)):
+        kept = single if phrase.words[-1] == "one" else noun
+        return replace(phrase, words=(*phrase.words[:-1], *kept))
+    # An adjective alone leaves its noun out; anything else is a noun of its own.
+    descriptive = phrase.words and all(map(is_descriptive, phrase.words))
+    return replace(phrase, words=(*phrase.words, *single)) if descriptive else phrase
