@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import re
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -102,6 +103,22 @@ SIDED = [
     and not re.search(r"(?i)right (next|away|behind)|(is|be) left\b", text)
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
 ]
+
+
+def thinned(found: list[tuple[str, str]], most: int = 2) -> list[tuple[str, str]]:
+    """At most so many sentences for each way to speak of a side: the words around "left"."""
+    kept: list[tuple[str, str]] = []
+    seen: Counter[tuple[str, ...]] = Counter()
+    for name, text in found:
+        around = re.findall(r"(\S+ )(?:left|right)(most)?([,.]| \S+)?", text.casefold())
+        alike = tuple(part for item in around for part in item)
+        seen[alike] += 1
+        if seen[alike] <= most:
+            kept.append((name, text))
+    return kept
+
+
+SIDED = thinned(SIDED)
 
 
 def exchanged(text: str) -> str:

@@ -65,17 +65,19 @@ def _check_kept(goal: Goal) -> None:
 
 def _check_run(goal: Goal) -> None:
     """Whether puts of one sentence that no word puts in an order send something to two places."""
-    gone: set[tuple[int, int]] = set()
+    gone: set[tuple[int, object]] = set()
     for step in goal.steps:
         returned = isinstance(step, Put) and any(
             near.relation is Nearby.AT_POINT for place in step.places for near in place.beside
         )
         if isinstance(step, Put) and not (step.removal or step.aside or returned):
             for index in step.what:
-                if (step.run, index) in gone:
+                options = goal.referents[index].options
+                own = {(step.run, item) for item in (options[0] if len(options) == 1 else (index,))}
+                if own & gone:
                     why = "it cannot go to two places at once; say 'then'"
                     raise ReferenceProblem(goal.referents[index].text, why, 4)
-                gone.add((step.run, index))
+                gone |= own
 
 
 class _State:

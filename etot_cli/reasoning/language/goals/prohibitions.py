@@ -59,7 +59,7 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     assert clause.things is not None
     places = [place.where for place in context.discourse.last_places if place.where is not None]
     indices = context.phrases.things(clause.things, Role.THEME, places)
-    rule_out(context, indices, clause.destinations)
+    context.discourse.last_places = rule_out(context, indices, clause.destinations)
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:
@@ -77,17 +77,20 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
         context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
 
 
-def rule_out(context: Context, themes: Sequence[int], destinations: Sequence[Destination]) -> None:
-    """Says where things must not be put."""
+def rule_out(
+    context: Context, themes: Sequence[int], destinations: Sequence[Destination]
+) -> tuple[Place, ...]:
+    """Says where things must not be put; returns these places."""
     names = {thing.name: None for index in themes for thing in context.discourse.things(index)}
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
-    for place in context.places.of(destinations, themes):
+    for place in (found := context.places.of(destinations, themes)):
         if place.beside or place.where is None:
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
         for thing in context.discourse.things(place.where):
             places += [(place.relation, item) for item in _addresses(context, thing, place)]
     context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
+    return found
 
 
 def keep_as_it_is(context: Context, index: int, word: str) -> None:

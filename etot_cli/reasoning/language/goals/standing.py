@@ -15,6 +15,9 @@ from etot_cli.world.spatial import Nearby
 
 def reorient(context: Context, clause: ReorientClause) -> None:
     """Stands up what has toppled, where it lies; any other turning is part of what follows."""
+    if clause.only_named:
+        context.phrases.things(clause.things, Role.ANY)
+        return
     themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:
         if not clause.upright or not _can_stand(context, index):

@@ -149,7 +149,7 @@ def _said(node: object) -> Iterator[str]:
         case Beside(relation=Nearby.AWAY):
             yield _canonical("far")
         case State(kept=kept, word=word, subjects=subjects):
-            yield from ("both",) if len(subjects) > 1 else ()
+            yield from ("both", "each", "all") if len(subjects) > 1 else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"

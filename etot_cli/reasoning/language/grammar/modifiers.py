@@ -11,7 +11,9 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OR, WITH
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.parsing import (
+    Input,
     Parser,
+    Result,
     Rule,
     either,
     one_of,
@@ -149,7 +151,17 @@ def _other_than(np: NounPhrase) -> Modifier | None:
     return Modifier(Prep.EXCEPT, (np,))
 
 
-_described = either(PLAIN_MODIFIER, _contents, QUALITY)
+def quality_alone(given: Input, at: int) -> list[Result]:
+    """Qualities, but no "closest" that says "to" what."""
+    words = (*given.words, "")
+    return [
+        (end, value)
+        for end, value in QUALITY(given, at)
+        if not (SIDES.get(words[end - 1]) in ("near", "far") and words[end] in ("to", "from"))
+    ]
+
+
+_described = either(PLAIN_MODIFIER, _contents, quality_alone)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
 _modifier = either(
@@ -157,6 +169,7 @@ _modifier = either(
     _contents,
     _matching,
     sequence(RELATIVE, _described, build=lambda modifier: modifier),
+    sequence(silent(phrase("whose (color|colour) is")), QUALITY, build=lambda modifier: modifier),
     sequence(
         silent(phrase("~comma which (is|are)")),
         either(PLAIN_MODIFIER, QUALITY),

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     QUALITY,
     exceptions,
     noun_phrase,
+    quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
@@ -116,6 +117,26 @@ noun_phrase.define(
                 build=lambda first, count, rest, modifiers: NounPhrase(
                     f"the {count}", (first, *rest), modifiers
                 ),
+            ),
+            sequence(
+                silent(phrase("whichever, whatever")),
+                WORDS,
+                silent(phrase("is")),
+                either(PLAIN_MODIFIER, quality_alone),
+                build=lambda words, modifier: NounPhrase("the only", words, (modifier,)),
+            ),
+            sequence(
+                silent(phrase("the")),
+                phrase("near"),
+                WORDS,
+                MODIFIERS,
+                build=lambda near, words, modifiers: NounPhrase("the", (near, *words), modifiers),
+            ),
+            sequence(
+                silent(phrase("a")),
+                WORDS,
+                silent(phrase("of (its|their) own")),
+                build=lambda words: NounPhrase("a", ("different", *words)),
             ),
             sequence(_FREE_CHOICE, WORDS, silent(phrase(nouns.AS_YOU_LIKE)), build=NounPhrase),
             sequence(

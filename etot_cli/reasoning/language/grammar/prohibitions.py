@@ -47,8 +47,13 @@ WITHOUT = either(
 KEEP_STILL = either(
     sequence(
         THINGS,
-        silent(phrase("(should|must|has to|have to|is to|are to|shall) (stay|remain|be left)")),
-        silent(phrase(manner.AS_IT_IS)),
+        silent(
+            phrase(
+                "(should|must|has to|have to|is to|are to|shall) (stay|remain|be left),"
+                "stay[s], remain[s]"
+            )
+        ),
+        silent(phrase(f"{manner.AS_IT_IS}, put")),
         build=lambda things: AvoidClause(Avoid.MOVE, things),
     ),
     sequence(

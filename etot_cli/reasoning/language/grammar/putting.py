@@ -75,7 +75,7 @@ EXTRA = sequence(
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
-        silent(phrase(manner.IN_THIS_ORDER)),
+        silent(phrase(f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)")),
     ),
     build=lambda *found: found[0] if found else (),
 )
@@ -134,6 +134,15 @@ _GROUPED = sequence(
     GROUPING,
     DESTINATIONS,
     build=lambda things, grouping, where: PutClause((PutGroup(things, where),), grouping),
+)
+_IN_TURNS = sequence(
+    silent(phrase(verbs.PUT)),
+    THINGS,
+    COMMA,
+    TURN,
+    COMMA,
+    DESTINATIONS,
+    build=lambda things, turn, where: _put((PutGroup(things, where),), (turn,)),
 )
 _WITH_WHAT_IT_HOLDS = sequence(
     silent(phrase(verbs.PUT)),
@@ -205,6 +214,7 @@ PUT = either(
     _GROUPED,
     _FRONTED,
     _ALONG_WITH,
+    _IN_TURNS,
     _WITH_WHAT_IT_HOLDS,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.

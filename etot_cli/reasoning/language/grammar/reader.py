@@ -35,7 +35,11 @@ from etot_cli.reasoning.language.words.lexicon import (
     basic_color,
     singular,
 )
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.small_words import WITHOUT_MEANING
 
+_POLITE = frozenset(spellings(WITHOUT_MEANING))
+"""Sentences that ask for nothing."""
 SHOWN_WORDS = 4
 MAX_READINGS = 200
 """Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
@@ -102,6 +106,8 @@ def read(text: str, vocabulary: frozenset[str]) -> Read:
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
+        if part in _POLITE and len(parts) > 1:
+            continue
         before = ". ".join(parts[: len(sentences)])
         words = []
         for word in words_in(part):

@@ -9,7 +9,7 @@ from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOW
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import exceptions
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
     Rule,
@@ -34,12 +34,16 @@ from etot_cli.reasoning.language.grammar.syntax import (
     MoveClause,
     Order,
     PutClause,
+    PutGroup,
+    ReorientClause,
     Spoken,
+    Things,
+    pronouns,
 )
 from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
-from etot_cli.reasoning.language.words import nouns, small_words
+from etot_cli.reasoning.language.words import nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
 LEFT_OUT = sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps)
@@ -110,6 +114,34 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
 
 
 LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
+_GONE = located(
+    either(
+        sequence(
+            NP_LIST,
+            silent(phrase(small_words.GONE)),
+            DESTINATIONS,
+            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
+        ),
+        sequence(
+            NP_LIST,
+            either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
+            build=lambda nps, opens: MoveClause(Things(nps), opens),
+        ),
+        sequence(
+            silent(phrase(verbs.DONE)),
+            NP_LIST,
+            DESTINATIONS,
+            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
+        ),
+        sequence(
+            either(phrase("opened", True), phrase("closed", False)),
+            THINGS,
+            build=lambda opens, things: MoveClause(things, opens),
+        ),
+    ),
+    lambda at, clause: (Spoken(clause, at),),
+)
+"""What has been done by then ("once the pear has been put into the bowl")."""
 _JOINED = either(
     sequence(silent(phrase("and")), LED_CLAUSE, build=lambda clause: ("mere and", clause)),
     sequence(silent(phrase(small_words.JOINTS)), LED_CLAUSE, build=lambda clause: ("and", clause)),
@@ -130,7 +162,7 @@ _JOINED = either(
     sequence(
         OPTIONAL_COMMA,
         silent(phrase(small_words.AFTER)),
-        LED_CLAUSE,
+        either(LED_CLAUSE, _GONE),
         build=lambda clause: ("after", clause),
     ),
     sequence(
@@ -222,8 +254,30 @@ _PLACED = located(
     either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)),
     lambda at, clause: (Spoken(clause, at),),
 )
+_TOPIC = located(
+    sequence(
+        silent(optional(phrase(small_words.LOOK_FOR), None)),
+        THINGS,
+        build=lambda things: ReorientClause(things, only_named=True),
+    ),
+    lambda at, clause: Spoken(clause, at),
+)
+
+
+def _about(topic: Spoken, rest: Reading) -> Reading | None:
+    """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
+    return (topic, *rest) if next(pronouns(rest[0].clause), None) else None
+
+
 SENTENCE = either(
     CHAIN,
+    sequence(
+        LEAD,
+        _TOPIC,
+        either(COMMA, silent(phrase("and, and then"))),
+        CHAIN,
+        build=lambda orders, topic, rest: None if orders else _about(topic, rest),
+    ),
     located(IF_NOT_SO, lambda at, clause: (Spoken(clause, at),)),
     sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
@@ -242,7 +296,7 @@ SENTENCE = either(
     sequence(
         LEAD,
         silent(phrase(small_words.AFTER)),
-        LED_CLAUSE,
+        either(LED_CLAUSE, _GONE),
         COMMA,
         CHAIN,
         build=lambda orders, earlier, rest: None if orders else (*earlier, *_then(rest)),

@@ -112,6 +112,8 @@ IF_NOT_SO = quiet(
     )
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
+_TO_BE = silent(optional(phrase("to (be|end up|go|stand|sit|lie)"), None))
+_EACH = silent(optional(phrase("each, both, all"), None))
 ENSURE = either(
     sequence(silent(phrase(verbs.ENSURE)), states, build=EnsureClause),
     sequence(
@@ -121,6 +123,12 @@ ENSURE = either(
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
     sequence(
+        NP_LIST,
+        silent(phrase("stay[s], remain[s]")),
+        PREDICATE,
+        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
+    ),
+    sequence(
         silent(phrase("there (should|must|has to|have to|needs to|need to|shall) be")),
         NP_LIST,
         DESTINATIONS,
@@ -128,6 +136,7 @@ ENSURE = either(
     ),
     sequence(
         NP_LIST,
+        _EACH,
         silent(phrase(verbs.MODAL)),
         PREDICATE,
         # "…, the ball in the cup": the verb is left out.
@@ -137,12 +146,10 @@ ENSURE = either(
     sequence(
         silent(phrase(verbs.WANT)),
         NP_LIST,
-        silent(optional(phrase("to be"), None)),
+        _TO_BE,
         PREDICATE,
         some(
-            sequence(
-                LIST, NP_LIST, silent(optional(phrase("to be"), None)), PREDICATE, build=state_of
-            ),
+            sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of),
             most=4,
         ),
         build=lambda nps, predicate, more: EnsureClause((state_of(nps, predicate), *more)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -178,10 +179,12 @@ class EnsureClause:
 
 @dataclass(frozen=True, slots=True)
 class ReorientClause:
-    """Turn something so that it fits, or (``upright``) stand it up; says nothing of where it goes."""
+    """Turn something so that it fits, or (``upright``) stand it up; not where it goes."""
 
     things: Things
     upright: bool = False
+    only_named: bool = False
+    """It is but named, or looked for, before something is asked of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,6 +284,15 @@ class Spoken:
     clause: Clause
     position: int
     order: Order = Order.SAID
+
+
+def pronouns(node: object) -> Iterator[str]:
+    """The pronouns in a tree, those in determiners left out."""
+    if isinstance(node, NounPhrase) and node.pronoun:
+        yield node.pronoun
+    items = node if isinstance(node, tuple) else getattr(node, "__dataclass_fields__", ())
+    for item in items:
+        yield from pronouns(item if isinstance(node, tuple) else getattr(node, item))
 
 
 def reading_cost(node: object) -> int:

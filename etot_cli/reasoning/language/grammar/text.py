@@ -27,6 +27,7 @@ _CLITICS = (
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"\bi'd\b", "i would"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
+    (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )

@@ -46,6 +46,16 @@ def related(
     ]
     if modifier.denied:
         return [thing for thing in things if thing not in fitting]
+    if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
+        # "The block under the blue one" of a tower is the one that bears it.
+        bearing = [mark for several in landmarks for mark in several]
+        touching = [
+            thing
+            for thing in fitting
+            for mark in bearing
+            if space.touches(*((mark, thing) if prep is Prep.UNDER else (thing, mark)), scene)
+        ]
+        return touching or fitting
     if prep not in RANKED:
         return fitting
     best: dict[Thing, float] = {}

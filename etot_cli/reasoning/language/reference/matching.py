@@ -94,7 +94,9 @@ def match_words(
         words = words[:-1]
     adjectives, head = tuple(words[:-1]), words[-1]
     if matches_any(head, ("one",)) and noun is not None:
-        head = noun if head == "ones" else singular(noun)
+        single = singular(noun)
+        plural = noun if noun != single else f"{noun}es" if noun.endswith("s") else f"{noun}s"
+        head = plural if head == "ones" else single
     if basic_color(head) and not any(entry.grade(head) == HEAD for entry in everything):
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:

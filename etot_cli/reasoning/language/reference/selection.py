@@ -55,6 +55,10 @@ def select(
         if item.prep is Prep.SIDE and not item.denied
     ]
     ordinals = [word for word in words if word in ORDINALS]
+    named = [word for word in phrase.split() if word in ORDINALS and word not in words]
+    if any(sides) and named and len(things) == 1 and things[0].part:
+        why = f"{named[0]!r} is the name of one of them; say it without a side"
+        raise ReferenceProblem(phrase, why, 3, word=named[0])
     if any(thing.name == DESK for thing in things) and (words or any(sides)):
         word = words[0] if words else "side"
         raise ReferenceProblem(phrase, f"{word!r} tells no desk from another", 2, word=word)
@@ -213,15 +217,19 @@ def _at_side(
             why = f"{highest.name} is higher than {ordered[0].name}"
             raise ReferenceProblem(phrase, why, 2, word=side)
         return _leading(ordered, count, phrase)
-    if side == "middle" and space.is_column(things, scene):
-        things = space.upon_each_other(things, scene)
-    elif side == "middle":
-        things = space.in_a_row(things, scene)
     if side == "middle":
+        upon = space.is_column(things, scene)
+        things = (space.upon_each_other if upon else space.in_a_row)(things, scene)
         if len(things) % 2 == 0:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
-        return [things[len(things) // 2]]
+        middle = things[len(things) // 2]
+        axis = space.row_from(things, scene)
+        for other in () if upon or middle.part or middle.board else things:
+            if other != middle and space.are_level(axis, middle, other, scene):
+                why = f"{middle.name} and {other.name} are as much in the middle"
+                raise ReferenceProblem(phrase, why, 2, word="middle")
+        return [middle]
     ordered = space.by_side(side, things, scene)
     leading = _leading(ordered, count, phrase)
     next_one = ordered[len(leading) : len(leading) + 1]

@@ -83,6 +83,11 @@ def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     return any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
+def touches(upper: Thing, lower: Thing, scene: SceneState) -> bool:
+    """Whether a thing stands directly on another one, or lies in it."""
+    return rests_on(upper, lower, scene) or lies_in(upper, lower, scene)
+
+
 def carries(one: Thing, other: Thing, scene: SceneState) -> bool:
     """Whether one of two things stands in or on the other."""
     return one.name in _bearers(other, scene) or other.name in _bearers(one, scene)
@@ -231,8 +236,13 @@ def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:
 
 def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     """Things in order along the axis in which they spread most, sideways or away."""
+    return by_side(row_from(things, scene), things, scene)
+
+
+def row_from(things: Sequence[Thing], scene: SceneState) -> str:
+    """The side at which a row of things begins."""
     width, depth = _spread(things, scene)
-    return by_side("left" if width >= depth else "front", things, scene)
+    return "left" if width >= depth else "front"
 
 
 def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:

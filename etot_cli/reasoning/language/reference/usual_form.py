@@ -76,7 +76,8 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
     whole = of.phrases[0]
     if last == "contents":
         inside = Modifier(Prep.IN, (whole,))
-        return replace(phrase, determiner="all", words=("objects",), modifiers=(inside, *rest))
+        words = (*phrase.words[:-1], "objects")
+        return replace(phrase, determiner="all", words=words, modifiers=(inside, *rest))
     if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
         several = singular(whole.words[-1]) != whole.words[-1]
         if not several:

@@ -11,7 +11,10 @@ WITHOUT_MEANING = """
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
     pls, plz, thx, (would|will|could|can) you, any way you like, whichever you like,
     (it does not|does not|no) matter which [one],
-    thank you, thanks, if you can, if possible, at all times, properly, neatly, directly, straight
+    [please and] thank you, thanks [a lot], cheers, that is all,
+    (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
+    i (do not|don t) (care|mind) [which] [one], whichever, if you can,
+    if possible, at all times, properly, neatly, directly, straight
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -59,4 +62,9 @@ EXACTLY = "right, directly, immediately, just, straight"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you]"
 AFTER = "(once|after|when) [you have|having|you]"
+GONE = "(has|have) (gone|been put|been placed|been moved|been brought|been set|landed)"
+"""Between a thing and where it is by then ("after the tuna has gone into the basket")."""
+OPENED = "(has|have) been (opened|open)"
+CLOSED = "(has|have) been (closed|shut)"
+LOOK_FOR = "find, locate, look for, search for, identify"
 SO_THAT = "so that, such that, so, in such a way that"

@@ -15,7 +15,7 @@ PUT = """
     tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], leav(e|ing), slid(e|ing), shift[ing],
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
-    add[ing]
+    add[ing], stash[ing], plop[ping]
 """
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
@@ -50,10 +50,12 @@ MODAL = """
     placed|stand|sit|lie),
     (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|stay|remain|go|be
     put|be placed),
-    (is|are) supposed to be, goes, go, belong[s]
+    (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed),
+    (should|must) be (standing|lying|sitting|located|stored)
 """
 WANT = """
-    i want, i would like, i d like, i need, we want, we need, i would love, i prefer,
+    i want, i would like, i d like, i need, we want, we need, i would love,
+    [i would|i d] prefer, i prefer, we would like,
     (can|could|may) (i|we) have, i would (like|love) to (have|see), i want to (have|see)
 """
 BE = """
@@ -78,7 +80,10 @@ TURN = "turn[ing], stand[ing], set[ting], put[ting], bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "build[ing], mak(e|ing), creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
-SWAP = "swap[ping], exchang(e|ing), switch[ing], swap the (places|positions) of, interchange"
+SWAP = """
+    swap[ping], exchang(e|ing), switch[ing], interchange,
+    (swap|exchange|switch) the (places|positions) of
+"""
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
     but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
