@@ -220,7 +220,7 @@ REFUSED: dict[str, dict[str, str]] = {
         "Pick up the chest": "chest cannot be picked up",
         "Put it in the bowl": "not clear what this refers to",
         "Put four mugs on the box": "only 3 of them",
-        "Turn the bottle around": "no skill of its own",
+        "Reorient the bottle": "no skill of its own",
         "Put the red apple on the green apple": "cannot be used as a surface",
         "": "says nothing",
         "Pick up the apple" + " and the apple" * 60: "over 80 words",

@@ -99,17 +99,18 @@ def _without_riders(context: Context, themes: list[int]) -> list[int]:
 
 def ensure(context: Context, state: State) -> None:
     """Adds the steps after which something is as it is said to be."""
-    for phrase in state.subjects:
-        if state.word and phrase.determiner.startswith(("only", "just")):
-            why = "say what is to become of the others, too"
-            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
     if state.word:
         for phrase in state.subjects:
             for index in context.phrases.refer(phrase, Role.PART):
                 if state.kept:
                     keep_as_it_is(context, index, state.word)
-                step = Open(index, final=True) if state.word == "open" else None
-                context.steps.append(step or Close(index, final=True))
+                context.steps.append(_made(index, opens=state.word == "open"))
+            if phrase.determiner.startswith(("only", "just")):
+                every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
+                for thing in context.phrases.meaning(every, Role.PART).options[0]:
+                    if thing not in context.discourse.things(index):
+                        other = context.single(thing, thing.part or thing.name)
+                        context.steps.append(_made(other, opens=state.word != "open"))
         return
     group = PutGroup(Things(state.subjects), state.destinations)
     if is_by_color(group):
@@ -131,6 +132,10 @@ def ensure(context: Context, state: State) -> None:
         raise ReferenceProblem(text, why, 3)
     _add_put(context, themes, places, grouping)
     context.discourse.last_places = places
+
+
+def _made(index: int, *, opens: bool) -> Open | Close:
+    return Open(index, final=True) if opens else Close(index, final=True)
 
 
 def cover(context: Context, clause: CoverClause) -> None:

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lendi
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -203,8 +204,10 @@ _SO_THAT_IT_IS = sequence(
     THINGS,
     OPTIONAL_COMMA,
     silent(phrase(small_words.SO_THAT)),
-    silent(phrase("it, they")),
-    BE,
+    either(
+        sequence(silent(phrase("it, they")), BE, build=lambda: NOTHING),
+        silent(phrase("it (stands|sits|lies), they (stand|sit|lie)")),
+    ),
     DESTINATIONS,
     build=PutGroup,
 )

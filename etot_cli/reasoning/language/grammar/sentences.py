@@ -278,7 +278,11 @@ SENTENCE = either(
         CHAIN,
         build=lambda orders, topic, rest: None if orders else _about(topic, rest),
     ),
-    located(IF_NOT_SO, lambda at, clause: (Spoken(clause, at),)),
+    sequence(
+        LEAD,
+        located(IF_NOT_SO, lambda at, clause: (Spoken(clause, at),)),
+        build=lambda orders, reading: None if orders else reading,
+    ),
     sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
         silent(phrase(small_words.LEADING_THEN)),

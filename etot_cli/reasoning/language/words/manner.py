@@ -66,7 +66,8 @@ IN_THIS_ORDER = """
     one (by one|after the other) in this order
 """
 STANDING = """
-    so [that] (it|they) (stands|stand) [upright], standing [upright|up], upright, vertically, on end
+    so [that] (it|they) (stands|stand) (upright|up), standing [upright|up], upright,
+    vertically, on end
 """
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 HORIZONTAL = """
