@@ -66,6 +66,7 @@ def match_words(
     by_name: bool = True,
     parts_first: bool = False,
     upon: bool = False,
+    counted: bool = False,
 ) -> Match:
     """Finds what a noun phrase's words fit; every word of them counts.
 
@@ -92,6 +93,12 @@ def match_words(
     number = words[-1] if words[-1].isdigit() and len(words) > 1 else None
     if number is not None:
         words = words[:-1]
+    if counted:
+        # "The second drawer from the bottom" is not the one that is named "second".
+        chosen = tuple(word for word in words[:-1] if word in ORDINALS)
+        rest = [word for word in words if word not in chosen]
+        found = match_words(rest, vocabulary, phrase, noun, by_name=False, parts_first=True)
+        return replace(found, selectors=(*found.selectors, *chosen))
     adjectives, head = tuple(words[:-1]), words[-1]
     if matches_any(head, ("one",)) and noun is not None:
         single = singular(noun)
@@ -153,6 +160,11 @@ def _pools(
     pools = [objects, parts, boards, [vocabulary.desk]]
     if named:
         return [named, *pools]
+    units = [entry for entry in fitting if _is_stacked(entry)]
+    if not upon and len(units) > 1 and all(entry.grade(head) == GENERIC for entry in units):
+        # Of several pieces of furniture "drawer" is one drawer, unless a piece is called so.
+        if any(part.grade(head) is not None for part in parts):
+            return [parts, boards, objects, [vocabulary.desk]]
     if level and not any(
         entry.grade(head) is not None and any(entry.has_word(word) for word in adjectives)
         for entry in objects
@@ -242,7 +254,9 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
-    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
+    elif word not in LEVELS and (
+        word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word)
+    ):
         # What is called a thing for something else is not for this.
         apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
         if not apt:

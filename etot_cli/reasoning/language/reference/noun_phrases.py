@@ -8,7 +8,7 @@ to be understood; what is taken for something near it is noted.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing
@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.reference.landmarks import (
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.vocabulary import EXACT, HEAD, Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     NUMBERS,
@@ -100,6 +100,11 @@ class Resolver:
         """The basic colours that a thing is called by, or the one that it has."""
         entry = self._vocabulary.entries().get(thing)
         return frozenset() if entry is None else entry.colors()
+
+    def is_called(self, noun: str) -> bool:
+        """Whether some object is called by a noun of its own."""
+        grades = [entry.grade(noun) for entry in self._vocabulary.objects]
+        return any(grade in (EXACT, HEAD) for grade in grades)
 
     def resolve(
         self,
@@ -201,6 +206,11 @@ class Resolver:
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in things])
         things = called_exactly(things, match, phrase, words, quantity, count)
+        owners = [item.phrases[0] for item in modifiers if item.prep is Prep.OF and item.phrases]
+        if count == 1 and any(quantity_of(owner.determiner).every for owner in owners):
+            if len({thing.name for thing in things}) < len(things):
+                raise ReferenceProblem(phrase.text, "say which one of each", 2)
+            quantity, count = Quantity(every=True, definite=True), None  # "the top drawer of each"
         options = options_of(things, count, quantity, phrase)
         unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
         named = next((word for word in reversed(unnumbered) if word), words[-1])
@@ -232,7 +242,12 @@ class Resolver:
                 }
             if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
                 for item in modifier.phrases:
-                    if (item.determiner or item.words[0]).split()[0] in _SO_MANY:
+                    if item.pronoun and item.modifiers:  # "except those of the chest"
+                        plain = item.pronoun in ("that", "this")
+                        item = replace(
+                            item, pronoun="", determiner="the" if plain else "all", words=words[-1:]
+                        )
+                    if " ".join((item.determiner, *item.words, item.pronoun)).split()[0] in _SO_MANY:
                         why = "say which are left out of"
                         raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                     out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))

@@ -67,6 +67,9 @@ def matched(
             by_name=plain and quantity.definite and not quantity.other,
             parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
             upon=upon,
+            counted=any(
+                item.prep is Prep.SIDE and item.words[0] == "from" for item in phrase.modifiers
+            ),
         )
     adjectives, head = words[:-1], words[-1]
     every = match_words((head,), vocabulary, phrase.text, noun)

@@ -275,7 +275,9 @@ class Phrases:
         elliptic = phrase.words[-1:] in (("one",), ("ones",))
         if noun is not None and elliptic:
             self._check_count(phrase, noun)
-        if noun is not None and not is_descriptive(noun) and leaves_noun_out(phrase):
+        own_name = phrase.words and self._resolver.is_called(phrase.words[-1])
+        leaves_out = leaves_noun_out(phrase) and not own_name
+        if noun is not None and not is_descriptive(noun) and leaves_out:
             self._check_count(phrase, noun)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other

@@ -143,6 +143,9 @@ def _nth(
 ) -> Thing:
     """The n-th from the left unless another side is said; parts count from the top."""
     if all(thing.part is not None or thing.board is not None for thing in things):
+        owners = list(dict.fromkeys(thing.name for thing in things))
+        if len(owners) > 1:
+            raise ReferenceProblem(phrase, f"say of which of {', '.join(owners)}", 2, word=ordinal)
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         ordered = things[::-1] if origin == ("top" if upward else "bottom") else things
