@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.distribution import is_matching, unmatched
-from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS
+from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE, Toward.TO: Role.PLACE}
@@ -87,7 +87,10 @@ def is_one_each(group: PutGroup) -> bool:
     return (
         len(things) == len(destinations) == 1
         and len(destinations[0].targets) == 1
-        and quantity_of(destinations[0].targets[0].determiner).every
+        and (
+            quantity_of(destinations[0].targets[0].determiner).every
+            or is_of_each(destinations[0].targets[0])
+        )
         and _is_one(things[0])
     )
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from itertools import combinations, islice
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.matching import Match
+from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
 MAX_OPTIONS = 256
@@ -51,10 +55,16 @@ def called_exactly(
     phrase: NounPhrase,
     words: tuple[str, ...],
     quantity: Quantity,
-    count: int | None,
+    scene: SceneState,
 ) -> list[Thing]:
-    """Of several things that "the cup" may mean the one that is called just that."""
-    if not quantity.definite or quantity.every or count != 1 or len(things) < 2:
+    """Of several things that "the cup" may mean the one that is called just that.
+
+    Raises:
+        AmbiguousReference: a word of its name is true of another one.
+    """
+    _check_named(match, things, phrase, scene)
+    many = quantity.every or (quantity.count or (2 if match.plural else 1)) > 1
+    if not quantity.definite or many or len(things) < 2:
         return things
     exact = [
         entry.thing for entry in match.entries if entry.thing in things and entry.is_called(words)
@@ -62,11 +72,37 @@ def called_exactly(
     return exact if len(exact) == 1 else things
 
 
+def _check_named(match: Match, things: list[Thing], phrase: NounPhrase, scene: SceneState) -> None:
+    """Whether a word for size or side that is part of a name is also true of what has the name.
+
+    Raises:
+        AmbiguousReference: it is true of another thing of the kind, and may mean that one.
+    """
+    for word, rivals in match.named:
+        others = [entry.thing for entry in rivals]
+        fitting: list[Thing] = []
+        with suppress(ReferenceProblem):
+            fitting = select((word,), (), others, len(things), scene, phrase.text)
+        if fitting and not set(fitting) & set(things):
+            why = f"{word!r} may be part of a name or say how it is:"
+            raise AmbiguousReference(phrase.text, [t.name for t in (*things, *fitting)], why)
+
+
+def is_of_each(phrase: NounPhrase) -> bool:
+    """Whether there is one for each of several owners ("the top drawer of each chest")."""
+    owners = [item.phrases[0] for item in phrase.modifiers if item.prep is Prep.OF]
+    return any(quantity_of(owner.determiner).every for owner in owners)
+
+
 def options_of(
     things: list[Thing], count: int | None, quantity: Quantity, phrase: NounPhrase
 ) -> tuple[tuple[Thing, ...], ...]:
     """Alternative sets of things, given how many are meant."""
     names = ", ".join(thing.name for thing in things)
+    if count == 1 and is_of_each(phrase):
+        if len({thing.name for thing in things}) < len(things):
+            raise ReferenceProblem(phrase.text, "say which one of each", 2)
+        return (tuple(things),)
     if quantity.every and quantity.count is not None and len(things) != quantity.count:
         raise ReferenceProblem(
             phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1

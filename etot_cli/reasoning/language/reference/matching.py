@@ -55,6 +55,8 @@ class Match:
     """Words of these notes that do not tell one thing from another."""
     loose: bool = False
     """The noun is but another word of their names."""
+    named: tuple[tuple[str, tuple[Entry, ...]], ...] = ()
+    """Words for size or side that are part of their names, with all that these told them from."""
 
 
 def match_words(
@@ -80,6 +82,7 @@ def match_words(
         parts_first: what follows the noun tells parts of one piece of furniture from each other
             ("the drawer with the pen in it").
         upon: something is to go on it, so that a level is rather a board than a drawer.
+        counted: ordinals among the words count from a side that is said, and are no names.
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
@@ -161,10 +164,11 @@ def _pools(
     if named:
         return [named, *pools]
     units = [entry for entry in fitting if _is_stacked(entry)]
-    if not upon and len(units) > 1 and all(entry.grade(head) == GENERIC for entry in units):
+    of_parts = any(part.grade(head) is not None for part in parts)
+    by_kind = len(units) > 1 and all(entry.grade(head) == GENERIC for entry in units)
+    if of_parts and by_kind and not upon:
         # Of several pieces of furniture "drawer" is one drawer, unless a piece is called so.
-        if any(part.grade(head) is not None for part in parts):
-            return [parts, boards, objects, [vocabulary.desk]]
+        return [parts, boards, objects, [vocabulary.desk]]
     if level and not any(
         entry.grade(head) is not None and any(entry.has_word(word) for word in adjectives)
         for entry in objects
@@ -182,6 +186,7 @@ class _Sifted:
     unknown: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     dropped: list[str] = field(default_factory=list)
+    named: list[tuple[str, tuple[Entry, ...]]] = field(default_factory=list)
 
 
 def _match_in(
@@ -227,6 +232,7 @@ def _match_in(
         tuple(sifted.notes),
         tuple(sifted.dropped),
         loose=best == PART_OF_NAME,
+        named=tuple(sifted.named),
     )
 
 
@@ -246,6 +252,9 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
     elif color is not None:
         sifted.graded = _of_color(sifted, word, color)
     elif fitting:
+        if (word in SIDES or word in SIZES) and len(fitting) < len(graded):
+            best = min(grade for _, grade in fitting)
+            sifted.named.append((word, tuple(e for e, grade in graded if grade <= best)))
         sifted.graded = fitting
     elif word in LEVELS and any(_is_stacked(entry) for entry, _ in graded):
         # What has parts on several levels has none on this one.
@@ -254,9 +263,7 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
-    elif word not in LEVELS and (
-        word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word)
-    ):
+    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
         # What is called a thing for something else is not for this.
         apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
         if not apt:
@@ -284,7 +291,9 @@ def _of_color(sifted: _Sifted, word: str, color: str) -> list[tuple[Entry, int]]
     else:
         plain = [item for item in graded if item[0].has_word(word)]
     if plain:
-        return plain
+        # A carton of orange juice is no orange thing where another thing is orange.
+        looks = [item for item in plain if item[1] != GENERIC or item[0].color in (None, color)]
+        return looks or plain
     near = [item for item in graded if item[0].has_color(color)]
     # A thing of unknown colour may have any.
     found = near or [item for item in graded if not item[0].is_colored()]

@@ -8,7 +8,7 @@ to be understood; what is taken for something near it is noted.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing
@@ -205,12 +205,7 @@ class Resolver:
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in things])
-        things = called_exactly(things, match, phrase, words, quantity, count)
-        owners = [item.phrases[0] for item in modifiers if item.prep is Prep.OF and item.phrases]
-        if count == 1 and any(quantity_of(owner.determiner).every for owner in owners):
-            if len({thing.name for thing in things}) < len(things):
-                raise ReferenceProblem(phrase.text, "say which one of each", 2)
-            quantity, count = Quantity(every=True, definite=True), None  # "the top drawer of each"
+        things = called_exactly(things, match, phrase, words, quantity, self._scene)
         options = options_of(things, count, quantity, phrase)
         unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
         named = next((word for word in reversed(unnumbered) if word), words[-1])
@@ -242,12 +237,8 @@ class Resolver:
                 }
             if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
                 for item in modifier.phrases:
-                    if item.pronoun and item.modifiers:  # "except those of the chest"
-                        plain = item.pronoun in ("that", "this")
-                        item = replace(
-                            item, pronoun="", determiner="the" if plain else "all", words=words[-1:]
-                        )
-                    if " ".join((item.determiner, *item.words, item.pronoun)).split()[0] in _SO_MANY:
+                    said = " ".join((item.determiner, *item.words, item.pronoun))
+                    if said.split()[0] in _SO_MANY:
                         why = "say which are left out of"
                         raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                     out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))

@@ -301,6 +301,9 @@ class Places:
             # On what the last thing was put into, not on the thing in it.
             index = next(reversed(discourse.put_into.values()))
             return tuple(self.relations_to(Toward.ON, index, themes))
+        put = {thing for index in discourse.put for thing in discourse.things(index)}
+        if word == "on top" and put & {t for index in themes for t in discourse.things(index)}:
+            raise ReferenceProblem(word, "say on top of what", 2)
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
         for index in prefer:
             if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):

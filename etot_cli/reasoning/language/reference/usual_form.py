@@ -70,6 +70,10 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         aside = Modifier(Prep.SIDE, words=(LEVELS[first],))
         modifiers = (aside, *phrase.modifiers)
         return usual_form(replace(phrase, words=phrase.words[1:], modifiers=modifiers))
+    if out is not None and last:
+        named = replace(out, phrases=tuple(_named(item, last) for item in out.phrases))
+        modifiers = tuple(named if item is out else item for item in phrase.modifiers)
+        phrase = replace(phrase, modifiers=modifiers)
     if not last or of is None:
         return phrase
     rest = tuple(item for item in phrase.modifiers if item is not of)
@@ -88,6 +92,14 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
         )
     return phrase
+
+
+def _named(phrase: NounPhrase, noun: str) -> NounPhrase:
+    """What is left out with the noun of what it is left out of ("except those of the chest")."""
+    if not phrase.pronoun or not phrase.modifiers:
+        return phrase
+    determiner = "the" if phrase.pronoun in ("that", "this") else "all"
+    return replace(phrase, pronoun="", words=(noun,), determiner=determiner)
 
 
 def leaves_noun_out(phrase: NounPhrase) -> bool:
