@@ -100,8 +100,8 @@ def match_words(
         # "The second drawer from the bottom" is not the one that is named "second".
         chosen = tuple(word for word in words[:-1] if word in ORDINALS)
         rest = [word for word in words if word not in chosen]
-        found = match_words(rest, vocabulary, phrase, noun, by_name=False, parts_first=True)
-        return replace(found, selectors=(*found.selectors, *chosen))
+        uncounted = match_words(rest, vocabulary, phrase, noun, by_name=False, parts_first=True)
+        return replace(uncounted, selectors=(*uncounted.selectors, *chosen))
     adjectives, head = tuple(words[:-1]), words[-1]
     if matches_any(head, ("one",)) and noun is not None:
         single = singular(noun)

@@ -212,6 +212,11 @@ def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thi
 def _at_side(
     side: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
+    owners = [Thing(name) for name in dict.fromkeys(thing.name for thing in things)]
+    if len(owners) > 1 and side not in LEVELS and all(thing.part for thing in things):
+        # "The left drawer" of two chests is one of the left chest.
+        (owner,) = _at_side(side, owners, 1, scene, phrase)
+        return [thing for thing in things if thing.name == owner.name]
     if side in ("top", "bottom"):
         stack = space.upon_each_other(things, scene)
         ordered = in_line(side, stack or things, scene, phrase)
