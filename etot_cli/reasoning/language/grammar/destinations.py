@@ -47,6 +47,16 @@ _ITS_SIDE = one_of(places.ITS_SIDE)
 _SIDE_OF_IT = one_of(
     {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
 )
+_REGION_OF_IT = one_of(
+    {
+        (Nearby.AT_LEFT,): "left (edge|end|half|part|border)",
+        (Nearby.AT_RIGHT,): "right (edge|end|half|part|border)",
+        (Nearby.AT_FRONT,): "front (edge|end|half|part|border|side)",
+        (Nearby.AT_BACK,): "(back|rear) (edge|end|half|part|border|side)",
+        (Nearby.AT_CENTRE,): "middle, centre, center",
+        (Nearby.AT_EDGE,): "edge, border, rim",
+    }
+)
 BESIDE = either(
     sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
     sequence(
@@ -59,6 +69,13 @@ BESIDE = either(
         silent(phrase("'s")),
         _SIDE_OF_IT,
         build=lambda np, relation: _beside(relation, np),
+    ),
+    sequence(
+        silent(phrase("on, to, at, near, by")),
+        noun_phrase,
+        silent(phrase("'s")),
+        _REGION_OF_IT,
+        build=lambda np, regions: _region(regions, np),
     ),
     sequence(
         silent(phrase("[in] between")),

@@ -152,6 +152,12 @@ def _pools(
         for word in adjectives
     )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
+    if (
+        not adjectives
+        and head in DESK_NOUNS
+        and all(e.grade(head) == PART_OF_NAME for e in fitting)
+    ):
+        return [[vocabulary.desk], objects]  # whatever a table tennis ball is called
     if upon or any(entry.info is not None and entry.info.boards for entry in fitting):
         # "The top shelf" is a board of the shelf before it is a drawer of something else.
         parts, boards = boards, parts
