@@ -45,6 +45,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         state = _best_reading(state, sentence)
     _check_kept(state.goal())
     _check_run(state.goal())
+    _check_turns(state.timed, state.context.discourse)
     goal = settled(state.goal(), scene, state.context.turned)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
@@ -78,6 +79,25 @@ def _check_run(goal: Goal) -> None:
                     why = "it cannot go to two places at once; say 'then'"
                     raise ReferenceProblem(goal.referents[index].text, why, 4)
                 gone |= own
+
+
+def _check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
+    """Whether "the small one goes in last" speaks of what was put there by another clause."""
+    put = [
+        {
+            thing
+            for step in item.steps
+            if isinstance(step, Put)
+            for index in step.what
+            for thing in discourse.things(index)
+        }
+        for item in said
+    ]
+    for number, item in enumerate(said):
+        others = set().union(*put[:number], *put[number + 1 :])
+        if item.order in (Order.FIRST, Order.LAST) and put[number] & others:
+            why = "it was asked for already; say there what goes first or last"
+            raise ReferenceProblem(str(item.order), why, 4)
 
 
 class _State:

@@ -41,18 +41,31 @@ def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]
 
 
 def _other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
-    """In "A to the left of C and B to the right" the right is that of C."""
+    """In "A to the left of C and B to the right" the right is that of C; so it is the other way
+    round, "A to the left and B to the right of C".
+    """
     found = [groups[0]]
+    if len(groups) > 1 and len(marks := _marks(groups[1])) == 1:
+        found = [_beside(groups[0], marks)]
     for group in groups[1:]:
-        marks = {item.phrases for where in found[-1].destinations for item in where.beside}
-        (first, *more) = group.destinations
-        side = _SIDES.get(first.targets[0].words) if first.toward is Toward.TO else None
-        if side is not None and not more and len(marks) == 1 and (mark := marks.pop()):
-            group = replace(
-                group, destinations=(Destination(Toward.BESIDE, beside=(Beside(side, mark),)),)
-            )
+        group = _beside(group, _marks(found[-1]))
         found.append(group)
     return tuple(found)
+
+
+def _marks(group: PutGroup) -> set[tuple[NounPhrase, ...]]:
+    return {item.phrases for where in group.destinations for item in where.beside}
+
+
+def _beside(group: PutGroup, marks: set[tuple[NounPhrase, ...]]) -> PutGroup:
+    """A group that goes to a bare side, with the landmark that the other group has."""
+    (first, *more) = group.destinations
+    side = _SIDES.get(first.targets[0].words) if first.toward is Toward.TO else None
+    if side is None or more or len(marks) != 1:
+        return group
+    beside = tuple(Beside(side, mark) for mark in marks if mark)
+    where = (Destination(Toward.BESIDE, beside=beside),)
+    return replace(group, destinations=where) if beside else group
 
 
 def _targets(group: PutGroup) -> list[NounPhrase]:

@@ -72,7 +72,7 @@ EXTRA = sequence(
             separated(destination, OR, most=3),
             build=lambda found: ("not", found),
         ),
-        TURN,
+        sequence(silent(optional(phrase("but"), None)), TURN, build=lambda turn: turn),
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),

@@ -89,7 +89,7 @@ def match_words(
     """
     everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
     # Two things with one label are called alike, whatever their names are.
-    by_name &= sum(entry.is_called(words) for entry in vocabulary.objects) < 2
+    by_name &= sum(entry.is_called(words[-1:]) for entry in vocabulary.objects) < 2
     for entry in everything:
         if len(words) == 1 and words[0] in entry.exact and (by_name or not words[0].isalpha()):
             return Match((entry,))

@@ -182,7 +182,7 @@ class Resolver:
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
         if len(things) == 1 and any(item.words[0] == "to" for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
-        if asides and phrase.determiner in ("a", "an") and len(things) > 1:
+        if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
             names = ", ".join(thing.name for thing in things)
             why = f"say 'the' one of {names}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
@@ -309,7 +309,11 @@ class Resolver:
         """
         (only, *more) = modifier.phrases
         if only.pronoun and not more and modifier.prep is not Prep.BETWEEN:
-            return [[list(things)] for things in pronoun(only)]
+            meant = [list(things) for things in pronoun(only)]
+            if modifier.prep in (Prep.NEAREST, Prep.FARTHEST):
+                # Which one is nearest to "it" depends on which of several "it" is.
+                meant = [[thing] for things in meant for thing in things]
+            return [[things] for things in meant]
         if modifier.prep is Prep.BETWEEN and not more:
             both = self._landmarks(only, pronoun)
             if len(both) != 2:

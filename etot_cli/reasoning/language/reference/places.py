@@ -299,7 +299,10 @@ class Places:
             return discourse.last_places
         if word == "on top" and discourse.put_into:
             # On what the last thing was put into, not on the thing in it.
-            index = next(reversed(discourse.put_into.values()))
+            inner, index = next(reversed(discourse.put_into.items()))
+            if all(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(inner)):
+                named = [discourse.referents[item].text for item in (inner, index)]
+                raise AmbiguousReference(word, named)
             return tuple(self.relations_to(Toward.ON, index, themes))
         put = {thing for index in discourse.put for thing in discourse.things(index)}
         if word == "on top" and put & {t for index in themes for t in discourse.things(index)}:

@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
@@ -250,5 +251,6 @@ def _at_side(
 def _leading(ordered: list[Thing], count: int | None, phrase: str) -> list[Thing]:
     """As many as are meant, of things that are ordered from the best fitting one on."""
     if count is None and len(ordered) > 1:
-        raise ReferenceProblem(phrase, "say how many of them are meant", 1)
+        names = [thing.name for thing in ordered]
+        raise AmbiguousReference(phrase, names, "say how many of them are meant,")
     return ordered[: count or 1]
