@@ -952,3 +952,29 @@ def garage() -> SceneState:
         item("lid", "cylinder", (0.45, -0.42), size=(0.10, 0.10, 0.01), color="gray"),
         drawers("cart", (0.68, -0.35), {"upper": 0.0, "lower": 0.0}, color="black"),
     )
+
+
+def archive() -> SceneState:
+    """Books upon each other and one apart, a can that lies, rods, two cups alike, a shelf."""
+    info, lying = item("can", "cylinder", (0.30, -0.20), size=(0.06, 0.06, 0.12), color="red")
+    return scene(
+        item("low_book", "box", (0.40, 0.20), label="red book", color="red",
+             size=(0.2, 0.14, 0.03)),
+        item("mid_book", "box", (0.40, 0.20), label="blue book", color="blue", on="low_book",
+             size=(0.2, 0.14, 0.03), z=0.175),
+        item("high_book", "box", (0.40, 0.20), label="green book", color="green", on="mid_book",
+             size=(0.2, 0.14, 0.03), z=0.205),
+        item("lone_book", "box", (0.30, -0.40), label="white book", color="white",
+             size=(0.2, 0.14, 0.03)),
+        (info, replace(lying, toppled=True)),
+        item("chisel", "pen", (0.25, 0.40), size=(0.18, 0.02, 0.02), color="gray"),
+        item("crayon", "pen", (0.25, 0.45), size=(0.10, 0.01, 0.01), color="blue"),
+        cup("cup", (0.50, -0.05), color="blue"),
+        cup("cup_2", (0.55, -0.25), label="cup", color="blue"),
+        item("coin", "cylinder", (0.50, -0.05), size=(0.02, 0.02, 0.003), on="cup", inside="cup"),
+        item("die", "box", (0.55, -0.25), size=(0.02, 0.02, 0.02), on="cup_2", inside="cup_2"),
+        item("shelf", "shelf", (0.68, 0.0), size=(0.25, 0.30, 0.4), boards=("low", "mid", "high")),
+        item("vase", "cup", (0.68, 0.05), size=(0.06, 0.06, 0.1), on="shelf.low", color="white"),
+        item("clock", "box", (0.68, -0.05), size=(0.06, 0.06, 0.1), on="shelf.mid"),
+        item("basket", "bowl", (0.45, 0.45), size=(0.24, 0.24, 0.10)),
+    )  # fmt: skip

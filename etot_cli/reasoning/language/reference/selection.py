@@ -164,7 +164,13 @@ def _nth(
     if index >= len(ordered):
         names = ", ".join(thing.name for thing in things)
         raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
-    return ordered[index]
+    found = ordered[index]
+    side = "" if origin in ("top", "bottom") else SIDES[origin or "left"]
+    for other in () if found.part or found.board or not side else things:
+        if other != found and space.are_level(side, found, other, scene):
+            why = f"{found.name} and {other.name} are as far to that side"
+            raise ReferenceProblem(phrase, why, 2, word=ordinal)
+    return found
 
 
 def _by_size(
