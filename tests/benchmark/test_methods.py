@@ -87,23 +87,39 @@ def test_the_judge_takes_what_is_imagined_for_success(plan: str) -> None:
         now = after
 
 
-def test_the_kinematic_model_believes_in_the_first_plan(tmp_path: Path) -> None:
-    """Where physics says otherwise: this ball is far too wide for the gripper."""
-    twin = world(
-        tmp_path, "Pick up the ball.", "ball", BALL.format(x=0.4, y=0.0).replace("0.06", "0.12")
-    )
-    start, seen = twin.start()
-    model = KinematicSimulator()
-    model.begin_from(start, seen)
-    result = search(Assignment("Pick up the ball."), model, BuiltinReasoner())
-    assert format_plan(result.plan) == "[PICK UP, ball]"
-
-
 DRAWER = (
     "chest: {kind: drawer_unit, at: [0.5, 0.0], yaw_deg: 180, size: [0.24, 0.18, 0.15], "
     "drawers: [{name: top, height: 0.07, travel: 0.14, open: 0.14, "
     "handle: {width: 0.08, depth: 0.03, thickness: 0.01}}]}"
 )
+BLOCK = "{name}: {{kind: box, size: [0.04, 0.04, 0.04], at: [0.4, {y}]}}"
+
+
+@pytest.mark.parametrize(
+    ("text", "objects", "plan"),
+    [
+        # Where physics says otherwise: this ball is far too wide for the gripper.
+        (
+            "Pick up the ball.",
+            [BALL.format(x=0.4, y=0.0).replace("0.06", "0.12")],
+            "[PICK UP, ball]",
+        ),
+        # What stands open is closed once, where that is said.
+        (
+            "Put the ball and the cube into the chest, then close it.",
+            [DRAWER, BLOCK.format(name="ball", y=-0.2), BLOCK.format(name="cube", y=0.2)],
+            "[PICK UP, ball] [PUT INTO, chest] [PICK UP, cube] [PUT INTO, chest] [CLOSE, chest]",
+        ),
+    ],
+)
+def test_the_kinematic_model_believes_in_the_first_plan(
+    tmp_path: Path, text: str, objects: list[str], plan: str
+) -> None:
+    twin = world(tmp_path, text, "ball", *objects)
+    start, seen = twin.start()
+    model = KinematicSimulator()
+    model.begin_from(start, seen)
+    assert format_plan(search(Assignment(text), model, BuiltinReasoner()).plan) == plan
 
 
 def first_plan(twin: SimulatedWorld, instruction: str) -> tuple[str, int]:

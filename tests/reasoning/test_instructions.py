@@ -350,6 +350,35 @@ def test_open_enough_and_ajar() -> None:
     assert plans("Put the plum into the chest.", ajar) == [f"[OPEN, chest] {cycle}"]
 
 
+def test_what_is_open_is_closed_once_where_that_is_said() -> None:
+    state = scenes.scene(
+        scenes.drawers("chest", (0.6, -0.2), {"upper": 0.0, "lower": 1.0}),
+        scenes.ball("plum", (0.4, 0.3)),
+        scenes.ball("pear", (0.4, 0.1)),
+    )
+    both = " ".join(f"[PICK UP, {name}] [PUT INTO, chest.lower]" for name in ("plum", "pear"))
+    upper = both.replace("lower", "upper")
+    for last in ("then close it.", "and finally shut it.", "then close the lower drawer."):
+        text = f"Put the plum and the pear into the lower drawer, {last}"
+        assert plans(text, state) == [f"{both} [CLOSE, chest.lower]"]
+    text = "Close the lower drawer last. First put the plum in it and then the pear."
+    assert plans(text, state) == [f"{both} [CLOSE, chest.lower]"]
+    text = (
+        "Put the plum into the lower drawer and the pear on the chest and close the lower drawer."
+    )
+    (plan,) = plans(text, state)
+    assert plan.endswith("[PUT ON, chest] [CLOSE, chest.lower]") and plan.count("CLOSE") == 1
+    # What is opened in so many words stays open as long, what is not said is a cycle each time.
+    said = "Open the upper drawer, put the plum and the pear in it and close it."
+    assert plans(said, state) == [f"[OPEN, chest.upper] {upper} [CLOSE, chest.upper]"]
+    (plan,) = plans("Put the plum and the pear into the upper drawer and close it.", state)
+    assert plan.count("[OPEN, chest.upper]") == plan.count("[CLOSE, chest.upper]") == 2
+    # An open drawer covers the one below it.
+    text = "Put the plum into the lower drawer, the pear into the upper drawer and close both."
+    (plan,) = plans(text, state)
+    assert plan.index("[CLOSE, chest.lower]") < plan.index("[OPEN, chest.upper]")
+
+
 def test_what_lies_in_a_closed_drawer_is_uncovered() -> None:
     state = scenes.scene(
         scenes.drawers("chest", (0.6, -0.2), {"top": 0.0}),

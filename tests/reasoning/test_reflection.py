@@ -95,13 +95,19 @@ def test_what_blocks_a_cycle_from_the_start_is_taken_out_before_the_close() -> N
         scenes.drawers("chest", (0.5, 0.1), {"top": 1.0}),
         scenes.item("vase", at=(0.5, 0.1), on="chest", inside="chest"),
         scenes.ball("plum", (0.3, -0.2)),
+        scenes.ball("pear", (0.3, -0.3)),
     )
-    plan = "[PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
+    plum, pear = (f"[PICK UP, {name}] [PUT INTO, chest]" for name in ("plum", "pear"))
     before = changed(start, plum={"inside": "chest", "on": ("chest",)})
-    step = failed(start, plan, 2, cause(CauseKind.BLOCKED, "vase", "chest"), before)
-    assert revision(step) == (
-        "[PICK UP, plum] [PUT INTO, chest] [PICK UP, vase] [PUT ON, desk] [CLOSE, chest]"
-    )
+    reason = cause(CauseKind.BLOCKED, "vase", "chest")
+    out = "[PICK UP, vase] [PUT ON, desk] [CLOSE, chest]"
+    # Of one insertion, or of several that share their closing.
+    for plan in (plum, f"{plum} {pear}"):
+        last = 2 * plan.count("PUT")
+        step = failed(start, f"{plan} [CLOSE, chest]", last, reason, before)
+        assert revision(step) == f"{plan} {out}"
+    below = failed(start, f"{pear} {plum} [CLOSE, chest]", 0, cause(CauseKind.BLOCKED, "plum"))
+    assert revision(below) == f"{plum} {pear} [CLOSE, chest]"
 
 
 def test_no_room_beside_what_the_branch_put_there() -> None:

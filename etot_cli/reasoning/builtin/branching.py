@@ -6,7 +6,8 @@ parameters (which grasp pose). Source: paper, section "Priori Branching".
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice, product
 from typing import NamedTuple
@@ -31,7 +32,7 @@ from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
 from etot_cli.reasoning.protocol import Branch, ReasonerStopped, StopReason
 from etot_cli.skills.action import Action, GraspPose
-from etot_cli.world.state import STAYS_OPEN_AT, PartInfo, SceneState
+from etot_cli.world.state import STAYS_OPEN_AT, PartInfo, SceneState, owner_of
 
 MAX_CHOICES = 4096
 """Ways of resolving a goal that are looked at: half a second's work, and more branches than could
@@ -83,10 +84,10 @@ def branches_of(
 
 
 class _Candidate(NamedTuple):
-    """A branch, the parts that it is to leave open, and what it must not do."""
+    """A branch, the parts that its insertions leave open, and what it must not do."""
 
     branch: Branch
-    left_open: tuple[str, ...]
+    left_open: frozenset[str]
     constraints: tuple[Constraint, ...]
 
 
@@ -123,8 +124,7 @@ def _candidates(
                 yield None
                 continue
             for selected in product(*poses):
-                left_open = _left_open(ordered.steps, choice, course.first)
-                branch = _branch(ordered.steps, choice, selected, scene, left_open, course)
+                branch, left_open = _branch(ordered.steps, choice, selected, scene, course)
                 yield _Candidate(branch, left_open, goal.constraints)
 
 
@@ -133,14 +133,17 @@ def _branch(
     choice: Choice,
     poses: Sequence[GraspPose | None],
     scene: SceneState,
-    left_open: tuple[str, ...],
     course: Course,
-) -> Branch:
-    """The actions of one way of resolving a goal, as far as they are still to be done."""
+) -> tuple[Branch, frozenset[str]]:
+    """The actions of one way of resolving a goal, as far as they are still to be done, and the
+    parts that insertions do not close again.
+    """
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
-    puts = _in_order(steps, choice, poses)
+    puts = deque(_in_order(steps, choice, poses))
+    left_open = _left_open(steps, choice, course.first)
+    kept_open = set(left_open)
     behind = course.behind(steps, choice)
     lasting = {put.name: place for place, row in choice.placements.items() for put in row}
     to_shut: dict[str, PartInfo] = {}
@@ -151,7 +154,8 @@ def _branch(
             sketch.pick_up(name, pose)
             words.append(f"take {name}" + (f" ({pose.value})" if pose else ""))
         elif isinstance(step, Put):
-            for place, placement, grasp in islice(puts, len(choice.placements[index])):
+            for _ in choice.placements[index]:
+                place, placement, grasp = puts.popleft()
                 name, relation, target, where = placement
                 if (place, name) in behind:
                     continue
@@ -162,7 +166,9 @@ def _branch(
                 if lasting[name] == place:
                     shut = course.to_shut(placement)
                     to_shut |= {p.address: p for p in shut if p.address not in left_open}
-                sketch.put(name, relation, target, grasp, where, left_open)
+                if _is_closed_later(target, steps, index, choice, sketch, puts):
+                    kept_open.add(target)
+                sketch.put(name, relation, target, grasp, where, kept_open)
                 joint = "into" if relation is Relation.INSIDE else "on"
                 words.append(" ".join([name, joint, target, *map(str, where)]))
         elif isinstance(step, Open):
@@ -179,7 +185,8 @@ def _branch(
     _shut(sketch, to_shut, in_hand)
     if not in_hand and course.fetched(scene.holding):
         sketch.put_down()
-    return Branch(tuple(sketch.actions), ", ".join(dict.fromkeys(words)))
+    reason = ", ".join(dict.fromkeys(words))
+    return Branch(tuple(sketch.actions), reason), frozenset(kept_open)
 
 
 def _in_the_way(name: str, choice: Choice, sketch: Sketch) -> bool:
@@ -197,17 +204,45 @@ def _shut(sketch: Sketch, parts: dict[str, PartInfo], in_hand: Sequence[str]) ->
         sketch.close(parts.popitem()[1], in_hand)
 
 
-def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> tuple[str, ...]:
+def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> set[str]:
     """Parts that are to be opened in so many words and never closed again, and those that stand
     open far enough and that no word is about.
     """
     parts = (part for info in scene.infos.values() for part in info.parts)
     found = {part.address: True for part in parts if scene.openness(part) >= STAYS_OPEN_AT}
-    for step in steps:
-        if isinstance(step, Open | Close):
-            for part in choice.parts(step, scene):
-                found[part.address] = isinstance(step, Open)
-    return tuple(address for address, open_ in found.items() if open_)
+    found |= _last_words(steps, choice, scene)
+    return {address for address, open_ in found.items() if open_}
+
+
+def _last_words(steps: Iterable[Step], choice: Choice, scene: SceneState) -> dict[str, bool]:
+    """Whether the last of the steps that is about a part opens it, by the part's address."""
+    return {
+        part.address: isinstance(step, Open)
+        for step in steps
+        if isinstance(step, Open | Close)
+        for part in choice.parts(step, scene)
+    }
+
+
+def _is_closed_later(
+    address: str,
+    steps: Sequence[Step],
+    index: int,
+    choice: Choice,
+    sketch: Sketch,
+    following: Iterable[tuple[int, Placement, GraspPose | None]],
+) -> bool:
+    """Whether an insertion can leave the closing of a part to the words that follow: the part is
+    open without it, and no other part of the same piece, which it could cover, is next.
+    """
+    if _last_words(steps[index + 1 :], choice, sketch.scene).get(address, True):
+        return False
+    is_open = sketch.is_accessible(address)
+    if not _last_words(steps[:index], choice, sketch.scene).get(address, is_open):
+        return False
+    inside = (put.target for _, put, _ in following if put.relation is Relation.INSIDE)
+    same_piece = (target for target in inside if owner_of(target) == owner_of(address))
+    return next(same_piece, address) == address
 
 
 def _in_order(

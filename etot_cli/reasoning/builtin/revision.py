@@ -108,7 +108,11 @@ def _insertion_end(actions: Sequence[Action], start: int) -> int | None:
         return None
     if first.verb is Verb.PICK_UP and start + 2 < len(actions):
         put, close = actions[start + 1], actions[start + 2]
-        if (put.verb, close.verb, close.target) == (Verb.PUT_INTO, Verb.CLOSE, put.target):
+        ends = (put.verb, close.verb, close.target) == (Verb.PUT_INTO, Verb.CLOSE, put.target)
+        # A closing that several insertions share belongs to none of them.
+        if ends and (Verb.PUT_INTO, put.target) not in (
+            (a.verb, a.target) for a in actions[:start]
+        ):
             return start + 3
     return None
 

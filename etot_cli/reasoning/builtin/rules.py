@@ -47,19 +47,21 @@ def check_plan(
 
 
 def left_open(actions: Sequence[Action], scene: SceneState) -> tuple[str, ...]:
-    """Parts that a well-formed plan puts something into and never closes after that.
+    """Parts of a well-formed plan that are not closed by the insertion into them.
 
-    Its goal wants them open, so that a revision of it need not close them either.
+    Its goal wants them open, or closed later, so that a revision of it need not close them either.
     """
     found: dict[str, None] = {}
+    waiting: str | None = None
     for action in actions:
         part = scene.part(action.target)
-        if part is None:
+        if part is None or action.verb in (Verb.PICK_UP, Verb.PUT_ON):
             continue
-        if action.verb is Verb.PUT_INTO:
-            found[part.address] = None
-        elif action.verb is Verb.CLOSE:
-            found.pop(part.address, None)
+        if waiting is not None and (action.verb, part.address) != (Verb.CLOSE, waiting):
+            found[waiting] = None
+        waiting = part.address if action.verb is Verb.PUT_INTO else None
+    if waiting is not None:
+        found[waiting] = None
     return tuple(found)
 
 

@@ -25,7 +25,7 @@ class Sketch:
 
     def __init__(self, scene: SceneState, actions: Iterable[Action] = ()) -> None:
         self.actions: list[Action] = []
-        self._scene = scene
+        self.scene = scene
         self._held = scene.holding
         self._moved: dict[str, tuple[Relation, str]] = {}
         self._placed: dict[str, tuple[str, tuple[Whereabouts, ...]]] = {}
@@ -64,7 +64,7 @@ class Sketch:
         """
         if self.holds(name, relation, target, where):
             return
-        part = self._scene.part(target) if relation is Relation.INSIDE else None
+        part = self.scene.part(target) if relation is Relation.INSIDE else None
         if part is None:
             if relation is Relation.INSIDE:
                 self._stand_up(target)
@@ -133,9 +133,13 @@ class Sketch:
     def reaches(self, action: Action) -> bool:
         """Whether no closed part encloses what an action takes or where it puts something."""
         owner = owner_of(action.target)
-        if action.verb in (Verb.OPEN, Verb.CLOSE) or owner not in self._scene.states:
+        if action.verb in (Verb.OPEN, Verb.CLOSE) or owner not in self.scene.states:
             return True
         return all(self._accessible[part.address] for part in self._parts_around(owner))
+
+    def is_accessible(self, address: str) -> bool:
+        """Whether a movable part is open far enough for something to go in or out."""
+        return self._accessible[address]
 
     def holds(
         self, name: str, relation: Relation, target: str, where: tuple[Whereabouts, ...] = ()
@@ -148,18 +152,18 @@ class Sketch:
         if where:
             landmarks = {landmark for item in where for landmark in item.landmarks}
             still = not landmarks & set(self._moved)
-            at_place = all(spatial.holds(item, name, self._scene) for item in where)
+            at_place = all(spatial.holds(item, name, self.scene) for item in where)
             if not (still and at_place):
                 return False
         if relation is Relation.ON:
             if name in self._moved:
                 return self._moved[name] == (relation, target)
-            return is_on(self._scene, name, target)
+            return is_on(self.scene, name, target)
         return target in self._containers_around(name)
 
     def _stand_up(self, vessel: str) -> None:
         """Makes a vessel that lies on its side ready to take something in."""
-        state = self._scene.states.get(vessel)
+        state = self.scene.states.get(vessel)
         if state is not None and state.toppled and vessel not in self._moved:
             self.pick_up(vessel)
             self.do(Action(Verb.PUT_ON, DESK, where=(Whereabouts(Nearby.UPRIGHT),)))
@@ -167,7 +171,7 @@ class Sketch:
     def _uncover(self, target: str) -> list[PartInfo]:
         """Opens the closed parts around a vessel or surface; returns them, the outermost first."""
         owner = owner_of(target)
-        if owner not in self._scene.states:
+        if owner not in self.scene.states:
             return []
         closed = [p for p in self._parts_around(owner) if not self._accessible[p.address]]
         for part in closed:
@@ -184,18 +188,18 @@ class Sketch:
                 relation, place = self._moved[current]
                 around = place if relation is Relation.INSIDE else None
             else:
-                around = self._scene.states[current].inside
+                around = self.scene.states[current].inside
             if around is None or around in found:
                 break
-            found.append(container_address(self._scene, around) or around)
+            found.append(container_address(self.scene, around) or around)
             current = owner_of(around)
-            if current not in self._scene.states:
+            if current not in self.scene.states:
                 break
         return tuple(found)
 
     def _parts_around(self, name: str) -> list[PartInfo]:
         """Movable parts that an object lies in, the outermost first."""
-        parts = (self._scene.part(address) for address in self._containers_around(name))
+        parts = (self.scene.part(address) for address in self._containers_around(name))
         return [part for part in parts if part is not None][::-1]
 
     def do(self, action: Action) -> None:
@@ -214,7 +218,7 @@ class Sketch:
                     self._placed[self._held] = (action.target, action.where)
                 self._held = None
             case Verb.OPEN | Verb.CLOSE:
-                part = self._scene.part(action.target)
+                part = self.scene.part(action.target)
                 if part is not None:
                     opened = action.verb is Verb.OPEN
                     self._accessible[part.address] = self._open[part.address] = opened
