@@ -16,7 +16,6 @@ from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.perception.coloring import by_color
 from etot_cli.execution.perception.fitting import (
     Freedom,
-    Pose,
     improved,
     outlined,
     rotation_by,
@@ -28,6 +27,7 @@ from etot_cli.execution.perception.unseen import out_of_sight
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reconstruction.capture.view import View
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import PhaseEnd, PhaseTrace, Trace
 from etot_cli.specs.load import load_task
 from tests.opengl import need_opengl
@@ -120,8 +120,8 @@ def test_a_pen_that_was_let_go_leans_in_the_holder_below_the_hand(desk):
     known = KnownScene(load_task("tasks/task2.yaml").scene)
     for name in ("black_holder", holder):
         known.put(name, Pose.of(*(world.data.joint(name).qpos[part] for part in np.s_[:3, 3:])))
-    above = Pose(np.eye(3), world.data.body(holder).xpos + np.array([0.03, 0.0, 0.15]))
-    held = Pose(np.eye(3), np.zeros(3))
+    above = Pose(world.data.body(holder).xpos + np.array([0.03, 0.0, 0.15]), np.eye(3))
+    held = Pose(np.zeros(3), np.eye(3))
     scan = scan_of(desk.camera.frame(), known.scene.desk)
     found = out_of_sight(known, "pen", known.nominal("pen"), held, above, scan)
     assert found is not None
@@ -155,7 +155,7 @@ def test_a_pose_is_borne_out_hidden_or_contradicted_by_depth():
 
     ball = Surface(*sphere())
     view = View(160, 120, 200.0, 200.0, 79.5, 59.5, np.eye(4))
-    pose = Pose(np.eye(3), np.array([0.0, 0.0, 0.6]))
+    pose = Pose(np.array([0.0, 0.0, 0.6]), np.eye(3))
     v, u = np.mgrid[0:120, 0:160]
     rays = np.dstack([(u - 79.5) / 200, (v - 59.5) / 200, np.ones(u.shape)])
     unit = np.linalg.norm(rays, axis=2)
@@ -166,7 +166,7 @@ def test_a_pose_is_borne_out_hidden_or_contradicted_by_depth():
     assert support(ball, pose, view, np.full_like(depth, 1.2)).share == 0.0
     assert support(ball, pose, view, np.full_like(depth, 0.3)).covered > 0.95
     readings = (rays * depth[..., None])[gap > 0]
-    off = Pose(rotation_by(np.array([0, 0, 0.1])), pose.position + np.array([0.01, -0.008, 0.005]))
+    off = Pose(pose.position + np.array([0.01, -0.008, 0.005]), rotation_by(np.array([0, 0, 0.1])))
     for freedom in (Freedom.UPRIGHT, Freedom.ALL):
         found = improved(ball, off, readings, view, freedom=freedom)
         assert found.position == pytest.approx(pose.position, abs=0.001)
@@ -182,9 +182,9 @@ def test_a_vessel_believed_too_near_is_not_held_to_the_back_of_its_wall():
     high = np.column_stack([up.ravel() * 0, up.ravel(), up.ravel() * 0])
     cup = Surface(np.vstack([0.037 * out + high, 0.035 * out + high]), np.vstack([out, -out]))
     view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
-    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    true = Pose(np.array([0.02, -0.01, 0.7]), np.eye(3))
     readings = true.place((0.037 * out + high)[out[:, 2] < -0.7])
-    near = Pose(true.rotation, true.position + np.array([0.004, 0.0, -0.012]))
+    near = Pose(true.position + np.array([0.004, 0.0, -0.012]), true.rotation)
     found = improved(cup, near, readings, view, freedom=Freedom.UPRIGHT)
     assert found.position == pytest.approx(true.position, abs=0.001)
 
@@ -203,7 +203,7 @@ def test_a_rod_is_found_by_its_colour_where_that_stands_out(alike):
     """Also where other things of its colour are seen beyond its end, and one side is in shade."""
     rod = a_rod()
     view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
-    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    true = Pose(np.array([0.02, -0.01, 0.7]), np.eye(3))
     rng = np.random.default_rng(1)
     color = np.full((240, 320, 3), [200, 170, 120])
     color[:, 215:] = [235, 235, 230]
@@ -219,7 +219,7 @@ def test_a_rod_is_found_by_its_colour_where_that_stands_out(alike):
     color[v[shaded], u[shaded]] = [200, 170, 120] if alike else [140, 140, 140]
     noisy = np.clip(color + rng.normal(0, 2, color.shape), 0, 255).astype(np.uint8)
     scan = Scan(view, depth, noisy, np.zeros((0, 3)), np.zeros((0, 3)), 0.0)
-    off = Pose(rotation_by(np.array([0, 0, 0.06])), true.position + np.array([0.012, 0.003, 0.0]))
+    off = Pose(true.position + np.array([0.012, 0.003, 0.0]), rotation_by(np.array([0, 0, 0.06])))
     moves = [0.012 * np.eye(6)[0], 0.012 * np.eye(6)[1], 0.15 * np.eye(6)[5]]
     found, _ = by_color(rod, off, scan, moves)
     if alike:
@@ -233,13 +233,13 @@ def test_a_rod_of_which_only_the_outline_is_left_is_found_along_itself():
     rod = a_rod()
     assert rod.long_axis is not None and abs(rod.long_axis[0]) > 0.999
     view = View(320, 240, 300.0, 300.0, 159.5, 119.5, np.eye(4))
-    true = Pose(np.eye(3), np.array([0.02, -0.01, 0.7]))
+    true = Pose(np.array([0.02, -0.01, 0.7]), np.eye(3))
     u, v = np.round(view.project(true.place(rod.points))).astype(int).T
     depth = np.full((240, 320), 1.0)
     for right in range(-2, 3):
         for down in range(-2, 3):
             depth[v + down, u + right] = 0.0
-    off = Pose(rotation_by(np.array([0, 0, 0.12])), true.position + np.array([0.05, 0.0, 0.0]))
+    off = Pose(true.position + np.array([0.05, 0.0, 0.0]), rotation_by(np.array([0, 0, 0.12])))
     moves = [np.array([0.012, 0, 0, 0, 0, 0]), np.array([0, 0, 0, 0, 0, 0.15])]
     found, borne = outlined(rod, off, view, depth, moves)
     assert found.position == pytest.approx(true.position, abs=0.006)

@@ -11,7 +11,6 @@ from scipy import ndimage
 from etot_cli.execution.perception.fitting import (
     OUTLINE_POINTS,
     TOLERANCE,
-    Pose,
     Support,
     climbed,
     moved,
@@ -21,6 +20,7 @@ from etot_cli.execution.perception.fitting import (
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array
+from etot_cli.skills.motion.kinematics import Pose
 
 OWN = 8
 """Readings that tell a thing's colour, at least."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.skills.motion.kinematics import Pose
 
 TOLERANCE = 0.007
 """Depth that is off by less, along the surface's normal, bears a pose out [m]: four standard
@@ -44,44 +45,6 @@ class Freedom(Enum):
     ON_LEVEL = (0, 1, 5)
     UPRIGHT = (0, 1, 2, 5)
     ALL = (0, 1, 2, 3, 4, 5)
-
-
-@dataclass(frozen=True)
-class Pose:
-    """``rotation`` (3, 3) and ``position`` (3,) [m]: p_base = rotation · p_body + position."""
-
-    rotation: Array
-    position: Array
-
-    @classmethod
-    def of(cls, position: Sequence[float], quaternion: Sequence[float]) -> Pose:
-        """From a position [m] and a quaternion w x y z."""
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, np.array(quaternion))
-        return cls(rotation.reshape(3, 3), np.array(position))
-
-    @property
-    def quaternion(self) -> Array:
-        """W x y z (4,)."""
-        found = np.empty(4)
-        left, _, right = np.linalg.svd(self.rotation)
-        mujoco.mju_mat2Quat(found, np.ascontiguousarray(left @ right).ravel())
-        return found
-
-    def place(self, points: Array) -> Array:
-        """Points (n, 3) of the body in the base frame."""
-        return np.asarray(points @ self.rotation.T + self.position)
-
-    def local(self, points: Array) -> Array:
-        """Points (n, 3) of the base frame in the body's."""
-        return np.asarray((points - self.position) @ self.rotation)
-
-    def __matmul__(self, other: Pose) -> Pose:
-        return Pose(self.rotation @ other.rotation, self.place(other.position[None])[0])
-
-    def inverse(self) -> Pose:
-        """From the base frame to the body's."""
-        return Pose(self.rotation.T, -self.rotation.T @ self.position)
 
 
 @dataclass(frozen=True)
@@ -235,7 +198,7 @@ def _step(pose: Pose, matched: Array, normals: Array, seen: Array, freedom: Free
     found[free] = np.linalg.solve(normal, weighted.T @ vector)
     rotation = rotation_by(found[3:])
     position = rotation @ (pose.position - middle) + middle + found[:3]
-    return Pose(rotation @ pose.rotation, position)
+    return Pose(position, rotation @ pose.rotation)
 
 
 def _cross(one: Array, other: Array) -> Array:
@@ -243,6 +206,14 @@ def _cross(one: Array, other: Array) -> Array:
     x, y, z = one.T
     u, v, w = other.T
     return np.column_stack([y * w - z * v, z * u - x * w, x * v - y * u])
+
+
+def quaternion_of(pose: Pose) -> Array:
+    """W x y z (4,) of the rotation that is nearest to what rounding has left of a pose's."""
+    found = np.empty(4)
+    left, _, right = np.linalg.svd(pose.rotation)
+    mujoco.mju_mat2Quat(found, np.ascontiguousarray(left @ right).ravel())
+    return found
 
 
 def rotation_by(turn: Array) -> Array:
@@ -312,4 +283,4 @@ def climbed(
 def moved(surface: Surface, pose: Pose, move: Array) -> Pose:
     """A pose after a shift and a turn about the thing's middle (6,), base frame [m, rad]."""
     middle, turn = pose.place(surface.middle[None])[0], rotation_by(move[3:])
-    return Pose(turn @ pose.rotation, turn @ (pose.position - middle) + middle + move[:3])
+    return Pose(turn @ (pose.position - middle) + middle + move[:3], turn @ pose.rotation)

@@ -9,7 +9,6 @@ import numpy as np
 from etot_cli.execution.perception.coloring import by_color
 from etot_cli.execution.perception.fitting import (
     Freedom,
-    Pose,
     Support,
     improved,
     outlined,
@@ -27,6 +26,7 @@ from etot_cli.execution.perception.unseen import (
     level_moves,
 )
 from etot_cli.reconstruction.capture.view import Array
+from etot_cli.skills.motion.kinematics import Pose
 
 STANDS = 0.9
 """An object is left in the same attitude when that much agrees."""

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.execution.perception.fitting import Pose, Support, improved, rotation_by, support
+from etot_cli.execution.perception.fitting import Support, improved, rotation_by, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.skills.motion.kinematics import Pose
 
 HEADINGS = 8
 """Turns that are tried: neighbours are 45° apart, and a fit finds the rest."""
@@ -119,7 +120,7 @@ def _best(
             first = start(surface, turn, few, scan.view)
             # Which of a vessel's walls is seen is not known: it may stand nearer or farther.
             for step in (0.0, 0.5, -0.5) if level else (0.0,):
-                moved = Pose(first.rotation, first.position + step * surface.radius * ahead)
+                moved = Pose(first.position + step * surface.radius * ahead, first.rotation)
                 pose = improved(surface, moved, few, scan.view, gates=COARSE)
                 apart, _ = surface.tree.query(pose.local(few))
                 guesses.append((float(np.minimum(apart, 0.03).mean()), pose))
@@ -152,4 +153,4 @@ def start(surface: Surface, rotation: Array, readings: Array, view: View) -> Pos
     # Inner walls face the camera too, but are behind what is nearer.
     placed = shown @ rotation.T
     nearer = placed @ towards > np.median(placed @ towards) - surface.radius / 2
-    return Pose(rotation, middle - placed[nearer].mean(axis=0))
+    return Pose(middle - placed[nearer].mean(axis=0), rotation)

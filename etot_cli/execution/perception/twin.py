@@ -8,9 +8,10 @@ import mujoco
 import numpy as np
 
 from etot_cli.control.robot import RobotState
-from etot_cli.execution.perception.fitting import Pose
+from etot_cli.execution.perception.fitting import quaternion_of
 from etot_cli.execution.perception.surfaces import Surface, surface_of
 from etot_cli.reconstruction.capture.view import Array
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Part, Region
 from etot_cli.world.model import build_world
@@ -83,7 +84,7 @@ class KnownScene:
 
     def put(self, name: str, pose: Pose) -> None:
         """Puts an object, or furniture, where it was seen."""
-        entry, quaternion = self.world.entries[name], pose.quaternion
+        entry, quaternion = self.world.entries[name], quaternion_of(pose)
         if entry.free:
             joint = self.data.joint(name).qpos
             joint[:3], joint[3:] = pose.position, quaternion
@@ -95,7 +96,7 @@ class KnownScene:
     def body(self, name: str) -> Pose:
         """Where a body stands now."""
         found = self.data.body(name)
-        return Pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
+        return Pose(found.xpos.copy(), found.xmat.reshape(3, 3).copy())
 
     def joint_value(self, address: str) -> float:
         """Joint value of a part ``object.part`` now [m or rad]."""
@@ -119,7 +120,7 @@ class KnownScene:
     def robot_points(self) -> Array:
         """Points (n, 3) on the arm and the hand, base frame."""
         placed = [
-            Pose(self.data.xmat[body].reshape(3, 3), self.data.xpos[body]).place(surface.points)
+            Pose(self.data.xpos[body], self.data.xmat[body].reshape(3, 3)).place(surface.points)
             for body, surface in self.robot_surfaces.items()
         ]
         return np.vstack(placed)
@@ -136,7 +137,7 @@ class KnownScene:
 
     def _tool_in(self, data: mujoco.MjData) -> Pose:
         site = self.world.robot.tool_site
-        return Pose(data.site_xmat[site].reshape(3, 3).copy(), data.site_xpos[site].copy())
+        return Pose(data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy())
 
     def _add(self, into: dict[str, Surface], name: str, bodies: list[int], frame: int) -> None:
         found = surface_of(self.world, bodies, frame)

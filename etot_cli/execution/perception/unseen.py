@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from etot_cli.execution.perception.fitting import Pose, outlined, rotation_by, support
+from etot_cli.execution.perception.fitting import outlined, rotation_by, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.search import start
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
+from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.index import Region
 
 STILL_THERE = 0.7
@@ -102,7 +103,7 @@ def out_of_sight(
         let_go = tool @ held
         lowest = float(let_go.place(surface.points)[:, 2].min())
         drop = np.array([0.0, 0.0, lowest - known.scene.desk.top])
-        options.append((BELOW, Pose(let_go.rotation, let_go.position - drop)))
+        options.append((BELOW, Pose(let_go.position - drop, let_go.rotation)))
     for _, pose in sorted(options, key=lambda item: item[0]):
         if not contradicted(surface, pose, scan):
             return pose
@@ -138,7 +139,7 @@ def _standing_in(
             placed = few.points @ rotation.T
             foot = placed[int(np.argmin(placed @ wanted))]
             aside = -flat * (np.sin(lean) > 0) * 0.6 * min(region.half[:2])
-            pose = Pose(rotation, floor + aside - foot)
+            pose = Pose(floor + aside - foot, rotation)
             worth = support(few, pose, scan.view, scan.depth).worth
             if best is None or worth > best[0]:
                 best = (worth, pose)
@@ -193,7 +194,7 @@ def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose
     turned = surface.points @ before.rotation.T
     low, high = turned.min(axis=0), turned.max(axis=0)
     middle = np.array([*((low + high) / 2)[:2], low[2]])
-    return Pose(before.rotation, floor - middle)
+    return Pose(floor - middle, before.rotation)
 
 
 def level_moves(surface: Surface, pose: Pose) -> list[Array]:

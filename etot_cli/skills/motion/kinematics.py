@@ -56,6 +56,21 @@ class Pose:
     position: Vector
     rotation: Vector
 
+    @classmethod
+    def of(cls, position: Sequence[float], quaternion: Sequence[float]) -> Pose:
+        """From a position [m] and a quaternion w x y z."""
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, np.array(quaternion))
+        return cls(np.array(position), rotation.reshape(3, 3))
+
+    def place(self, points: Vector) -> Vector:
+        """Points (n, 3) of the frame in the base frame."""
+        return np.asarray(points @ self.rotation.T + self.position)
+
+    def local(self, points: Vector) -> Vector:
+        """Points (n, 3) of the base frame in the frame."""
+        return np.asarray((points - self.position) @ self.rotation)
+
     def __matmul__(self, other: Pose) -> Pose:
         return Pose(self.position + self.rotation @ other.position, self.rotation @ other.rotation)
 

@@ -119,9 +119,7 @@ class FramedPose:
     @property
     def pose(self) -> Pose:
         """The same in the frame's own coordinates."""
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, np.array(self.quaternion))
-        return Pose(np.array(self.position), rotation.reshape(3, 3))
+        return Pose.of(self.position, self.quaternion)
 
 
 def framed(frame: str, origin: Pose, pose: Pose) -> FramedPose:
