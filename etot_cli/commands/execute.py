@@ -228,14 +228,9 @@ def _report(
         timing=watch.timing(),
         task=task_model(options.task, task),
         files={},
-        options=ExecuteOptionsModel(
+        options=ExecuteOptionsModel.of(
+            options,
             robot=redactor_for(options.robot, os.environ)(options.robot),
-            perception=options.perception,
-            dry_run=options.dry_run,
-            disturb=options.disturb,
-            replan=options.replan,
-            trials=options.trials,
-            jobs=options.jobs,
             max_replans=limits.max_replans,
             max_actions=limits.max_actions,
             max_robot_s=limits.max_robot_s,

@@ -216,12 +216,9 @@ def _report(
             "timing": watch.timing(),
             "task": task_model(options.task, task),
             "files": {},
-            "options": PlanOptionsModel(
-                reasoner=options.reasoner,
-                vary=options.vary,
-                jobs=options.jobs,
+            "options": PlanOptionsModel.of(
+                options,
                 worlds=options.worlds or (task.worlds if task else 1),
-                look=options.look.value,
                 without=[ablation.value for ablation in Ablation if ablation in options.without],
                 max_nodes=options.limits.max_nodes,
                 time_limit_s=options.limits.time_limit_s,
@@ -245,9 +242,4 @@ def task_model(file: Path, task: Task | None) -> TaskModel:
     """The task as it stands in reports; None when the command was stopped before it was read."""
     if task is None:
         return TaskModel(name=file.stem, file=printable(file), instruction="")
-    return TaskModel(
-        name=task.name,
-        file=printable(file),
-        instruction=task.instruction,
-        inputs=task.inputs,
-    )
+    return TaskModel.of(task, file=printable(file))

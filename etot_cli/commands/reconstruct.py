@@ -133,13 +133,10 @@ def _report(
 def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
     half = solid.yaw / 2 if solid.kind not in assembly.ROUND else 0.0
     rest = twin.settled.get(solid.name)
-    return ReconstructedObjectModel(
-        name=solid.name,
-        kind=solid.kind,
+    return ReconstructedObjectModel.of(
+        solid,
         position=triple(solid.center),
         quaternion=(float(np.cos(half)), 0.0, 0.0, float(np.sin(half))),
-        size=solid.size,
-        support=solid.support,
         fit=FitModel(
             residual_m=solid.fit.depth_rms,
             silhouette_px=solid.fit.edge_rms,
@@ -149,15 +146,7 @@ def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
         settle_deg=None if rest is None else rest.turned,
         model=None
         if solid.model is None
-        else KnownModelModel.model_validate(
-            {
-                "source": solid.model.source,
-                "metres_per_unit": solid.model.metres_per_unit,
-                "pose": solid.model.pose.tolist(),
-                "mismatch": solid.model.mismatch,
-            }
-        ),
-        warnings=list(solid.warnings),
+        else KnownModelModel.of(solid.model, pose=solid.model.pose.tolist()),
     )
 
 

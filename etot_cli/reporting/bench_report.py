@@ -198,18 +198,7 @@ def paired_models(found: Iterable[tuple[str, str, Paired]]) -> list[PairedModel]
     given = list(found)
     adjusted = holm(pairs.p_value for _, _, pairs in given)
     return [
-        PairedModel(
-            first=first,
-            second=second,
-            both=pairs.both,
-            first_only=pairs.first_only,
-            second_only=pairs.second_only,
-            neither=pairs.neither,
-            difference=pairs.difference,
-            ci95=pairs.interval,
-            p_value=pairs.p_value,
-            p_adjusted=corrected,
-        )
+        PairedModel.of(pairs, first=first, second=second, ci95=pairs.interval, p_adjusted=corrected)
         for (first, second, pairs), corrected in zip(given, adjusted, strict=True)
     ]
 
@@ -217,19 +206,12 @@ def paired_models(found: Iterable[tuple[str, str, Paired]]) -> list[PairedModel]
 def trial_rows(results: Iterable[TrialResult]) -> list[TrialRowModel]:
     """The trials in short."""
     return [
-        TrialRowModel(
+        TrialRowModel.of(
+            item,
             method=item.key.method,
             task=item.key.task,
             number=item.key.number,
-            seed=item.seed,
-            status=item.status.value,
-            failure_class=item.failure_class,
-            reason=item.reason,
-            replans=item.replans,
             actions=[taken.action for taken in item.actions],
-            harm=list(item.harm),
-            wall_s=item.wall_s,
-            report=item.report,
         )
         for item in results
     ]
@@ -242,9 +224,4 @@ def method_models(methods: Iterable[Method]) -> list[MethodModel]:
 
 def task_models(tasks: Iterable[Task], digests: Mapping[str, str]) -> list[BenchTaskModel]:
     """The tasks as they stand in reports."""
-    return [
-        BenchTaskModel(
-            name=task.name, file=task.file, instruction=task.instruction, digest=digests[task.name]
-        )
-        for task in tasks
-    ]
+    return [BenchTaskModel.of(task, digest=digests[task.name]) for task in tasks]

@@ -217,27 +217,16 @@ class ExecuteReport(Report):
 def trial_model(trial: Trial, success: Sequence[Condition]) -> TrialModel:
     """A trial as it stands in reports."""
     held = trial.evaluation.conditions if trial.evaluation is not None else ()
-    return TrialModel.model_validate(
-        {
-            "number": trial.number,
-            "status": trial.status,
-            "reason": trial.reason,
-            "success": trial.success,
-            "harm": trial.harm,
-            "failure_class": trial.failure_class,
-            "replans": trial.replans,
-            "actions": [_carried(index, item) for index, item in enumerate(trial.actions)],
-            "looks": [_look(index, item) for index, item in enumerate(trial.looks)],
-            "plans": [{"index": index, **vars(item)} for index, item in enumerate(trial.plans)],
-            "disturbances": trial.disturbances,
-            "conditions": [
-                ConditionModel(condition=describe(item), held=done)
-                for item, done in zip(success, held, strict=False)
-            ],
-            "device": trial.robot,
-            "robot_s": trial.robot_s,
-            "timing": trial.timing,
-        }
+    return TrialModel.of(
+        trial,
+        actions=[_carried(index, item) for index, item in enumerate(trial.actions)],
+        looks=[_look(index, item) for index, item in enumerate(trial.looks)],
+        plans=[PlanMadeModel.of(item, index=index) for index, item in enumerate(trial.plans)],
+        conditions=[
+            ConditionModel(condition=describe(item), held=done)
+            for item, done in zip(success, held, strict=False)
+        ],
+        device=trial.robot,
     )
 
 
@@ -255,43 +244,18 @@ def _carried(index: int, item: Carried) -> CarriedModel:
     if item.before is not None and item.after is not None:
         record = RolloutRecord(item.before, item.after, item.status == "success", item.cause)
         moved = moved_models(record, item.changes)
-    return CarriedModel.model_validate(
-        {
-            **action_fields(item.action),
-            "index": index,
-            "plan": item.plan,
-            "status": item.status,
-            "cause": item.cause,
-            "changes": item.changes,
-            "moved": moved,
-            "attempts": item.traces,
-            "looks": item.looks,
-            "begin_s": item.begin_s,
-            "end_s": item.end_s,
-            "parted": item.parted,
-            "failure_class": item.failure_class,
-        }
+    return CarriedModel.of(
+        item, **action_fields(item.action), index=index, moved=moved, attempts=item.traces
     )
 
 
 def _look(index: int, item: Look) -> LookModel:
-    return LookModel.model_validate(
-        {
-            "index": index,
-            "time_s": item.time_s,
-            "why": item.why,
-            "objects": [
-                {
-                    "object": name,
-                    "position": seen.position,
-                    "quaternion": seen.quaternion,
-                    "mark": seen.mark,
-                    "error_m": item.error_m.get(name),
-                }
-                for name, seen in item.observation.objects.items()
-            ],
-            "parts": item.observation.parts,
-            "differs": item.differs,
-            "wall_s": item.wall_s,
-        }
+    return LookModel.of(
+        item,
+        index=index,
+        objects=[
+            SightingModel.of(seen, object=name, error_m=item.error_m.get(name))
+            for name, seen in item.observation.objects.items()
+        ],
+        parts=item.observation.parts,
     )

@@ -7,7 +7,7 @@ takes what the rooms below hand on as it is, by the names of its attributes.
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -64,6 +64,15 @@ class Model(BaseModel):
         allow_inf_nan=False,
         from_attributes=True,
     )
+
+    @classmethod
+    def of(cls, source: object, **told: Any) -> Self:
+        """What a room below hands on, by the names of its attributes, but for what is told here."""
+        for name, field in cls.model_fields.items():
+            attribute = str(field.validation_alias or name)
+            if name not in told and hasattr(source, attribute):
+                told[name] = getattr(source, attribute)
+        return cls.model_validate(told)
 
 
 class VersionsModel(Model):

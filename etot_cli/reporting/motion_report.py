@@ -99,21 +99,17 @@ def motion_model(
     motion, trace = outcome.motion, outcome.trace
     if not isinstance(motion, Motion) or not isinstance(trace, Trace):
         return None
-    return MotionModel.model_validate(
-        {
-            "action": action,
-            "node": node,
-            "file": file,
-            "sha256": sha256,
-            "seconds": trace.seconds,
-            "tool_at": motion.tool_at,
-            "object_at": motion.object_at,
-            "details": motion.details,
-            "peaks": _peaks(trace),
-            "before": _poses(outcome.record.before),
-            "after": _poses(outcome.record.after),
-            "end_state": outcome.end_digest,
-        }
+    return MotionModel.of(
+        motion,
+        action=action,
+        node=node,
+        file=file,
+        sha256=sha256,
+        seconds=trace.seconds,
+        peaks=_peaks(trace),
+        before=_poses(outcome.record.before),
+        after=_poses(outcome.record.after),
+        end_state=outcome.end_digest,
     )
 
 
@@ -128,15 +124,10 @@ def trajectory_model(
         joints=joints,
         control_period_s=CONTROL_PERIOD,
         phases=[
-            TrajectoryPhaseModel(
-                name=phase.name,
-                end=phase.end,
-                start_s=phase.start_s,
-                end_s=phase.end_s,
+            TrajectoryPhaseModel.of(
+                phase,
                 opening=phase.command,
                 targets=[] if phase.targets is None else phase.targets.tolist(),
-                waited_s=phase.waited_s,
-                holding=phase.holding,
             )
             for phase in trace.phases
         ],
@@ -144,10 +135,7 @@ def trajectory_model(
 
 
 def _poses(scene: SceneState) -> dict[str, PoseModel]:
-    return {
-        name: PoseModel(frame="base", position=state.position, quaternion=state.quaternion)
-        for name, state in scene.states.items()
-    }
+    return {name: PoseModel.of(state, frame="base") for name, state in scene.states.items()}
 
 
 def _peaks(trace: Trace) -> PeaksModel | None:

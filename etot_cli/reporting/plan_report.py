@@ -176,14 +176,8 @@ def understood_model(
     goal_holds: bool, branches: tuple[Branch, ...], understanding: Understanding | None = None
 ) -> UnderstoodModel:
     """What the reasoner understood and proposed, as it stands in reports."""
-    understanding = understanding or Understanding()
-    return UnderstoodModel.model_validate(
-        {
-            "goal": understanding.goal,
-            "choices": understanding.choices,
-            "goal_holds": goal_holds,
-            "branches": branches,
-        }
+    return UnderstoodModel.of(
+        understanding or Understanding(), goal_holds=goal_holds, branches=branches
     )
 
 

@@ -47,27 +47,17 @@ class TreeModel(Model):
 
 def node_model(node: PlanNode, record: RolloutRecord | None = None) -> NodeModel:
     """A tree node as it stands in reports; ``record``: what the nominal world did."""
-    return NodeModel.model_validate(
-        {
-            **judged_fields(node.action, node.verdict, record),
-            "id": node.id,
-            "parent": None if node.parent is None else node.parent.id,
-            "origin": node.origin,
-            "status": node.status,
-            "branch_end": node.end is not None,
-            "revisions": None if node.end is None else node.end.revisions,
-            "worlds_alive": None if node.survived is None else len(node.survived),
-            "losses": [
-                {
-                    "world": loss.world,
-                    "status": loss.verdict.outcome,
-                    "cause": loss.verdict.cause,
-                }
-                for loss in node.losses
-            ],
-            "simulated_s": node.simulated_s,
-            "wall_s": node.wall_s,
-        }
+    return NodeModel.of(
+        node,
+        **judged_fields(node.action, node.verdict, record),
+        parent=None if node.parent is None else node.parent.id,
+        branch_end=node.end is not None,
+        revisions=None if node.end is None else node.end.revisions,
+        worlds_alive=None if node.survived is None else len(node.survived),
+        losses=[
+            LossModel.of(loss, status=loss.verdict.outcome, cause=loss.verdict.cause)
+            for loss in node.losses
+        ],
     )
 
 

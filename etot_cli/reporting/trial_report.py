@@ -44,18 +44,11 @@ def trial_report(task: Task, method: Method, trial: Trial, result: TrialResult) 
         trial: what happened.
         result: the same as a line of the journal.
     """
-    return TrialReport(
-        status=result.status.value,
+    return TrialReport.of(
+        result,
         method=method.name,
-        task=TaskModel(
-            name=task.name, file=task.file, instruction=task.instruction, inputs=task.inputs
-        ),
+        task=TaskModel.of(task),
         number=result.key.number,
-        seed=result.seed,
         versions=versions(),
-        reason=result.reason,
         trial=trial_model(trial, task.success),
-        costs=dict(result.costs),
-        times=dict(result.times),
-        wall_s=result.wall_s,
     )
