@@ -13,7 +13,6 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from etot_cli.benchmark.problems import FAMILIES, problem
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.specs.base import Spec, Title
 from etot_cli.specs.bounds import MAX_TRIALS
@@ -111,6 +110,8 @@ def random_problems(count: int) -> list[tuple[str, int]]:
 
     So a few of them are already of many kinds, and more of them only add to these.
     """
+    from etot_cli.benchmark.problems import FAMILIES  # of use for random problems alone
+
     names = [*FAMILIES]
     return [(names[index % len(names)], index // len(names)) for index in range(count)]
 
@@ -170,6 +171,8 @@ class _Reader:
         count = int(match[1]) if match else 0
         if not 1 <= count <= MAX_TASKS:
             raise _error(asked, f"found {text!r}, expected random:N with N from 1 to {MAX_TASKS}")
+        from etot_cli.benchmark.problems import problem
+
         self._folder.mkdir(parents=True, exist_ok=True)
         for family, seed in random_problems(count):
             self._add(load_task(problem(family, seed).write(self._folder)))

@@ -72,13 +72,29 @@ class _Run:
     digests: dict[str, str]
 
     def work(self) -> list[TrialWork]:
-        """All trials: by task, then by world, then by method, so that a worker builds few twins."""
+        """All trials as reports list them: by task, then by world, then by method."""
         return [
             TrialWork(TrialKey(task.name, number, method.name), seed, draw)
             for task in self.selection.tasks
             for number, (seed, draw) in enumerate(self.draws)
             for method in self.methods
         ]
+
+    def begun(self, jobs: int) -> list[TrialWork]:
+        """The trials in the order in which they are begun.
+
+        Task by task, so that a worker builds few twins, and ``jobs`` worlds at a time, so that
+        methods can be compared wherever a run ends. Of these, methods that simulate most, the last
+        of the table, come first: no worker is left alone with a long trial at the end.
+        """
+        tasks = {task.name: rank for rank, task in enumerate(self.selection.tasks)}
+        dearest = {method.name: rank for rank, method in enumerate(reversed(self.methods))}
+
+        def place(item: TrialWork) -> tuple[int, ...]:
+            key = item.key
+            return tasks[key.task], key.number // jobs, dearest[key.method], key.number
+
+        return sorted(self.work(), key=place)
 
 
 def run_bench(
@@ -137,8 +153,9 @@ def run_bench(
                 engine = open_engine(EngineName(options.engine), options.jobs, begin, (setup,))
                 try:
                     ending = run_trials(
-                        work, carry_out, engine, journal, options.jobs, observer, terms.budget
-                    )
+                        run.begun(options.jobs), carry_out, engine, journal, options.jobs,
+                        observer, terms.budget,
+                    )  # fmt: skip
                 finally:
                     engine.close()
             except KeyboardInterrupt:  # while processes were started or ended

@@ -27,7 +27,6 @@ from etot_cli.execution.records import Trial
 from etot_cli.execution.trial import run_trial
 from etot_cli.planning.options import Limits
 from etot_cli.reporting.files import report_text, write_atomically
-from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
 from etot_cli.reporting.trial_report import trial_report
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
@@ -110,6 +109,8 @@ def perform(work: TrialWork) -> TrialResult:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, report_text(told))
         if setup.pages:
+            from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
+
             repeatable = setup.reasoner == "builtin" and setup.seed == work.seed
             page = trial_page(told, trial, method.title, repeatable=repeatable)
             write_atomically(path.with_suffix(SUFFIX), page)

@@ -53,11 +53,14 @@ UNKNOWN = "unknown"
 
 
 class Model(BaseModel):
-    """Base of everything in a report: no unknown keys, field docstrings become descriptions."""
+    """Base of everything in a report: no unknown keys.
+
+    A command uses few of these models, which are therefore built when they are first used.
+    """
 
     model_config = ConfigDict(
         extra="forbid",
-        use_attribute_docstrings=True,
+        defer_build=True,
         validate_by_name=True,
         validate_by_alias=True,
         serialize_by_alias=True,

@@ -55,7 +55,7 @@ def _section(model: type[BaseModel]) -> str:
     schema = model.model_json_schema(by_alias=True)
     if "$ref" in schema:  # a model that refers to itself
         schema = {**schema["$defs"][model.__name__], "$defs": schema["$defs"]}
-    told = _docstrings(model)
+    told = field_docstrings(model)
     common = set(scenes.ObjectBase.model_fields) if _is_kind(model) else set()
     lines = [f"### {model.__name__}\n", _plain(inspect.getdoc(model) or ""), ""]
     lines += ["| key | value | default | |", "| --- | --- | --- | --- |"]
@@ -76,7 +76,7 @@ def _is_kind(model: type[BaseModel]) -> bool:
     return issubclass(model, scenes.ObjectBase) and model is not scenes.ObjectBase
 
 
-def _docstrings(model: type[BaseModel]) -> dict[str, str]:
+def field_docstrings(model: type[BaseModel]) -> dict[str, str]:
     """The strings that stand below the fields, those of base classes included."""
     found: dict[str, str] = {}
     for kind in reversed(model.__mro__):

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -21,6 +23,7 @@ from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.reporting.simulate_report import SimulateReport
 from etot_cli.reporting.trial_report import TrialReport
+from tests.docs.formats import field_docstrings
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 REPORTS: dict[str, type[Model]] = {
@@ -47,7 +50,28 @@ def schema_text(model: type[BaseModel]) -> str:
     """A model's JSON Schema, as it stands in its file."""
     written = issubclass(model, Model)
     schema = model.model_json_schema(mode="serialization" if written else "validation")
+    if written:
+        described = {**schema.pop("$defs", {}), model.__name__: schema}
+        for kind in _report_models(Model):
+            _describe(described.get(kind.__name__, {}), kind)
+        described.pop(model.__name__)
+        schema = {"$defs": described, **schema}
     return json.dumps({"$schema": DIALECT, **schema}, indent=2, ensure_ascii=False) + "\n"
+
+
+def _report_models(base: type[Model]) -> Iterator[type[Model]]:
+    for kind in base.__subclasses__():
+        yield kind
+        yield from _report_models(kind)
+
+
+def _describe(schema: dict[str, Any], model: type[Model]) -> None:
+    """Gives properties the docstrings of their fields, which no command needs to know."""
+    for name, told in field_docstrings(model).items():
+        key = model.model_fields[name].alias or name
+        if key in schema.get("properties", {}):
+            content = {**schema["properties"][key], "description": told}
+            schema["properties"][key] = dict(sorted(content.items()))
 
 
 def main(arguments: list[str]) -> int:
