@@ -24,6 +24,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Self
 
+from etot_cli.world.robot import load_robot
+
 AXES = 6
 TICK_S = 0.004
 """Period in which the arm's joints and the gripper move [s]."""
@@ -322,7 +324,8 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1", help="loopback address to listen on")
     parser.add_argument("--port", type=int, default=5020, help="port of commands")
     options = parser.parse_args()
-    with FakeController(options.host, options.port) as fake:
+    home = [*load_robot("xarm6").home, 0.0]  # with all joints at zero the hand is in the desk
+    with FakeController(options.host, options.port, joints=home) as fake:
         print(f"listening at {fake.host}:{fake.port}", flush=True)
         with contextlib.suppress(KeyboardInterrupt):
             threading.Event().wait()

@@ -1,0 +1,116 @@
+"""What pages say of names, defaults and output is what the code says."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import pytest
+from pydantic import AliasChoices, BaseModel
+
+from etot_cli.reasoning.vlm.settings import VlmSettings
+from etot_cli.reporting.plan_report import PlanReport
+from etot_cli.reporting.plan_summary import plan_summary
+from etot_cli.reporting.printer import Printer
+from etot_cli.reporting.style import Verbosity, make_console
+from etot_cli.world.robot import DriverSpec, GripperSpec, RobotSpec
+from etot_cli.world.state import CauseKind
+from tests.shared import planned
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md"))]
+UNTOLD = {"url", "key", "cache", "marks", "hints", "directory", "gripper"}
+"""Whose default is told in words, that the loader sets, or that has a table of its own."""
+
+
+def rows(page: Path) -> dict[str, list[str]]:
+    """The cells of a page's tables by each name that stands in the first of them."""
+    found: dict[str, list[str]] = {}
+    for line in page.read_text("utf-8").splitlines():
+        if line.startswith("| `"):
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            found.update(dict.fromkeys(re.findall(r"`([^`]+)`", cells[0]), cells[1:]))
+    return found
+
+
+def same(told: str, default: object) -> bool:
+    """Whether a cell tells a default that is a number, a word or nothing at all."""
+    if isinstance(default, bool):
+        return told.strip("`") == str(default).lower()
+    if isinstance(default, int | float):
+        return float(told.strip("`")) == default
+    return not isinstance(default, str) or not default or told.strip("`") == default
+
+
+def test_settings_of_the_model() -> None:
+    told = rows(DOCS / "vlm.md")
+    for name, field in VlmSettings.model_fields.items():
+        alias = field.validation_alias
+        names = alias.choices if isinstance(alias, AliasChoices) else [f"ETOT_VLM_{name.upper()}"]
+        for variable in map(str, names):
+            assert variable in told, variable
+            if name not in UNTOLD:
+                assert same(told[variable][0], field.default), variable
+
+
+@pytest.mark.parametrize("model", [RobotSpec, GripperSpec, DriverSpec])
+def test_keys_of_a_robot(model: type[BaseModel]) -> None:
+    told = rows(DOCS / "robots.md")
+    for name, field in model.model_fields.items():
+        if name in UNTOLD or isinstance(field.default, BaseModel):
+            continue
+        if field.is_required():
+            assert told[name][0] == "required", name
+        elif name not in ("speed", "leaning_reach"):  # of two tables; one told in words
+            assert same(told[name][0], field.default), name
+
+
+def test_variables_of_the_environment() -> None:
+    text = "".join(page.read_text("utf-8") for page in PAGES)
+    for file in (ROOT / "etot_cli").rglob("*.py"):
+        for name in re.findall(r'"(ETOT_[A-Z_]*[A-Z])"', file.read_text("utf-8")):
+            assert name in text, f"{file.name} reads {name}, which no page tells of"
+
+
+def test_files_and_classes_that_are_named_are_there() -> None:
+    files = {f"/{path.relative_to(ROOT)}" for top in ("etot_cli", "tests", "docs")
+             for path in (ROOT / top).rglob("*.py")}  # fmt: skip
+    for page in PAGES:
+        for word in re.findall(r"`([^`\s]+)`", page.read_text("utf-8")):
+            if word.endswith(".py"):
+                assert any(file.endswith(f"/{word}") for file in files), f"{page.name}: {word}"
+            elif word.startswith(("etot_cli/", "tests/", "suites/", "docs/")):
+                assert (ROOT / word).exists(), f"{page.name}: {word}"
+    sources = "".join(path.read_text("utf-8") for path in (ROOT / "etot_cli").rglob("*.py"))
+    rooms = [line for line in (DOCS / "design.md").read_text("utf-8").splitlines()
+             if re.match(r"\| `\w+` \| .* \| .* \|$", line)]  # fmt: skip
+    handed = {name for line in rooms for name in re.findall(r"`([A-Z]\w+)`", line.split("|")[3])}
+    assert len(handed) > 10
+    for name in handed:
+        assert re.search(rf"^class {name}\b", sources, re.MULTILINE), f"there is no {name}"
+
+
+def test_every_kind_of_cause_and_field_of_a_plan_is_told() -> None:
+    text = (DOCS / "reports.md").read_text("utf-8")
+    fields = {field.alias or name for name, field in PlanReport.model_fields.items()}
+    for name in {*fields, *(kind.value for kind in CauseKind)}:
+        assert f"`{name}`" in text or f"`{name}." in text, name
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
+def test_the_output_that_is_shown_is_that_of_today(
+    page: str, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    made = planned(tmp_path_factory, ROOT / "tasks" / "task5.yaml") / "report.json"
+    report = PlanReport.model_validate_json(made.read_text("utf-8"))
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    plan_summary(Printer(make_console(stream), Verbosity.NORMAL), report, made)
+    shown = (ROOT / page).read_text("utf-8").partition("\n✓ feasible plan")[2].partition("\n```")[0]
+    stream.seek(0)
+    told = stream.read().partition("✓ feasible plan")[2]
+    seconds = re.compile(r"in [\d.]+ s")
+    for line in shown.splitlines():
+        if not line.startswith(("  page:", "  report:")):
+            assert seconds.sub("in", line) in seconds.sub("in", told), line
