@@ -427,3 +427,30 @@ def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
     plan = "[PICK UP, nut] [PUT ON, desk]"
     step = failed(state, plan, 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
     assert revisions(step) == [f"[CLOSE, cupboard] {plan} [OPEN, cupboard]"]
+
+
+def test_a_drawer_that_cannot_be_opened_again_is_left_open_meanwhile() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0}),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.3, 0.3)),
+    )  # fmt: skip
+    fill = "[PICK UP, {0}] [PUT INTO, chest]"
+    twice = f"{fill.format('nut')} [CLOSE, chest] [OPEN, chest] {fill.format('egg')}"
+    step = failed(start, f"{twice} [CLOSE, chest]", 3, cause(CauseKind.NO_GRASP, "chest"))
+    together = f"{fill.format('nut')} {fill.format('egg')} [CLOSE, chest]"
+    assert revisions(step) == [together]
+    step = failed(start, together, 3, cause(CauseKind.NO_ROOM, "nut", "egg"), held(start, "egg"))
+    for branch in revisions(step):
+        assert branch.endswith("[CLOSE, chest]"), "further revisions still close it"
+
+
+def test_a_drawer_that_need_not_be_open_any_more_stays_closed_where_it_cannot_be_opened() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0}), scenes.ball("nut", (0.4, 0.0))
+    )
+    bring = "[PICK UP, nut] [PUT ON, chest]"
+    step = failed(start, bring, 0, cause(CauseKind.NO_GRASP, "chest", "nut"))
+    meanwhile = f"[CLOSE, chest] {bring} [OPEN, chest]"
+    assert revisions(step) == [meanwhile], "what goes on top of it does not need it open"
+    step = failed(start, meanwhile, 3, cause(CauseKind.NO_GRASP, "chest"))
+    assert revisions(step) == [bring, f"[CLOSE, chest] {bring}"]

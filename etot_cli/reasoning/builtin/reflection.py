@@ -26,9 +26,11 @@ from etot_cli.reasoning.builtin.relocation import (
     other_places,
     relocated,
     shut_meanwhile,
+    without_reopening,
 )
 from etot_cli.reasoning.builtin.revision import (
     Actions,
+    Purpose,
     cycle_of,
     inserted,
     moved_before,
@@ -66,14 +68,16 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if cause is None or not 0 <= failed.index < len(failed.branch.actions):
         return
     case = _Case(failed, cause)
-    aim = purpose(case.actions, failed.start)
+    aim = case.purpose_of(case.actions)
     opened = left_open(case.actions, failed.start)
+    if case.action.verb is Verb.OPEN:
+        opened = (*opened, case.action.target)
     seen = {case.actions}
     for actions, change in case.corrections():
         if actions in seen:
             continue
         seen.add(actions)
-        if purpose(actions, failed.start) == aim and not check_plan(actions, failed.start, opened):
+        if case.purpose_of(actions) == aim and not check_plan(actions, failed.start, opened):
             yield Branch(actions, f"{change}, because {cause.text}")
 
 
@@ -98,6 +102,13 @@ class _Case:
         if self.action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
             return self.failed.record.before.holding
         return owner_of(self.action.target)
+
+    def purpose_of(self, actions: Actions) -> Purpose:
+        """What a branch is for; not that a part is left as it was which cannot be opened again."""
+        aim = purpose(actions, self.failed.start)
+        if self.action.verb is not Verb.OPEN:
+            return aim
+        return replace(aim, parts=frozenset(p for p in aim.parts if p[0] != self.action.target))
 
     def corrections(self) -> Iterator[Correction]:
         """Possible corrections, the most promising first."""
@@ -294,6 +305,8 @@ class _Case:
         part = before.part(self.action.target)
         if part is None:
             return
+        if self.action.verb is Verb.OPEN:
+            yield from without_reopening(self.actions, index, self.failed.start)
         for name in self._culprits():
             placed = placed_by(self.actions, name, index)
             within = is_inside(before, name, part.address)

@@ -14,6 +14,7 @@ from etot_cli.reasoning.builtin.revision import (
     cycle_of,
     hand_free_at,
     inserted,
+    reachable_throughout,
     relocations,
 )
 from etot_cli.reasoning.builtin.sketch import Sketch
@@ -137,11 +138,13 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """
     scene, actions = failed.record.before, failed.branch.actions
     cycle = cycle_of(actions, failed.index)
-    used = {action.target for action in actions[cycle.start : cycle.end]}
+    own = actions[cycle.start : cycle.end]
+    filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}
+    reached = {owner_of(action.target) for action in own}
     start = hand_free_at(actions, cycle.start, failed.start)
     for part in scene.infos[name].parts:
-        needed = {part.address, f"{part.owner}.{part.name}"} & used or any(
-            target in scene.states and is_inside(scene, target, part.address) for target in used
+        needed = {part.address, f"{part.owner}.{part.name}"} & filled or any(
+            target in scene.states and is_inside(scene, target, part.address) for target in reached
         )
         if start is None or needed or is_closed(scene, part):
             continue
@@ -150,6 +153,26 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
         change = f"{part.address} is closed meanwhile"
         yield Correction((*cleared, *actions[cycle.end :]), change)
         yield Correction((*cleared, again, *actions[cycle.end :]), change)
+
+
+def without_reopening(actions: Actions, index: int, scene: SceneState) -> Iterator[Correction]:
+    """The branch without the OPEN at ``index``, for a part that cannot be opened once it is closed.
+
+    It is not closed before, or, where it stood open at first and nothing needs it any more, it
+    stays closed.
+    """
+    address = actions[index].target
+    own = [place for place, action in enumerate(actions) if action.target == address]
+    closing = max((p for p in own if p < index and actions[p].verb is Verb.CLOSE), default=None)
+    if closing is None:
+        return
+    kept_open = (*actions[:closing], *actions[closing + 1 : index], *actions[index + 1 :])
+    stays_closed = (*actions[:index], *actions[index + 1 :])
+    yield Correction(kept_open, f"{address} is left open meanwhile")
+    needing = (Verb.PUT_INTO, Verb.CLOSE)
+    needed = any(place > index and actions[place].verb in needing for place in own)
+    if not needed and reachable_throughout(stays_closed, scene) == stays_closed:
+        yield Correction(stays_closed, f"{address} stays closed")
 
 
 def safe_places(actions: Actions, scene: SceneState, held: str | None) -> list[tuple[Verb, str]]:
