@@ -11,12 +11,6 @@ LEVEL_ROOM = 0.08
 """Free space around what a level hand takes: half a palm and 22 mm [m]."""
 
 
-def cabinet_and_shelf_family(desk: Desk, seed: int) -> Problem:
-    """Cupboards that face the robot or sideways, racks of two or three boards."""
-    variants = (_put_in, _board, _take_out, _open_or_close, _top, _put_in, _open_inside)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _facing(seed: int) -> str:
     return ("side", "robot")[seed // 7 % 2]
 
@@ -92,3 +86,7 @@ def _top(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"put {the(thing)} on top of the rack")
     goal = [{"on": [thing, unit]}]
     return desk.problem("cabinet_and_shelf", seed, instruction, goal, onto(thing, unit))
+
+
+CABINET_AND_SHELF = (_put_in, _board, _take_out, _open_or_close, _top, _put_in, _open_inside)
+"""Cupboards that face the robot or sideways, racks of two or three boards."""

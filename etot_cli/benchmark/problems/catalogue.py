@@ -5,40 +5,41 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from etot_cli.benchmark.problems.cabinet_and_shelf import cabinet_and_shelf_family
-from etot_cli.benchmark.problems.crowd import crowd_family
+from etot_cli.benchmark.problems.cabinet_and_shelf import CABINET_AND_SHELF
+from etot_cli.benchmark.problems.crowd import crowd
 from etot_cli.benchmark.problems.desk import Desk, FullDeskError
-from etot_cli.benchmark.problems.drawer import drawer_family, handles_family
-from etot_cli.benchmark.problems.hidden import hidden_family
-from etot_cli.benchmark.problems.infeasible import infeasible_family
-from etot_cli.benchmark.problems.into import into_family
-from etot_cli.benchmark.problems.lids import lids_family
-from etot_cli.benchmark.problems.nesting import nesting_family
-from etot_cli.benchmark.problems.order import order_family
+from etot_cli.benchmark.problems.drawer import DRAWER, handles
+from etot_cli.benchmark.problems.hidden import HIDDEN
+from etot_cli.benchmark.problems.infeasible import REASONS
+from etot_cli.benchmark.problems.into import INTO
+from etot_cli.benchmark.problems.lids import LIDS
+from etot_cli.benchmark.problems.nesting import NESTING
+from etot_cli.benchmark.problems.order import ORDER
 from etot_cli.benchmark.problems.problem import Problem
-from etot_cli.benchmark.problems.relocation import relocation_family
-from etot_cli.benchmark.problems.stack import stack_family
-from etot_cli.benchmark.problems.surfaces import surfaces_family
-from etot_cli.benchmark.problems.tall import tall_family
+from etot_cli.benchmark.problems.relocation import RELOCATION
+from etot_cli.benchmark.problems.stack import STACK
+from etot_cli.benchmark.problems.surfaces import SURFACES
+from etot_cli.benchmark.problems.tall import TALL
 
-Family = Callable[[Desk, int], Problem]
+Family = tuple[Callable[[Desk, int], Problem], ...]
+"""What makes a family's problems, taken in turn."""
 FAMILIES: dict[str, tuple[Family, int]] = {
-    "into": (into_family, 12),
-    "stack": (stack_family, 10),
-    "drawer": (drawer_family, 12),
-    "handles": (handles_family, 8),
-    "cabinet_and_shelf": (cabinet_and_shelf_family, 14),
-    "order": (order_family, 8),
-    "crowd": (crowd_family, 10),
-    "relocation": (relocation_family, 12),
-    "surfaces": (surfaces_family, 10),
-    "nesting": (nesting_family, 8),
-    "lids": (lids_family, 4),
-    "tall": (tall_family, 8),
-    "hidden": (hidden_family, 4),
+    "into": (INTO, 12),
+    "stack": (STACK, 10),
+    "drawer": (DRAWER, 12),
+    "handles": ((handles,), 8),
+    "cabinet_and_shelf": (CABINET_AND_SHELF, 14),
+    "order": (ORDER, 8),
+    "crowd": ((crowd,), 10),
+    "relocation": (RELOCATION, 12),
+    "surfaces": (SURFACES, 10),
+    "nesting": (NESTING, 8),
+    "lids": (LIDS, 4),
+    "tall": (TALL, 8),
+    "hidden": (HIDDEN, 4),
 }
 """Families of solvable problems, and how many seeds of each are measured."""
-INFEASIBLE: dict[str, tuple[Family, int]] = {"infeasible": (infeasible_family, 40)}
+INFEASIBLE: dict[str, tuple[Family, int]] = {"infeasible": (REASONS, 40)}
 """Families without a plan."""
 DRAWS = 40
 """Sizes are drawn anew this often when the desk has no room for them."""
@@ -51,7 +52,8 @@ def problem(family: str, seed: int) -> Problem:
         KeyError: there is no such family.
         FullDeskError: the desk was too full in every draw.
     """
-    make, _ = (FAMILIES | INFEASIBLE)[family]
+    variants, _ = (FAMILIES | INFEASIBLE)[family]
+    make = variants[seed % len(variants)]
     for draw in range(DRAWS):
         try:
             return make(Desk(Random(f"{family}:{seed}:{draw}")), seed)

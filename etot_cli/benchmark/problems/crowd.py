@@ -18,7 +18,7 @@ from etot_cli.benchmark.problems.things import (
 )
 
 
-def crowd_family(desk: Desk, seed: int) -> Problem:
+def crowd(desk: Desk, seed: int) -> Problem:
     """One to three things are to go somewhere among the others."""
     rng = desk.rng
     vessel = desk.stand("bowl", bowl(between(rng, 0.14, 0.17)), gap=TIGHT_ROOM)

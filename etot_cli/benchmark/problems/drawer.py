@@ -12,13 +12,7 @@ YAWS = (-90.0, 180.0, 90.0, None, -45.0, None)
 """Directions of fronts; None is any."""
 
 
-def drawer_family(desk: Desk, seed: int) -> Problem:
-    """Putting into and taking out of drawers."""
-    variants = (_put_in, _ajar, _take_out, _two_things, _two_drawers, _leave_open)
-    return variants[seed % len(variants)](desk, seed)
-
-
-def handles_family(desk: Desk, seed: int) -> Problem:
+def handles(desk: Desk, seed: int) -> Problem:
     """Opening and closing alone: handles from 45 to 130 mm above the desk, any direction."""
     rng = desk.rng
     variant = seed % 4
@@ -128,3 +122,7 @@ def _leave_open(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"open the drawer and put {the(thing)} on the desk")
     plan = [f"[OPEN, {drawer}]", *onto(thing, "desk")]
     return desk.problem("drawer", seed, instruction, [{"on": [thing, "desk"]}], plan)
+
+
+DRAWER = (_put_in, _ajar, _take_out, _two_things, _two_drawers, _leave_open)
+"""Putting into and taking out of drawers."""

@@ -9,12 +9,6 @@ from etot_cli.benchmark.problems.problem import Document, Problem, into, onto, s
 from etot_cli.benchmark.problems.things import ball, between, bowl, can
 
 
-def hidden_family(desk: Desk, seed: int) -> Problem:
-    """The instruction does not mention what has to be opened."""
-    variants = (_in_drawer, _behind_can, _in_cupboard, _between_drawers)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _in_drawer(desk: Desk, seed: int) -> Problem:
     """In a closed drawer."""
     unit = chest(desk, ("low", "upper")[seed // 4 % 2])
@@ -61,3 +55,7 @@ def _between_drawers(desk: Desk, seed: int) -> Problem:
     ]  # fmt: skip
     instruction = "Move things between the drawers."
     return desk.problem("hidden", seed, instruction, goal, plan, formal=True)
+
+
+HIDDEN = (_in_drawer, _behind_can, _in_cupboard, _between_drawers)
+"""The instruction does not mention what has to be opened."""

@@ -32,15 +32,6 @@ FITS_NOT = 0.015
 """What does not fit is larger than its place by this much at least [m]."""
 
 
-def infeasible_family(desk: Desk, seed: int) -> Problem:
-    """Ten reasons in turn."""
-    variants = (
-        _too_wide, _does_not_fit, _out_of_reach, _target_out_of_reach, _fixed_before_drawer,
-        _too_high_for_drawer, _slips, _no_handle, _filled_by_fixed, _too_long_for_cupboard,
-    )  # fmt: skip
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _infeasible(
     desk: Desk, seed: int, text: str, goal: list[Document], kinds: str, *objects: str
 ) -> Problem:
@@ -184,3 +175,10 @@ def _too_long_for_cupboard(desk: Desk, seed: int) -> Problem:
     return _infeasible(
         desk, seed, text, goal, "no_room blocked collision unreachable no_grasp", thing, unit.name
     )
+
+
+REASONS = (
+    _too_wide, _does_not_fit, _out_of_reach, _target_out_of_reach, _fixed_before_drawer,
+    _too_high_for_drawer, _slips, _no_handle, _filled_by_fixed, _too_long_for_cupboard,
+)  # fmt: skip
+"""Ten reasons in turn."""

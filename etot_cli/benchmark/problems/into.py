@@ -24,12 +24,6 @@ SPARE = 1.12
 """A bowl's floor holds the circles around its things with this much to spare."""
 
 
-def into_family(desk: Desk, seed: int) -> Problem:
-    """One to three things into a round container."""
-    variants = (_one_block, _ball_in_cup, _several, _pen, _several, _balls)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _one_block(desk: Desk, seed: int) -> Problem:
     """A cube into a cup that is 20 to 40 mm wider than the cube's diagonal."""
     side = between(desk.rng, 0.034, 0.042)
@@ -100,3 +94,7 @@ def _pen(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"put {the(thing)} into {the(holder)}")
     goal: list[Document] = [{"inside": [thing, holder]}, {"upright": holder}]
     return desk.problem("into", seed, instruction, goal, into(thing, holder))
+
+
+INTO = (_one_block, _ball_in_cup, _several, _pen, _several, _balls)
+"""One to three things into a round container."""

@@ -11,12 +11,6 @@ OVERHANG = 0.004
 """A lid is wider than its cup by this much at least [m]."""
 
 
-def lids_family(desk: Desk, seed: int) -> Problem:
-    """Into a covered cup, out of one, and covering one after it was filled."""
-    variants = (_put_in, _cover, _take_off, _take_out)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _cup_and_lid(desk: Desk) -> tuple[Document, Document]:
     vessel = cup(desk.rng, 0.062, 0.068) | {"height": between(desk.rng, 0.065, 0.085)}
     width = min(vessel["diameter"] + between(desk.rng, OVERHANG, 0.008), GRASPABLE)
@@ -74,3 +68,7 @@ def _take_out(desk: Desk, seed: int) -> Problem:
     goal: list[Document] = [{"on": [holder, target]}, {"on": [cover, "desk"]}]
     plan = [*onto(cover, "desk"), *onto(holder, target)]
     return desk.problem("lids", seed, instruction, goal, plan)
+
+
+LIDS = (_put_in, _cover, _take_off, _take_out)
+"""Into a covered cup, out of one, and covering one after it was filled."""

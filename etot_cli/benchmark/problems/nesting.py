@@ -11,12 +11,6 @@ RIM_ROOM = 0.028
 """Free width on every side of a bowl in a bowl: a finger of 17 mm outside its rim, and 11 mm."""
 
 
-def nesting_family(desk: Desk, seed: int) -> Problem:
-    """Bowl into bowl, cup into bowl, a filled cup into a bowl, a bowl onto a tray."""
-    variants = (_bowl_in_bowl, _cup_in_bowl, _filled, _bowl_on_tray)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _bowl_in_bowl(desk: Desk, seed: int) -> Problem:
     """A small bowl, too wide for the hand, into a big one."""
     small = bowl(between(desk.rng, 0.095, 0.110), 0.050) | {"mass": 0.15}
@@ -64,3 +58,7 @@ def _bowl_on_tray(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"put {the(thing)} on {the(target)}")
     goal = [{"on": [thing, target]}]
     return desk.problem("nesting", seed, instruction, goal, onto(thing, target))
+
+
+NESTING = (_bowl_in_bowl, _cup_in_bowl, _filled, _bowl_on_tray)
+"""Bowl into bowl, cup into bowl, a filled cup into a bowl, a bowl onto a tray."""

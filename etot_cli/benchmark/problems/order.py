@@ -10,12 +10,6 @@ from etot_cli.benchmark.problems.problem import Document, Problem, into, onto, s
 from etot_cli.benchmark.problems.things import ball, between, cup, mm, solid, tray
 
 
-def order_family(desk: Desk, seed: int) -> Problem:
-    """What is carried goes before what it carries, what opens before what goes in."""
-    variants = (_filled_cup, _tray_first, _two_drawers, _cup_in_drawer)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _filled_cup(desk: Desk, seed: int) -> Problem:
     """A ball into a cup and the cup onto a block; the ball rests in the mouth and hides the rim."""
     rng = desk.rng
@@ -84,3 +78,7 @@ def _cup_in_drawer(desk: Desk, seed: int) -> Problem:
     ]  # fmt: skip
     plan = [*into(holder, drawer), *into(thing, holder), f"[CLOSE, {drawer}]"]
     return desk.problem("order", seed, instruction, goal, plan)
+
+
+ORDER = (_filled_cup, _tray_first, _two_drawers, _cup_in_drawer)
+"""What is carried goes before what it carries, what opens before what goes in."""

@@ -23,15 +23,6 @@ from etot_cli.benchmark.problems.things import (
 from etot_cli.specs.footprint import Disc
 
 
-def relocation_family(desk: Desk, seed: int) -> Problem:
-    """One or two things have to go somewhere else first."""
-    variants = (
-        _on_top, _inside, _before_drawer, _occupied_top, _before_door, _two_before_drawer,
-        _two_on_top, _too_tall_inside, _filled_before_drawer, _hemmed_in,
-    )  # fmt: skip
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _on_top(desk: Desk, seed: int) -> Problem:
     """What is to be moved carries something, which falls when it is carried along."""
     rng = desk.rng
@@ -173,3 +164,10 @@ def _hemmed_in(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"put {the(thing)} into {the(target)}")
     plan = [*onto(names[0], "desk"), *onto(names[2], "desk"), *into(thing, target)]
     return desk.problem("relocation", seed, instruction, [{"inside": [thing, target]}], plan)
+
+
+RELOCATION = (
+    _on_top, _inside, _before_drawer, _occupied_top, _before_door, _two_before_drawer,
+    _two_on_top, _too_tall_inside, _filled_before_drawer, _hemmed_in,
+)  # fmt: skip
+"""One or two things have to go somewhere else first."""

@@ -10,12 +10,6 @@ from etot_cli.benchmark.problems.problem import Document, Problem, onto, sentenc
 from etot_cli.benchmark.problems.things import between, can, height_of, mm, solid
 
 
-def stack_family(desk: Desk, seed: int) -> Problem:
-    """Towers of two to four, named from the bottom, from the top or as formal conditions."""
-    variants = (_pair, _top_first, _formal, _bottom_first, _exchange)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _blocks(desk: Desk, count: int) -> list[Document]:
     """Blocks from bottom to top; each side at least as long as the next one's."""
     rng = desk.rng
@@ -98,3 +92,7 @@ def _exchange(desk: Desk, seed: int) -> Problem:
     instruction = sentence(f"put {the(low)} on {the(high)}")
     plan = [*onto(high, "desk"), *onto(low, high)]
     return desk.problem("stack", seed, instruction, [{"on": [low, high]}], plan)
+
+
+STACK = (_pair, _top_first, _formal, _bottom_first, _exchange)
+"""Towers of two to four, named from the bottom, from the top or as formal conditions."""

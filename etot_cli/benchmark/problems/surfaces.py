@@ -15,12 +15,6 @@ APART = 0.050
 """Between things side by side on a tray a finger and 33 mm fit [m]."""
 
 
-def surfaces_family(desk: Desk, seed: int) -> Problem:
-    """Plates, trays, chests, and tops no wider than what they carry."""
-    variants = (_plate, _tray, _chest_top, _small_top, _beside)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _cube(desk: Desk) -> Document:
     side = between(desk.rng, 0.036, 0.044)
     return solid([side, side, side])
@@ -78,3 +72,7 @@ def _beside(desk: Desk, seed: int) -> Problem:
     desk.put("block", _cube(desk), on=target, at=[round(x - 0.08, 3), y])
     thing = desk.stand("block", _cube(desk))
     return _onto(desk, seed, [thing], target, the(target))
+
+
+SURFACES = (_plate, _tray, _chest_top, _small_top, _beside)
+"""Plates, trays, chests, and tops no wider than what they carry."""

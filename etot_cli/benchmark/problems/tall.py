@@ -14,12 +14,6 @@ ENDS = 0.024
 """Inner width of a drawer minus the length of what lies across it, at least [m]."""
 
 
-def tall_family(desk: Desk, seed: int) -> Problem:
-    """Bottles, bars and pens into drawers that are too low for them to stand in."""
-    variants = (_bottle, _pen, _bar, _stand_up)
-    return variants[seed % len(variants)](desk, seed)
-
-
 def _into_drawer(
     desk: Desk, seed: int, noun: str, item: Document, *, closed: bool, gap: float
 ) -> Problem:
@@ -69,3 +63,7 @@ def _stand_up(desk: Desk, seed: int) -> Problem:
     goal: list[Document] = [{"inside": [name, holder]} for name in names] + [{"upright": holder}]
     plan = [step for name in names for step in into(name, holder)]
     return desk.problem("tall", seed, instruction, goal, plan)
+
+
+TALL = (_bottle, _pen, _bar, _stand_up)
+"""Bottles, bars and pens into drawers that are too low for them to stand in."""
