@@ -191,16 +191,13 @@ class Runner:
         self._planners.close()
 
 
-_runners: list[tuple[Runner, Path]] = []
-"""Of a worker process: the one it was begun with, and where its trials write what they do."""
+def _begin(options: ExecuteOptions, task: Task, notes: Path) -> tuple[Runner, Path]:
+    """Of a worker process: its runner, and where its trials write what they do."""
+    return Runner(options, task), notes
 
 
-def _begin(options: ExecuteOptions, task: Task, notes: Path) -> None:
-    _runners[:] = [(Runner(options, task), notes)]
-
-
-def _run_one(number: int) -> Trial:
-    runner, notes = _runners[0]
+def _run_one(begun: tuple[Runner, Path], number: int) -> Trial:
+    runner, notes = begun
     return runner.run(number, Notes(notes, number))
 
 

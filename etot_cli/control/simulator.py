@@ -21,7 +21,6 @@ from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.control.worlds import Recipe, Worlds
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
-from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.look import Look
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary_truth
@@ -77,16 +76,6 @@ def known_targets(scene: SceneState) -> list[str]:
         names += [f"{part.owner}.{part.name}" for part in info.parts]
         names += [f"{info.name}.{board}" for board in info.boards]
     return names
-
-
-@dataclass
-class _Shared:
-    """What forked workers inherit, or spawned ones are sent."""
-
-    worlds: Worlds | None = None
-
-
-_shared = _Shared()
 
 
 class ActionSimulator:
@@ -145,7 +134,7 @@ class ActionSimulator:
         if pool is None:
             return self._here(node)
         whole: Future[Simulated] = Future()
-        first = pool.submit(_perform, 0, node.snapshots[0], action, until_s, None)
+        first = pool.submit(Worlds.perform, 0, node.snapshots[0], action, until_s)
         _pass_on(
             [first], whole, partial(self._continue, pool, node, whole), partial(self._lost, node)
         )
@@ -176,7 +165,12 @@ class ActionSimulator:
         (twin,) = found
         parts = [
             pool.submit(
-                _perform, index, node.snapshots[index], node.action, node.until_s, twin.motion
+                Worlds.perform,
+                index,
+                node.snapshots[index],
+                node.action,
+                node.until_s,
+                twin.motion,
             )
             for index in self._follow(twin)
         ]
@@ -200,7 +194,7 @@ class ActionSimulator:
         if self._pool is None and self._jobs > 1:
             given = self._worlds if METHOD == "fork" else self._worlds.recipe
             try:
-                self._pool = WorkerPool(self._jobs, _begin_worker, (given,))
+                self._pool = WorkerPool(self._jobs, _worlds_of, (given,))
             except (OSError, RuntimeError, MemoryError):
                 self._jobs = 1
         return self._pool
@@ -250,15 +244,9 @@ class _Node:
     begun: float
 
 
-def _begin_worker(given: Worlds | Recipe) -> None:
-    _shared.worlds = given if isinstance(given, Worlds) else Worlds(given)
-
-
-def _perform(
-    index: int, snapshot: Snapshot, action: Action, until_s: float, rehearsed: Motion | None
-) -> Performed:
-    assert _shared.worlds is not None  # the worker began with it
-    return _shared.worlds.perform(index, snapshot, action, until_s, rehearsed)
+def _worlds_of(given: Worlds | Recipe) -> Worlds:
+    """What forked workers inherit, or spawned ones build."""
+    return given if isinstance(given, Worlds) else Worlds(given)
 
 
 def _pass_on(

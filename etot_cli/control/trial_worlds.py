@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
 
 from etot_cli.control.simulated import Course, Step
 from etot_cli.control.simulated_world import SimulatedWorld
@@ -54,7 +53,7 @@ class ActionTrials:
             given = self._worlds if METHOD == "fork" else recipe
             # Where there is no room for another process, this one works.
             with contextlib.suppress(OSError, RuntimeError, MemoryError):
-                self._pool = WorkerPool(jobs, _begin_worker, (given,))
+                self._pool = WorkerPool(jobs, _worlds_of, (given,))
 
     def rehearse(self, plan: Sequence[Action], until_s: float = NEVER) -> tuple[Step, ...] | None:
         """A plan with the motions that bring it about in the twin; None where they do not.
@@ -77,7 +76,8 @@ class ActionTrials:
                 yield self._worlds.carry_out(number, plan, until_s)
             return
         futures: list[Future[Course]] = [
-            self._pool.submit(_carry_out, number, tuple(plan), until_s) for number in numbers
+            self._pool.submit(_TrialWorlds.carry_out, number, tuple(plan), until_s)
+            for number in numbers
         ]
         for future in futures:
             try:
@@ -130,20 +130,6 @@ class _TrialWorlds:
         return Course(scene, tuple(records))
 
 
-@dataclass
-class _Shared:
-    """What forked workers inherit, or spawned ones are sent."""
-
-    worlds: _TrialWorlds | None = None
-
-
-_shared = _Shared()
-
-
-def _begin_worker(given: _TrialWorlds | Recipe) -> None:
-    _shared.worlds = given if isinstance(given, _TrialWorlds) else _TrialWorlds(given)
-
-
-def _carry_out(number: int, plan: tuple[Step, ...], until_s: float) -> Course:
-    assert _shared.worlds is not None  # the worker began with it
-    return _shared.worlds.carry_out(number, plan, until_s)
+def _worlds_of(given: _TrialWorlds | Recipe) -> _TrialWorlds:
+    """What forked workers inherit, or spawned ones build."""
+    return given if isinstance(given, _TrialWorlds) else _TrialWorlds(given)

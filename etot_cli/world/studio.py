@@ -202,19 +202,14 @@ class _Worker:
         self._renderer.close()
 
 
-_mine: list[_Worker | Exception] = []
-"""A worker process's own worker, or why it has none."""
-
-
-def _begin(studio: Studio) -> None:
+def _begin(studio: Studio) -> _Worker | Exception:
     try:
-        _mine.append(_Worker(studio))
+        return _Worker(studio)
     except Exception as error:  # reported by the first picture, with its own message
-        _mine.append(error)
+        return error
 
 
-def _take(shot: Shot) -> Image | bytes:
-    worker = _mine[0]
+def _take(worker: _Worker | Exception, shot: Shot) -> Image | bytes:
     if isinstance(worker, Exception):
         raise worker
     return worker.take(shot)

@@ -46,7 +46,7 @@ def work(
     pipe: Connection,
     inherited: list[Connection],
     parent: int,
-    begin: Callable[..., None],
+    begin: Callable[..., object],
     arguments: tuple[Any, ...],
 ) -> None:
     """Carries out the calls that come through a pipe, until it is closed.
@@ -56,7 +56,7 @@ def work(
             result or the error.
         inherited: ends of pipes that the parent holds.
         parent: its process id.
-        begin: called first.
+        begin: called first; what it returns, if anything, is every function's first argument.
         arguments: of ``begin``.
     """
     # The parent's handlers mean nothing here. Ctrl-C and a hang-up reach the whole process group;
@@ -70,7 +70,8 @@ def work(
     for other in inherited:
         other.close()
     try:
-        begin(*arguments)
+        begun = begin(*arguments)
+        own = () if begun is None else (begun,)
         # What stays as long as the worker does is not searched for garbage again and again, nor are
         # the pages that it shares with the parent copied for that.
         gc.freeze()
@@ -78,7 +79,7 @@ def work(
         while True:
             function, given = pipe.recv()
             try:
-                result = False, function(*given)
+                result = False, function(*own, *given)
             except MemoryError:
                 raise
             except Exception as error:  # delivered to whoever asks for the result

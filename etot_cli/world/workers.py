@@ -56,7 +56,8 @@ class WorkerPool:
 
     Args:
         jobs: worker processes.
-        begin: called first in every worker. With ``fork`` its arguments are inherited, with
+        begin: called first in every worker; what it returns, if anything, is the first argument
+            of all functions that run there. With ``fork`` its own arguments are inherited, with
             ``spawn`` they are pickled.
         arguments: for ``begin``.
         method: ``fork`` or ``spawn``; None for what suits the system. What does not survive a
@@ -69,7 +70,7 @@ class WorkerPool:
     def __init__(
         self,
         jobs: int,
-        begin: Callable[..., None],
+        begin: Callable[..., object],
         arguments: tuple[Any, ...] = (),
         *,
         method: str | None = None,

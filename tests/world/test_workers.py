@@ -91,6 +91,11 @@ def test_results_and_errors_come_back(pool: WorkerPool) -> None:
     assert pool.submit(add, 1, 1).result(SOON_S) == 2
 
 
+def test_what_a_worker_began_with_comes_first() -> None:
+    with closing(WorkerPool(1, add, (1, 2))) as pool:
+        assert pool.submit(add, 4).result(SOON_S) == 7
+
+
 def test_what_a_call_leaves_behind_is_gone_before_the_next(tmp_path: Path) -> None:
     mark = tmp_path / "gone"
     with closing(WorkerPool(1, nothing)) as pool:
@@ -188,7 +193,7 @@ def test_an_action_that_kills_its_workers_has_failed(monkeypatch: pytest.MonkeyP
     from tests.skills.helpers import BALL
     from tests.world.helpers import make_scene
 
-    monkeypatch.setattr(simulator, "_perform", lose_worker)
+    monkeypatch.setattr(simulator.Worlds, "perform", lose_worker)
     opened = simulator.open_simulator(make_scene(ball=BALL), seed=0, jobs=2, worlds=1, record=False)
     with closing(opened):
         state, scene = opened.start()
