@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, Robot
 from etot_cli.skills.motion.motion import (
@@ -23,8 +22,7 @@ from etot_cli.skills.motion.motion import (
     Wait,
 )
 from etot_cli.skills.motion.timing import JointLimits, time_line, time_path
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 SETTLE_AFTER_FAILURE = 1.6
 """Time for what a failed motion has set moving to come to rest, at most [s]."""

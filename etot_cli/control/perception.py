@@ -6,14 +6,12 @@ import math
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.specs.scene import Perception
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import ObjectEntry
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-
-Vector = NDArray[np.float64]
 
 OVERLAP = 0.0005
 """Things that seem to stand this deep in each other merely touch [m]: contacts give way by less."""

@@ -9,12 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from etot_cli.skills.motion.motion import PhaseEnd, Press
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 
 @dataclass(frozen=True)

@@ -7,18 +7,16 @@ from collections import deque
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.errors import WorldError
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.motion import PhaseEnd, Press
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.recorder import Recorder
 from etot_cli.world.relations import touched_by_robot
-
-Vector = NDArray[np.float64]
 
 OBSERVE_EVERY = 4
 """Control periods between observations of the recorder."""

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, Robot, RobotState
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits, time_line, time_path
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 
 class FromNow:

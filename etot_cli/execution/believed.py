@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.controller import run_motion
 from etot_cli.control.physics_world import PhysicsWorld
@@ -20,13 +19,12 @@ from etot_cli.execution.observation import Mark, Observation
 from etot_cli.skills.belief import Belief, build_twin
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.scene import Scene
+from etot_cli.world.arrays import Vector
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
 from etot_cli.world.robot_index import ROBOT_PREFIX
 from etot_cli.world.snapshot import Memory, Snapshot, copy_configuration, save
 from etot_cli.world.state import SceneState
-
-Vector = NDArray[np.float64]
 
 AWAY = (3.0, 3.0)
 """Where what is not there any more waits in the twin, x y [m]: on the floor beyond every desk."""

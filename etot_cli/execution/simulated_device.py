@@ -6,7 +6,6 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
@@ -14,8 +13,7 @@ from etot_cli.errors import ServiceError
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.skills.motion.motion import PhaseEnd
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 
 class SimulatedDevice:

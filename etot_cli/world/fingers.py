@@ -12,12 +12,10 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
+from etot_cli.world.arrays import Vector
 from etot_cli.world.robot import RobotSpec
-
-Vector = NDArray[np.float64]
 
 SAMPLES = 9
 """Openings that are measured; between them joints are interpolated, which for the four-bar linkages

@@ -16,9 +16,9 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.world.arrays import Vector
 from etot_cli.world.state import DESK, SceneState
 
-Vector = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 BESIDE = 0.30

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.errors import RobotStoppedError, SpecError
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.world.arrays import Vector
 from etot_cli.world.robot import RobotSpec
-
-Vector = NDArray[np.float64]
 
 ROUNDING = 1e-6
 """Targets that miss a limit by no more do so by arithmetic [rad]."""

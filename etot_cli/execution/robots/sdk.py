@@ -17,11 +17,9 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.errors import RobotStoppedError, ServiceError
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 CONTROL_PORT = 502
 """On which the maker's controller takes commands (Modbus TCP)."""

@@ -32,8 +32,7 @@ from etot_cli.execution.robots.worker_process import WorkerProcess
 from etot_cli.reconstruction.capture.pictures import decode_png
 from etot_cli.skills.motion.motion import PhaseEnd
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 STARTS_WITHIN = 60.0
 """Time for a worker to load what it needs and say hello [s]; simulators take their time."""

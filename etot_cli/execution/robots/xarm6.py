@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.errors import RobotStoppedError, ServiceError
@@ -23,9 +22,8 @@ from etot_cli.execution.robots.envelope import Envelope
 from etot_cli.execution.robots.sdk import Sdk
 from etot_cli.skills.motion.motion import PhaseEnd
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.world.arrays import Vector
 from etot_cli.world.robot import RobotSpec
-
-Vector = NDArray[np.float64]
 
 LOOK_EVERY = 2
 """Targets between readings of the joints, as in the twin."""

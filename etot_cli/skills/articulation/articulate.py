@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.part_path import (
@@ -22,10 +21,9 @@ from etot_cli.skills.articulation.search import PartSearch, belief_after
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Part
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind, SceneState, owner_of
-
-Vector = NDArray[np.float64]
 
 ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
 """Shares of its travel from which on a part is left as it is."""

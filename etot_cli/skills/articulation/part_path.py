@@ -8,15 +8,13 @@ from typing import Protocol
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Passage
 from etot_cli.skills.motion.kinematics import JUMP, Pose, straight
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Part
 from etot_cli.world.snapshot import copy_configuration
-
-Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
 """Length of the straight way to the part and back [m], a hand's breadth."""

@@ -7,14 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
 from etot_cli.skills.motion.kinematics import UP, Pose, cross, rotation_from_axes
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Face, Part
 from etot_cli.world.robot_index import RobotIndex
-
-Vector = NDArray[np.float64]
 
 FACE_GAP, WIDEST_GAP = 0.004, 0.02
 """Distance from the face before the push [m], and the most at which the hand comes there. In

@@ -6,17 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.candidates import Grasp
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
+from etot_cli.world.arrays import Vector
 from etot_cli.world.relations import to_region
 from etot_cli.world.state import owner_of
-
-Vector = NDArray[np.float64]
 
 STANDOFF = 0.09
 """Length of the straight approach [m]."""

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.action import GraspPose
 from etot_cli.skills.grasps.leaning import Slanted, across_walls
@@ -27,10 +26,9 @@ from etot_cli.skills.grasps.lines import (
 )
 from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-
-Vector = NDArray[np.float64]
 
 FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""

@@ -11,11 +11,9 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.grasps.solids import Interval, Solids
-
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 LOWER = 0.006
 """How far below a wall is looked at again [m]: more than its surface is uneven, less than it is

@@ -7,11 +7,10 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 
-Vector = NDArray[np.float64]
 Bounds = tuple[Vector, Vector, Vector, Vector | None]
 """An object's lowest and highest corner, its centre of mass, and the axis of a rod, (3,) each."""
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 
-Vector = NDArray[np.float64]
 Cells = NDArray[np.int64]
 
 _SIDES = 24

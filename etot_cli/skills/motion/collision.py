@@ -8,15 +8,13 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.frozen import MAX_KNOWN, FrozenScene
 from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.state import owner_of
-
-Vector = NDArray[np.float64]
 
 CLEARANCE = 0.008
 """Distance that transits keep from everything [m]."""

@@ -6,14 +6,12 @@ import copy
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import copy_configuration
-
-Vector = NDArray[np.float64]
 
 MAX_KNOWN = 8192
 """Answers that are kept: a few megabytes, and more than the longest search for a hold asks for."""

@@ -12,12 +12,10 @@ from dataclasses import dataclass
 import mink
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.deadline import Deadline
+from etot_cli.world.arrays import Vector
 from etot_cli.world.robot import RobotSpec
-
-Vector = NDArray[np.float64]
 
 POSITION_TOLERANCE = 8e-4
 """Accepted position error of a solution [m]."""

@@ -14,12 +14,10 @@ from enum import StrEnum
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.arrays import Vector
 from etot_cli.world.state import owner_of
-
-Vector = NDArray[np.float64]
 
 
 class PhaseEnd(StrEnum):

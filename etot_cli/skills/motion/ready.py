@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.motion.collision import CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import place_objects
-
-Vector = NDArray[np.float64]
 
 RISES = tuple(0.04 * step for step in range(1, 8))
 """Heights above the home pose at which the hand may wait [m], the lowest that is free first."""

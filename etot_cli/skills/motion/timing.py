@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
+from etot_cli.world.arrays import Vector
 
 CONTROL_PERIOD = 0.01
 """Time between two joint targets [s]."""

@@ -10,12 +10,11 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.world.arrays import Vector
 
-Vector = NDArray[np.float64]
 Free = Callable[[Vector], bool]
 
 EDGE_STEP = 0.08

@@ -29,8 +29,8 @@ from etot_cli.skills.placements.relief import (
 )
 from etot_cli.skills.placements.support import Support
 from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Undersides
+from etot_cli.world.arrays import Vector
 
-Vector = NDArray[np.float64]
 Cells = NDArray[np.int64]
 Preference = Callable[[Vector], Vector]
 """Extra cost (m,) [m] of places (m, 2) in the base frame; infinite where none may be."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
@@ -15,9 +14,8 @@ from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, W
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import placements_into, placements_on
+from etot_cli.world.arrays import Vector
 from etot_cli.world.state import DESK, CauseKind, SceneState, owner_of
-
-Vector = NDArray[np.float64]
 
 LOWER_SPEED = 0.12
 BACK_SPEED = 1.5 * LOWER_SPEED

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import UP, turn_about
 from etot_cli.skills.placements.support import Support
+from etot_cli.world.arrays import Vector
 from etot_cli.world.relations import standing_axis
-
-Vector = NDArray[np.float64]
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""

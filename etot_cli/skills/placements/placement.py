@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.kinematics import UP, Pose, straight
@@ -14,9 +13,8 @@ from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.placements.judging import Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
+from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
-
-Vector = NDArray[np.float64]
 
 HOVER = 0.06
 """Height above a surface from which an object is lowered straight [m]."""

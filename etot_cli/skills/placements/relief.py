@@ -20,9 +20,9 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.support import Support
+from etot_cli.world.arrays import Vector
 from etot_cli.world.snapshot import copy_configuration
 
-Vector = NDArray[np.float64]
 Cells = NDArray[np.int64]
 
 FINEST, COARSEST = 0.0015, 0.005

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Region
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.state import DESK, owner_of
-
-Vector = NDArray[np.float64]
 
 DESK_EDGE = 0.05
 """Distance kept from the desk's edges [m]: what is nudged there must not fall."""

@@ -6,15 +6,13 @@ from functools import cached_property
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.relief import Shape, Stamp, shapes_of, stamp
+from etot_cli.world.arrays import Vector
 from etot_cli.world.snapshot import copy_configuration
-
-Vector = NDArray[np.float64]
 
 SNUG_RELEASE = 0.006
 """The fingers open by this much at least to let go in a place that counts as good [m]: 3 mm a side
