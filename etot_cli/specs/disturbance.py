@@ -63,11 +63,15 @@ class Disturbance(Spec):
     add: Name | None = None
     """A new ``object`` of this name comes onto the scene."""
     inside: Address | None = None
+    """A container."""
     on: Address | None = None
+    """A surface."""
     at: tuple[Coordinate, Coordinate] | None = None
+    """x y on the desk."""
     by: tuple[Coordinate, Coordinate] | None = None
     """How far along x and y from where it is [m]."""
     to: Portion | None = None
+    """Of its travel, 0 closed, 1 open."""
     object: SceneObject | None = None
     """With ``add``: what it is and where it is put, as in a scene."""
 

@@ -31,23 +31,29 @@ from etot_cli.specs.quantity import (
 class ObjectBase(Spec):
     """What every object has, whatever its kind.
 
-    The pose: ``at`` gives the centre's x y (z follows from the support) or x y z; ``on`` names the
-    object it stands on (the desk by default), ``inside`` the container (``drawer`` or
-    ``drawer.top``). Without ``at``, ``on`` / ``inside`` means the centre of that support.
+    One of ``at``, ``on`` and ``inside`` is required. Without ``at``, an object is in the middle of
+    what it is on or inside of.
     """
 
     at: Position | None = None
+    """Its centre: x y, where z follows from the support, or x y z."""
     on: str | None = None
+    """An object with a flat top, a vessel (in its mouth), or ``shelf.board``; default: the desk."""
     inside: str | None = None
+    """A vessel, a cabinet, ``unit.drawer``, or the unit where one drawer moves."""
     yaw_deg: Degrees = 0.0
     quaternion: Quaternion | None = None
     """Full orientation w x y z instead of ``yaw_deg``."""
     mass: Mass | None = None
+    """Default: what follows from the material [kg]."""
     friction: Friction = 0.6
+    """Coefficient; between two objects the larger one counts."""
     slippery: bool = False
     """Its friction holds as it is against everything, the gripper pads too."""
     rolling_friction: RollingFriction | None = None
+    """Coefficient [m], of round things."""
     color: Color | None = None
+    """A name, ``'#rrggbb'`` or ``[red, green, blue]`` from 0 to 1."""
     label: str | None = Field(default=None, max_length=60)
     """What people call it ("coffee mug"), for the instruction; default: the name's words."""
     fixed: bool | None = None
@@ -96,15 +102,13 @@ class Capsule(ObjectBase):
 
 
 class Pen(ObjectBase):
-    """A pointed rod (pen, pencil, marker, stick): it lies along x turned by ``yaw_deg``.
-
-    The point is at +x of its own frame; ``tip_length`` is the length of the cone.
-    """
+    """A pointed rod (pen, pencil, marker, stick): it lies along x turned by ``yaw_deg``."""
 
     kind: Literal["pen"]
     diameter: SmallLength
     length: SmallLength
     tip_length: SmallLength = 0.02
+    """Of the cone, whose point is at +x of its own frame."""
 
 
 class Cup(ObjectBase):
@@ -130,12 +134,14 @@ class Handle(Spec):
 
 
 class Drawer(Spec):
-    """One drawer of a unit; listed from top to bottom. ``travel`` 0 is a fixed front."""
+    """One drawer of a unit; listed from top to bottom."""
 
     name: Name
+    """The drawer is called ``unit.name``."""
     height: SmallLength | None = None
     """Height of its compartment; default: an equal share of what the unit has left."""
     travel: Travel = 0.14
+    """Full opening; 0 is a fixed front."""
     open: Travel = 0.0
     """Initial opening in metres."""
     friction_loss: Newtons = 1.0
@@ -182,12 +188,16 @@ class DrawerUnit(ObjectBase):
 
 
 class Door(Spec):
-    """A hinged door in the cabinet's front (+x); ``hinge`` as seen when facing the front."""
+    """A hinged door in the cabinet's front (+x)."""
 
     name: Name = "door"
+    """The door is called ``cabinet.name``."""
     hinge: Literal["left", "right"] = "left"
+    """As seen when facing the front."""
     range_deg: RangeDegrees = 110.0
+    """Full opening."""
     open_deg: OpeningDegrees = 0.0
+    """Opening at the start."""
     thickness: SmallLength = 0.02
     friction_loss: NewtonMetres = 0.2
     """Hinge friction in N m."""
@@ -213,11 +223,12 @@ class Cabinet(ObjectBase):
 
 
 class Shelf(ObjectBase):
-    """Open boards between two side walls; boards are named surfaces from bottom to top."""
+    """Open boards between two side walls."""
 
     kind: Literal["shelf"]
     size: tuple[Length, Length, Length]
     boards: Annotated[tuple[Name, ...], Field(min_length=1, max_length=6)] = ("bottom", "top")
+    """From bottom to top; a board is called ``shelf.name``."""
     wall: SmallLength = 0.008
 
     @model_validator(mode="after")
@@ -244,7 +255,9 @@ class Mesh(ObjectBase):
 
     kind: Literal["mesh"]
     file: str
+    """OBJ, STL or GLB."""
     scale: Scale = 1.0
+    """Metres per unit of the file, 0.001 for millimetres."""
     hollow: bool = False
     """Open at the top, so things can be put into it."""
 
@@ -253,6 +266,7 @@ class MjcfPart(Spec):
     """A movable part of an object given as MJCF."""
 
     joint: str
+    """The joint's name in the model."""
     container_site: str | None = None
     """Box site spanning the free space inside the part."""
     front_site: str | None = None
@@ -268,9 +282,12 @@ class Mjcf(ObjectBase):
 
     kind: Literal["mjcf"]
     file: str
+    """``.xml`` or ``.mjcf``."""
     parts: dict[Name, MjcfPart] = Field(default_factory=dict)
     container_site: str | None = None
+    """Box or cylinder site: the hollow of a vessel without parts."""
     surface_site: str | None = None
+    """Box site on whose upper face things can stand."""
 
 
 SceneObject = Annotated[

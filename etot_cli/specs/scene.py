@@ -61,28 +61,33 @@ ROBOT_VIEWPOINT = "robot"
 
 
 class Desk(Spec):
-    """The table top: ``center`` x y, ``size`` along x and y, ``top`` the height of its surface."""
+    """The table top."""
 
     size: tuple[Length, Length] = (0.8, 1.2)
+    """Extents along x and y."""
     center: tuple[Coordinate, Coordinate] = (0.42, 0.0)
+    """x y of its centre."""
     top: Height = 0.13
+    """Height of its surface."""
     friction: Friction = 0.6
     color: Color = "wheat"
 
 
 class Camera(Spec):
-    """A pinhole camera: ``position`` and the point it looks at, or ``quaternion`` (OpenCV optical
-    frame: x right, y down, z forward) instead of ``look_at``.
-    """
+    """A pinhole camera."""
 
     position: Point
     look_at: Point | None = None
+    """The point that it looks at; this or ``quaternion``."""
     quaternion: Quaternion | None = None
+    """OpenCV optical frame: x right, y down, z forward."""
     width: PixelCount = 1280
     height: PixelCount = 720
     fx: FocalLength = 608.0
+    """Focal lengths [px]."""
     fy: FocalLength = 608.0
     cx: Pixel = 642.0
+    """Principal point [px], inside the picture."""
     cy: Pixel = 363.6
 
     @model_validator(mode="after")
@@ -98,7 +103,9 @@ class Variation(Spec):
     """How far ``--vary`` moves things: uniform in ± these bounds."""
 
     position_m: Spread = 0.010
+    """Along x and along y."""
     yaw_deg: OpeningDegrees = 10.0
+    """About z."""
     friction: Share = 0.20
     """Relative."""
     mass: Share = 0.20
@@ -136,24 +143,30 @@ class Perception(Spec):
     """How far what a robot sees is off: uniform in ± these bounds."""
 
     position_m: Spread = 0.005
+    """Along x and along y."""
     yaw_deg: OpeningDegrees = 3.0
+    """About z."""
     size: Share = 0.02
     """Relative: how far true sizes are from the believed ones."""
 
 
 class Scene(Spec):
-    """A whole scene. ``robot`` names a built-in robot or a robot YAML file beside the scene."""
+    """A whole scene."""
 
     name: Title = "scene"
     description: Annotated[str, Field(max_length=2000)] = ""
+    """For people."""
     desk: Desk = Desk()
     robot: str = "xarm6"
+    """A built-in robot, or a robot's YAML file (its name contains ``/`` or ends in ``.yaml``)."""
     cameras: dict[Name, Camera] = Field(default_factory=dict)
     objects: Annotated[dict[Name, SceneObject], Field(max_length=MAX_OBJECTS)] = Field(
         default_factory=dict
     )
     variation: Variation = Variation()
+    """How far ``--vary`` and ``execute`` move things."""
     perception: Perception = Perception()
+    """How far what a robot sees is off."""
     viewpoint: Name = ROBOT_VIEWPOINT
     """Whose left, right, front and back are meant: the robot's, or those of one of ``cameras``."""
     actuation: Actuation = Actuation()

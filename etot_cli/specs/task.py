@@ -32,32 +32,49 @@ BESIDE_KEYS = (
 class Condition(Spec):
     """One statement about the world; exactly one key is given.
 
-    ``on: [a, b]`` a rests on b (the desk is ``desk``); ``inside: [a, b]``; ``in_hand: a``;
-    ``open: part`` at least 65 % of its travel; ``closed: part``; ``upright: a``; ``present: a``
-    still on the desk or on something; ``left_of: [a, b]`` and the like: a stands so with respect
-    to b, seen from the scene's viewpoint; ``between: [a, b, c]``; ``at: [a, region or [x, y]]``;
-    ``any`` / ``all``: lists of conditions; ``not``: one condition.
+    Objects go by their names, parts by ``object.part``, or by the object's name where it has a
+    single one. Sides are those of the scene's viewpoint.
     """
 
     on: Pair | None = None
+    """``a`` rests on ``b``, which may be ``desk``."""
     inside: Pair | None = None
+    """``a`` lies in the container ``b``: a vessel, a cabinet, a drawer."""
     in_hand: Reference | None = None
+    """The gripper holds it."""
     open: Reference | None = None
+    """The part is open by at least 65 % of its travel."""
     closed: Reference | None = None
+    """The part is closed."""
     upright: Reference | None = None
+    """It stands: it has not toppled, and does not lie on its side from the start, if it is taller
+    than wide, a cup or a bowl."""
     present: Reference | None = None
+    """It is still on the desk or on something."""
     left_of: Pair | None = None
+    """``a`` stands on that side of ``b``."""
     right_of: Pair | None = None
+    """As ``left_of``."""
     in_front_of: Pair | None = None
+    """As ``left_of``."""
     behind: Pair | None = None
+    """As ``left_of``."""
     next_to: Pair | None = None
+    """At most 10 cm are free between the two."""
     near: Pair | None = None
+    """At most 20 cm are free between the two."""
     away_from: Pair | None = None
+    """At least 20 cm are free between the two."""
     between: tuple[Reference, Reference, Reference] | None = None
+    """The first stands between the other two."""
     at: tuple[Reference, Region | tuple[Coordinate, Coordinate]] | None = None
+    """It stands there on what it rests on; x y within 3 cm, in the base frame."""
     any: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
+    """At least one of them holds."""
     all: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
+    """All of them hold."""
     not_: Condition | None = Field(default=None, alias="not")
+    """It does not hold."""
 
     @model_validator(mode="after")
     def _exactly_one(self) -> Condition:
@@ -76,10 +93,15 @@ class Task(Spec):
     """
 
     name: Title
+    """Letters, digits, ``_``, ``.`` and ``-``, at most 64."""
     instruction: Annotated[str, Field(min_length=1, max_length=2000)]
+    """What to do, in a sentence; this is what the planner gets."""
     scene: Scene
+    """A scene file, relative to the task's, or a scene written out."""
     success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
+    """What must hold at the end; the evaluator alone sees it."""
     goal: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
+    """Replaces the instruction, for those who want to be formal."""
     disturbance: (
         Annotated[
             Annotated[Disturbance, Tag("one")]

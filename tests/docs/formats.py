@@ -23,13 +23,13 @@ HEAD = """# Keys of task and scene files
 
 Generated from the models that check the files; `make docs` writes it anew. Lengths in metres,
 masses in kilograms, angles in degrees, the base frame (x forward, y left, z up), quaternions
-w x y z. What the keys are for is told in [task_format.md](task_format.md),
+w x y z. How they go together is told in [task_format.md](task_format.md),
 [scene_format.md](scene_format.md) and [objects.md](objects.md). `include: FILE` beside any of a
-scene's keys takes the rest from another file.
+scene's keys takes the rest from another file; a task may have the scene's `variation`, too.
 """
 SECTIONS: tuple[tuple[str, tuple[type[BaseModel], ...]], ...] = (
     ("Task file", (tasks.Task, tasks.Condition, tasks.Disturbance)),
-    ("Scene", (scenes.Scene, scenes.Desk, scenes.Camera, scenes.Variation)),
+    ("Scene", (scenes.Scene, scenes.Desk, scenes.Camera, scenes.Variation, scenes.Perception)),
     ("Every object", (scenes.ObjectBase,)),
     (
         "Kinds of objects",
@@ -38,7 +38,7 @@ SECTIONS: tuple[tuple[str, tuple[type[BaseModel], ...]], ...] = (
          scenes.Shelf, scenes.Mesh, scenes.Mjcf, scenes.MjcfPart),
     ),
 )  # fmt: skip
-SET_BY_LOADER = {"actuation", "directory", "file"}
+SET_BY_LOADER = {"actuation", "directory", "file", "inputs"}
 """Keys of models that no file may give, but for the file of a mesh or MJCF object."""
 
 
@@ -67,6 +67,10 @@ def _section(model: type[BaseModel]) -> str:
         key = field.alias or name
         value = schema["properties"][key]
         default = "required" if key in required else _default(value.get("default"))
+        if name == "name" and model in (tasks.Task, scenes.Scene):
+            default = "the file's name"
+        if "$ref" in value and "](#" in _value(value, schema):
+            default = ""  # told where the link leads
         cells = (f"`{key}`", _value(value, schema), default, _plain(told.get(name, "")))
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
@@ -125,7 +129,8 @@ def _value(schema: dict[str, Any], root: dict[str, Any]) -> str:
             return f"{len(items)} × {items[0]}" if len(set(items)) == 1 else ", ".join(items)
         return f"list of {_value(schema.get('items', {}), root)}"
     if kind == "object":
-        inner = schema.get("additionalProperties")
+        named = [*schema.get("patternProperties", {}).values(), schema.get("additionalProperties")]
+        inner = named[0]
         return f"name: {_value(inner, root)}" if isinstance(inner, dict) else "mapping"
     words = {
         "number": "number",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli.specs.shape import allowed_keys
 from tests.docs.formats import SECTIONS, formats_text
 
 ROOT = Path(__file__).parents[2]
@@ -23,6 +24,8 @@ def test_every_key_of_every_model_is_told() -> None:
     for _, models in SECTIONS:
         for model in models:
             assert f"### {model.__name__}\n" in text
+            keys = {*allowed_keys(model)} - {"include"}  # told in the head
+            assert all(f"| `{key}` | " in text for key in keys), model
     assert "| `diameter` | number over 0" in text
     assert "directory" not in text
 

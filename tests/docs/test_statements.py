@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 from pydantic import AliasChoices, BaseModel
 
+from etot_cli.errors import SpecError
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.plan_summary import plan_summary
 from etot_cli.reporting.printer import Printer
 from etot_cli.reporting.style import Verbosity, make_console
+from etot_cli.specs.load import load_scene
 from etot_cli.world.robot import DriverSpec, GripperSpec, RobotSpec
 from etot_cli.world.state import CauseKind
 from tests.shared import planned
@@ -72,6 +74,17 @@ def test_variables_of_the_environment() -> None:
     for file in (ROOT / "etot_cli").rglob("*.py"):
         for name in re.findall(r'"(ETOT_[A-Z_]*[A-Z])"', file.read_text("utf-8")):
             assert name in text, f"{file.name} reads {name}, which no page tells of"
+
+
+def test_the_message_about_a_scene_is_that_of_today(tmp_path: Path) -> None:
+    page = (DOCS / "scene_format.md").read_text("utf-8")
+    scene, told = re.findall(r"```(?:yaml|text)\n(.*?)```", page, re.DOTALL)[:2]
+    file = tmp_path / "scenes" / "breakfast.yaml"
+    file.parent.mkdir()
+    file.write_text(scene.replace("diameter: 0.075", "diameter: 75"), encoding="utf-8")
+    with pytest.raises(SpecError) as caught:
+        load_scene(file)
+    assert str(caught.value).endswith(told.strip())
 
 
 def test_files_and_classes_that_are_named_are_there() -> None:

@@ -5,31 +5,43 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.lexicon import KIND_GROUPS
 from etot_cli.reasoning.language.words.patterns import spellings
 
 PAGE = Path(__file__).parents[2] / "docs" / "instructions.md"
-BEGIN = (
-    "<!-- written by tests/reasoning/test_documented_words.py from the grammar's tables -->\n"
-    "| relation | said as |\n|---|---|\n"
-)
-END = "<!-- end -->"
+TABLE = re.compile(r"(<!-- (relations|nouns): [^\n]*-->\n).*?(<!-- end -->)", re.DOTALL)
 
 
-def table() -> str:
+def tables() -> dict[str, str]:
+    """The page's tables by what they are of."""
     rows = [(str(relation), text) for relation, text in places.NEARBY.items()]
     rows += [(", ".join(map(str, regions)), text) for regions, text in places.REGIONS.items()]
-    return "".join(f"| `{name}` | {', '.join(spellings(text)[:6])} |\n" for name, text in rows)
+    said = [f"| `{name}` | {', '.join(spellings(text)[:6])} |\n" for name, text in rows]
+    nouns = [
+        f"| `{kind}` | {'; '.join(', '.join(group) for group in groups)} |\n"
+        for kind, groups in KIND_GROUPS.items()
+    ]
+    return {
+        "relations": "".join(["| relation | said as |\n|---|---|\n", *said]),
+        "nouns": "".join(["| kind | nouns |\n|---|---|\n", *nouns]),
+    }
+
+
+def written(page: str) -> str:
+    """The page with the words of the grammar."""
+    found = tables()
+    return TABLE.sub(lambda match: f"{match[1]}{found[match[2]]}{match[3]}", page)
 
 
 def test_the_page_has_the_words_of_the_grammar() -> None:
     page = PAGE.read_text(encoding="utf-8")
-    assert f"{BEGIN}{table()}{END}" in page, "run python -m tests.reasoning.test_documented_words"
+    assert len(TABLE.findall(page)) == len(tables())
+    assert page == written(page), "run python -m tests.reasoning.test_documented_words"
 
 
 if __name__ == "__main__":
-    text = PAGE.read_text(encoding="utf-8")
-    head, _, rest = text.partition(BEGIN)
-    PAGE.write_text(f"{head}{BEGIN}{table()}{END}{rest.partition(END)[2]}", encoding="utf-8")
+    PAGE.write_text(written(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
