@@ -11,6 +11,7 @@ from pydantic import AliasChoices, BaseModel
 
 from etot_cli.errors import SpecError
 from etot_cli.reasoning.vlm.settings import VlmSettings
+from etot_cli.reporting.execute_report import TrialModel
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.plan_summary import plan_summary
 from etot_cli.reporting.printer import Printer
@@ -18,6 +19,7 @@ from etot_cli.reporting.style import Verbosity, make_console
 from etot_cli.specs.load import load_scene
 from etot_cli.world.robot import DriverSpec, GripperSpec, RobotSpec
 from etot_cli.world.state import CauseKind
+from tests.docs.schemas import REPORTS
 from tests.shared import planned
 
 ROOT = Path(__file__).parents[2]
@@ -105,11 +107,24 @@ def test_files_and_classes_that_are_named_are_there() -> None:
         assert re.search(rf"^class {name}\b", sources, re.MULTILINE), f"there is no {name}"
 
 
-def test_every_kind_of_cause_and_field_of_a_plan_is_told() -> None:
+def test_messages_that_are_explained_are_said() -> None:
+    sources = "".join(path.read_text("utf-8") for path in (ROOT / "etot_cli").rglob("*.py"))
+    for page in ("troubleshooting.md", "robots.md"):
+        for line in (DOCS / page).read_text("utf-8").splitlines():
+            for told in re.findall(r"`([^`]* [^`]*)`", line.split("|")[1] if "|" in line else ""):
+                for part in told.split("…"):
+                    assert part.strip() in sources, f"{page}: {part}"
+
+
+def test_every_kind_of_cause_and_every_field_of_a_report_is_told() -> None:
     text = (DOCS / "reports.md").read_text("utf-8")
-    fields = {field.alias or name for name, field in PlanReport.model_fields.items()}
-    for name in {*fields, *(kind.value for kind in CauseKind)}:
-        assert f"`{name}`" in text or f"`{name}." in text, name
+    for kind in CauseKind:
+        assert f"`{kind.value}`" in text, kind
+    text += (DOCS / "execute.md").read_text("utf-8")
+    for model in (*REPORTS.values(), TrialModel):
+        for name, field in model.model_fields.items():
+            told = re.escape(field.alias or name)
+            assert re.search(rf"`{told}[`.]", text), f"{model.__name__} has {told}"
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
