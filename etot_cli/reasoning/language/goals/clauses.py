@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step
+from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
@@ -26,6 +26,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
 
 
 def steps_of(clause: Clause, context: Context) -> list[Step]:
@@ -47,7 +49,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             remove(context, clause)
         case MoveClause():
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
-                context.steps.append(Open(index) if clause.opens else Close(index))
+                context.steps.append(
+                    Open(index) if clause.opens else Close(_all_of(context, index))
+                )
         case EnsureClause(waits=True, states=states):
             text = f"until {states[0].subjects[0].text} …"
             why = "conditions and waiting are not supported; say what is to be done"
@@ -69,6 +73,31 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             reorient(context, clause)
     context.done = tuple(context.steps) or context.done
     return context.steps
+
+
+def _all_of(context: Context, index: int) -> int:
+    """Who closes a chest closes all its drawers; "the drawer" of a chest is one that is open."""
+    discourse = context.discourse
+    noun = next(item.noun for item in reversed(discourse.mentions) if item.referent == index)
+    parts = [
+        [
+            Thing(thing.name, part.name)
+            for part in context.scene.infos[thing.name].parts
+            if thing.part is None
+        ]
+        for thing in discourse.things(index)
+    ]
+    joints = {
+        part.joint_type
+        for thing in discourse.things(index)
+        for part in context.scene.infos[thing.name].parts
+    }
+    if min(map(len, parts)) < 2 or any(
+        matches_any(noun, JOINT_NOUNS.get(joint, ())) for joint in joints
+    ):
+        return index
+    every = Resolved(tuple(map(tuple, parts)), definite=True, other=False, noun=noun)
+    return discourse.add(every, discourse.referents[index].text, Role.PART)
 
 
 def _one_of_any(things: Things) -> Things:

@@ -8,7 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, EXACTLY, OF, OR, alternatives
 from etot_cli.reasoning.language.grammar.coordination import coordinated
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     silent,
+    spanned,
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
@@ -57,43 +58,33 @@ _REGION_OF_IT = one_of(
         (Nearby.AT_EDGE,): "edge, border, rim",
     }
 )
-BESIDE = either(
-    sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
-    sequence(
-        _ITS_SIDE,
-        build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
-    ),
-    sequence(
-        silent(phrase("on, to, at")),
-        noun_phrase,
-        silent(phrase("'s")),
-        _SIDE_OF_IT,
-        build=lambda np, relation: _beside(relation, np),
-    ),
-    sequence(
-        silent(phrase("on, to, at, near, by")),
-        noun_phrase,
-        silent(phrase("'s")),
-        _REGION_OF_IT,
-        build=lambda np, regions: _region(regions, np),
-    ),
-    sequence(
-        silent(phrase("[in] between")),
-        noun_phrase,
-        silent(phrase("and")),
-        noun_phrase,
-        build=lambda one, two: (
-            None if (pair := coordinated(one, (two,))) is None else (Beside(Nearby.BETWEEN, pair),)
+BESIDE = spanned(
+    either(
+        sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
+        sequence(
+            _ITS_SIDE,
+            build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
+        ),
+        sequence(
+            silent(phrase("on, to, at")),
+            noun_phrase,
+            silent(phrase("'s")),
+            _SIDE_OF_IT,
+            build=lambda np, relation: _beside(relation, np),
+        ),
+        sequence(
+            silent(phrase("on, to, at, near, by")),
+            noun_phrase,
+            silent(phrase("'s")),
+            _REGION_OF_IT,
+            build=lambda np, regions: _region(regions, np),
+        ),
+        valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
+        sequence(
+            _REGION, optional(sequence(OF, noun_phrase, build=lambda np: np), None), build=_region
         ),
     ),
-    sequence(
-        silent(phrase("[in] between")),
-        noun_phrase,
-        build=lambda np: (Beside(Nearby.BETWEEN, (np,)),),
-    ),
-    sequence(
-        _REGION, optional(sequence(OF, noun_phrase, build=lambda np: np), None), build=_region
-    ),
+    lambda text, found: tuple(replace(item, text=text) for item in found),
 )
 BESIDES = valued(
     separated(BESIDE, silent(either(COMMA, phrase("and, but"))), most=3),

@@ -48,23 +48,18 @@ SIDE = phrase(places.SIDE)
 def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
     """A relation to a thing; "at the top" names a side and no thing."""
     side = np.words and all(text in SIDES or text in LEVELS for text in np.words)
-    return None if prep is Prep.NEAR and side else Modifier(prep, (np,))
+    return None if prep is Prep.NEXT_TO and side else Modifier(prep, (np,))
 
 
+BETWEEN = sequence(
+    silent(phrase("[in] between")),
+    noun_phrase,
+    optional(sequence(silent(phrase("and")), noun_phrase, build=lambda np: np), None),
+    build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
+)
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
-    sequence(
-        silent(phrase("[in] between")),
-        noun_phrase,
-        silent(phrase("and")),
-        noun_phrase,
-        build=lambda one, two: (
-            None if (pair := coordinated(one, (two,))) is None else Modifier(Prep.BETWEEN, pair)
-        ),
-    ),
-    sequence(
-        silent(phrase("[in] between")), noun_phrase, build=lambda np: Modifier(Prep.BETWEEN, (np,))
-    ),
+    valued(BETWEEN, lambda pair: Modifier(Prep.BETWEEN, pair)),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
     sequence(
         word(lambda given, text: text in ORDINALS),

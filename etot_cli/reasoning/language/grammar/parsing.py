@@ -221,7 +221,12 @@ def variants(parser: Parser, build: Callable[[Any], Sequence[Any]]) -> Parser:
 def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     """With a value that knows the words that it covers."""
     return lambda given, at: [
-        (end, build(" ".join(given.words[at:end]).replace(" ~comma", ","), value))
+        (
+            end,
+            build(
+                " ".join(given.words[at:end]).replace(" ~comma", ",").replace(" 's", "'s"), value
+            ),
+        )
         for end, value in parser(given, at)
     ]
 

@@ -77,6 +77,7 @@ class Beside:
 
     relation: Nearby
     phrases: tuple[NounPhrase, ...] = ()
+    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)

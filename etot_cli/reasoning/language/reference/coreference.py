@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.antecedents import (
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun, singular
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
@@ -44,8 +45,8 @@ class Discourse:
     """What words were taken for, where that was a choice."""
     put: frozenset[int] = frozenset()
     """Referents that have been given a place."""
-    last_landmark: tuple[int, int] = (-1, -1)
-    """Number of a clause and the referent that something is put beside there."""
+    last_landmark: tuple[int, int, Nearby] = (-1, -1, Nearby.NEAR)
+    """Number of a clause, the referent that something is put beside there, and how it is to be."""
     stacks: dict[int, int] = field(default_factory=dict)
     """Number of the clause that built a stack → the referent at its bottom."""
     undecided: frozenset[int] = frozenset()

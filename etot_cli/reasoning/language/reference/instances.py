@@ -56,13 +56,14 @@ def called_exactly(
     words: tuple[str, ...],
     quantity: Quantity,
     scene: SceneState,
+    notes: list[str],
 ) -> list[Thing]:
-    """Of several things that "the cup" may mean the one that is called just that.
+    """Of several things that "the cup" may mean the one that is called just that. ``notes`` grows.
 
     Raises:
         AmbiguousReference: a word of its name is true of another one.
     """
-    _check_named(match, things, phrase, scene)
+    _check_named(match, things, phrase, scene, notes)
     many = quantity.every or (quantity.count or (2 if match.plural else 1)) > 1
     if not quantity.definite or many or len(things) < 2:
         return things
@@ -72,11 +73,14 @@ def called_exactly(
     return exact if len(exact) == 1 else things
 
 
-def _check_named(match: Match, things: list[Thing], phrase: NounPhrase, scene: SceneState) -> None:
+def _check_named(
+    match: Match, things: list[Thing], phrase: NounPhrase, scene: SceneState, notes: list[str]
+) -> None:
     """Whether a word for size or side that is part of a name is also true of what has the name.
 
     Raises:
-        AmbiguousReference: it is true of another thing of the kind, and may mean that one.
+        AmbiguousReference: it is true of another thing of the kind, and may mean that one; said of
+            a whole name, that is but noted.
     """
     for word, rivals in match.named:
         others = [entry.thing for entry in rivals]
@@ -84,6 +88,9 @@ def _check_named(match: Match, things: list[Thing], phrase: NounPhrase, scene: S
         with suppress(ReferenceProblem):
             fitting = select((word,), (), others, len(things), scene, phrase.text)
         if fitting and not set(fitting) & set(things):
+            if match.whole:
+                notes.append(f"read {word!r} as part of the name of {things[0].name}")
+                continue
             why = f"{word!r} may be part of a name or say how it is:"
             raise AmbiguousReference(phrase.text, [t.name for t in (*things, *fitting)], why)
 

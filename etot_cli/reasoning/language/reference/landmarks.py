@@ -12,15 +12,11 @@ from etot_cli.world.state import SceneState
 
 RANKED = frozenset(
     {
-        Prep.NEAR, Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN, Prep.LEFT, Prep.RIGHT, Prep.BEHIND,
-        Prep.FRONT,
+        Prep.NEAR, Prep.NEXT_TO, Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN, Prep.LEFT, Prep.RIGHT,
+        Prep.BEHIND, Prep.FRONT,
     }
 )  # fmt: skip
 """Relations that are true of some things more than of others."""
-_BESIDE = RANKED - {Prep.NEAREST, Prep.FARTHEST}
-"""Relations that nothing has to what it carries or stands on."""
-
-
 EQUAL = 1e-6
 """Distances that differ by no more, which is rounding, leave the choice open [m]."""
 
@@ -32,8 +28,12 @@ def related(
     quantity: Quantity,
     count: int | None,
     scene: SceneState,
+    notes: list[str],
 ) -> list[Thing]:
-    """Those of the things that a modifier is true of, or that fit it best."""
+    """Those of the things that a modifier is true of, or that fit it best.
+
+    ``notes`` gets what was chosen where several would do, or none by the relation's definition.
+    """
     prep = modifier.prep
     fitting = [
         thing
@@ -44,6 +44,13 @@ def related(
             for marks in _tuples(landmarks)
         )
     ]
+    plainly = [
+        thing
+        for thing in fitting
+        if prep in space.RELATIONS
+        and any(space.is_plainly(prep, thing, marks, scene) for marks in _tuples(landmarks))
+    ]
+    fitting = plainly or fitting
     if modifier.denied:
         return [thing for thing in things if thing not in fitting]
     if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
@@ -65,21 +72,27 @@ def related(
             for thing in fitting
             if thing not in marks
             and space.holds_at(prep, thing, marks, scene) is not False
-            and not (prep in _BESIDE and any(space.carries(thing, m, scene) for m in marks))
+            and not (prep in space.RELATIONS and any(space.carries(thing, m, scene) for m in marks))
         ]
         for cost, thing in space.ranked(prep, others, marks, scene):
             best[thing] = min(cost, best.get(thing, cost))
     order = sorted(best, key=lambda thing: best[thing])
     if quantity.definite and count is not None and not quantity.every:
         worst = best[order[count - 1]] if len(order) >= count else 0.0
-        return [t for i, t in enumerate(order) if i < count or best[t] - worst < EQUAL]
-    if prep is Prep.NEAR:
-        beside = landmarks[0]
-        near = [t for t in order if any(space.is_next_to(t, m, scene) for m in beside)]
-        order = near or order[:1]
-    elif prep in (Prep.NEAREST, Prep.FARTHEST, Prep.BETWEEN):
-        order = order[: count or 1]
-    return [thing for thing in things if thing in order]
+        chosen = [t for i, t in enumerate(order) if i < count or best[t] - worst < EQUAL]
+    elif prep not in space.RELATIONS:
+        return [thing for thing in things if thing in order[: count or 1]]
+    else:
+        chosen = order if plainly or prep not in (Prep.NEAR, Prep.NEXT_TO) else order[:1]
+        chosen = [thing for thing in things if thing in chosen]
+    rest = [thing.name for thing in order if thing not in chosen]
+    if chosen and prep in space.RELATIONS and (rest or not plainly):
+        beside = " and ".join(mark.name for several in landmarks for mark in several)
+        names = " and ".join(thing.name for thing in chosen)
+        names += f" rather than {' or '.join(rest)}" if rest else ""
+        roughly = "" if plainly else ", though only roughly"
+        notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
+    return chosen
 
 
 def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:

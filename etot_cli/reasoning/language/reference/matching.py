@@ -56,7 +56,10 @@ class Match:
     loose: bool = False
     """The noun is but another word of their names."""
     named: tuple[tuple[str, tuple[Entry, ...]], ...] = ()
-    """Words for size or side that are part of their names, with all that these told them from."""
+    """Words for size, side, order or state that are part of their names, with all that these told
+    them from."""
+    whole: bool = False
+    """The words are a whole name or label."""
 
 
 def match_words(
@@ -209,7 +212,9 @@ def _match_in(
     called = (*adjectives, head, *((number,) if number else ()))
     exactly = [item for item in sifted.graded if item[0].is_called(called)]
     if len(exactly) == 1 and len(called) > 1:
-        return Match((exactly[0][0],))
+        every = tuple(entry for entry, _ in sifted.graded)
+        named = tuple((word, every) for word in adjectives if _is_selecting(word))
+        return Match((exactly[0][0],), named=named, whole=True)
     if number is not None:
         sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
     for word in adjectives:
@@ -246,6 +251,11 @@ def _is_object(entry: Entry) -> bool:
     return entry.info is not None and entry.thing.part is None and entry.thing.board is None
 
 
+def _is_selecting(word: str) -> bool:
+    """Whether a word tells things apart by how or where they are, unless it is part of a name."""
+    return any(word in table for table in (SIDES, SIZES, ORDINALS, STATES, LEVELS))
+
+
 def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
     """Keeps the entries that an adjective fits, or notes what it is."""
     graded = sifted.graded
@@ -258,14 +268,14 @@ def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
     elif color is not None:
         sifted.graded = _of_color(sifted, word, color)
     elif fitting:
-        if (word in SIDES or word in SIZES) and len(fitting) < len(graded):
+        if _is_selecting(word) and len(fitting) < len(graded):
             best = min(grade for _, grade in fitting)
             sifted.named.append((word, tuple(e for e, grade in graded if grade <= best)))
         sifted.graded = fitting
     elif word in LEVELS and any(_is_stacked(entry) for entry, _ in graded):
         # What has parts on several levels has none on this one.
         sifted.graded = [item for item in graded if not _is_stacked(item[0])]
-    elif any(word in table for table in (SIDES, SIZES, ORDINALS, STATES, LEVELS)):
+    elif _is_selecting(word):
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned

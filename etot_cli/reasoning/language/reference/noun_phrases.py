@@ -174,7 +174,8 @@ class Resolver:
         count = quantity.count or (None if match.plural else 1)
         if quantity.every:
             count = quantity.count
-        things = self._modified(things, modifiers, quantity, count, phrase, pronoun)
+        notes = list(match.notes)
+        things = self._modified(things, modifiers, quantity, count, phrase, pronoun, notes)
         things = self._without(things, phrase, words, noun, pronoun)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
             names = ", ".join(thing.name for thing in things)
@@ -186,7 +187,7 @@ class Resolver:
             names = ", ".join(thing.name for thing in things)
             why = f"say 'the' one of {names}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
-        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
+        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text, notes)
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase.text, f"say which of {names}", 2)
@@ -205,13 +206,13 @@ class Resolver:
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in things])
-        things = called_exactly(things, match, phrase, words, quantity, self._scene)
+        things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)
         options = options_of(things, count, quantity, phrase)
         unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
         named = next((word for word in reversed(unnumbered) if word), words[-1])
         head = noun if matches_any(named, THING_NOUNS) and noun else named
         every = quantity.every or (count is None and match.plural)
-        return Resolved(options, quantity.definite, quantity.other, head, every, match.notes)
+        return Resolved(options, quantity.definite, quantity.other, head, every, tuple(notes))
 
     def _without(
         self,
@@ -259,8 +260,9 @@ class Resolver:
         count: int | None,
         phrase: NounPhrase,
         pronoun: Pronoun,
+        notes: list[str],
     ) -> list[Thing]:
-        """Things that all modifiers are true of, or that they fit best."""
+        """Things that all modifiers are true of, or that they fit best; ``notes`` grows."""
         waiting = sorted(modifiers, key=lambda item: item.prep in RANKED)
         unclear = 0
         while waiting:
@@ -276,7 +278,7 @@ class Resolver:
             if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
                 raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
             ways = {
-                tuple(related(modifier, things, landmarks, quantity, count, self._scene))
+                tuple(related(modifier, things, landmarks, quantity, count, self._scene, notes))
                 for landmarks in self._landmark_sets(modifier, phrase, pronoun, quantity)
             } - {()}
             if len(ways) > 1 and unclear < len(waiting):

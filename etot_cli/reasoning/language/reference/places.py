@@ -11,12 +11,12 @@ from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.reference.coreference import FLAT, PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.words.lexicon import SIDES
+from etot_cli.reasoning.language.words.lexicon import SIDES, word_set
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -24,6 +24,10 @@ _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
 
+_OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
+_OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
+_PARTS = word_set("edge end border rim half part corner quarter area")
+"""Words for parts of a flat top."""
 LID = 0.95
 """What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
 
@@ -104,6 +108,8 @@ class Places:
                 self._check_upon_it(phrase, index, themes)
             self._check_carried(phrase, index, themes)
             found += self.relations_to(toward, index, themes)
+        if not found:
+            raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
 
     def _check_carried(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
@@ -164,10 +170,13 @@ class Places:
         return found
 
     def _is_support(self, thing: Thing) -> bool:
-        """Whether what is brought to a thing goes on top of it; a vessel takes things in."""
-        return (
-            thing.name == DESK or thing.board is not None or self._scene.infos[thing.name].surface
-        )
+        """Whether what is brought to a thing goes on top of it; a vessel takes things in, and who
+        brings something to a tall box may want it beside that.
+        """
+        if thing.name == DESK or thing.board is not None:
+            return True
+        info = self._scene.infos[thing.name]
+        return info.surface and (not info.movable or info.size[2] <= FLAT * min(info.size[:2]))
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""
@@ -203,23 +212,27 @@ class Places:
         regions = [item for item in beside if item.relation.landmarks == 0]
         for item in regions:
             for phrase in item.phrases:
-                self._check_region(phrase, item.relation)
+                self._check_region(phrase, item)
                 (surface,) = self._phrases.refer(phrase, Role.SURFACE, themes)
         if surface is None and (len(regions) == len(beside)):
             surface = self.on_the_desk().where
         near = tuple(self._near(item, themes) for item in beside)
         return Place(Relation.ON, surface, near)
 
-    def _check_region(self, phrase: NounPhrase, relation: Nearby) -> None:
-        """Whether a thing has such a region. The left side of what can be moved is beside it."""
+    def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
+        """Whether a thing has such a region. The left side of what can be moved is beside it, the
+        left edge of a tray is a part of it.
+        """
         resolved = self._phrases.meaning(phrase, Role.ANY)
         things = {thing for option in resolved.options for thing in option}
         if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
             raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
         anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
-        if relation in anywhere or all(thing.name == DESK for thing in things):
+        if region.relation in anywhere or all(thing.name == DESK for thing in things):
             return
-        if any(thing.name == DESK or self._scene.infos[thing.name].movable for thing in things):
+        fixed = not any(t.name == DESK or self._scene.infos[t.name].movable for t in things)
+        part = _PARTS & {*region.text.split()} and all(self._is_support(t) for t in things)
+        if not fixed and not part:
             raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
 
     def _near(self, beside: Beside, themes: Sequence[int]) -> Near:
@@ -230,25 +243,28 @@ class Places:
         for phrase in beside.phrases:
             if is_robot(phrase):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
-            landmarks += self._landmark(phrase, themes)
+            landmarks += self._landmark(phrase, themes, beside.relation)
+            flat = all(self._is_support(t) for i in landmarks for t in self.discourse.things(i))
+            if flat and beside.relation in _OPPOSITE and beside.text.startswith(("on ", "at ")):
+                self.discourse.notes.append(f"{beside.text!r}: beside it, not on it")
         if len(landmarks) != beside.relation.landmarks:
             text = " and ".join(phrase.text for phrase in beside.phrases)
             why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
             raise ReferenceProblem(text, why, 2)
         return Near(beside.relation, tuple(landmarks))
 
-    def _landmark(self, phrase: NounPhrase, themes: Sequence[int]) -> list[int]:
+    def _landmark(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> list[int]:
         """Referents of a landmark, each a single thing; "the two bowls" gives two."""
         found = []
         discourse = self.discourse
         single = phrase.pronoun and phrase.pronoun not in PLURAL_PRONOUNS and not phrase.modifiers
         indices = (
-            (self._beside_it(phrase, themes),)
+            (self._beside_it(phrase, themes, relation),)
             if single and not phrase.determiner
             else self._phrases.refer(phrase, Role.ANY, themes)
         )
         for index in indices:
-            discourse.last_landmark = (discourse.clause, index)
+            discourse.last_landmark = (discourse.clause, index, relation)
             referent = self.discourse.referents[index]
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
@@ -265,18 +281,24 @@ class Places:
                     found.append(self.discourse.add(alone, phrase.text, Role.ANY))
         return found
 
-    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int]) -> int:
+    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> int:
         """What "next to it" is beside.
 
-        In "the can left of the jar and the tin right of it" that is the jar. What was put into
+        In "the can left of the jar and the tin right of it" that is the jar, in "the can next to
+        the jar and the tin behind it" it may as well be the can. What was put into
         something that can be moved is not "it" but that is: nothing is beside what is inside.
 
         Raises:
             AmbiguousReference: it may as well be beside the place that something was put at.
         """
         discourse = self.discourse
-        clause, mark = discourse.last_landmark
+        clause, mark, how = discourse.last_landmark
         if clause == discourse.clause:
+            same = (item for item in discourse.mentions if item.clause == clause)
+            moved = {item.referent for item in same if item.role is Role.THEME} - {*themes}
+            if moved and _OPPOSITE.get(how) is not relation:
+                named = [discourse.referents[item].text for item in (*sorted(moved), mark)]
+                raise AmbiguousReference(phrase.text, named)
             discourse.mention_again(mark, Role.ANY)
             return mark
         inside = discourse.put_into

@@ -17,11 +17,9 @@ from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
 
 def side_word(phrase: str) -> str | None:
-    """The side that "on the far left of the desk" names."""
-    return next(
-        (word for word in phrase.split() if word in (*SIDES, "top", "bottom") and word != "far"),
-        None,
-    )
+    """The side that "on the far left of the desk" and "farthest to the left" name."""
+    sides = [word for word in phrase.split() if word in (*SIDES, "top", "bottom")]
+    return sides[-1] if sides else None
 
 
 def select(
@@ -31,6 +29,7 @@ def select(
     count: int | None,
     scene: SceneState,
     phrase: str,
+    notes: list[str] | None = None,
 ) -> list[Thing]:
     """Things that selecting words and modifiers of place single out.
 
@@ -41,9 +40,10 @@ def select(
         count: how many are meant, None when the noun is an open plural.
         scene: where they are.
         phrase: as written, for messages.
+        notes: gets the words that tell nothing, since there is but one such thing.
 
     Raises:
-        ReferenceProblem: nothing is left.
+        ReferenceProblem: nothing is left, or of two sides one leaves what the other does not.
     """
     denied = [item for item in modifiers if item.prep is Prep.SIDE and item.denied]
     for item in denied:
@@ -69,6 +69,9 @@ def select(
     if not things:
         raise ReferenceProblem(phrase, "nothing is in that state", 1)
     by_size = [word for word in words if word in SIZES]
+    told = [word for word in (*words, *sides) if word in SIDES or word in SIZES]
+    if told and len(things) == 1 and notes is not None:
+        notes.append(f"{told[0]!r} or not, only {things[0].name} is called so")
     plain = not any(sides) and not any(word in SIDES for word in words)
     if len(ordinals) == len(by_size) == 1 and plain and by_size[0].endswith("est"):
         return [_nth_by_size(ordinals[0], by_size[0], things, scene, phrase)]
@@ -85,9 +88,18 @@ def select(
     selected = [word for word in words if word in SIDES or word in LEVELS]
     if len(selected) > 1:  # "the far left cup"
         selected = [word for word in selected if word not in ("far", "near")]
-    for word in (*selected, *(side for side in sides if side is not None)):
-        things = _at_side(SIDES.get(word, LEVELS.get(word, word)), things, count, scene, phrase)
-    return things
+    selected = [
+        SIDES.get(word, LEVELS.get(word, word)) for word in (*selected, *sides) if word is not None
+    ]
+    ways = []
+    for order in (selected, selected[::-1]):
+        left = things
+        for side in order:
+            left = _at_side(side, left, count, scene, phrase)
+        ways.append(left)
+    if set(ways[0]) != set(ways[1]):
+        raise AmbiguousReference(phrase, [thing.name for left in ways for thing in left])
+    return ways[0]
 
 
 def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:

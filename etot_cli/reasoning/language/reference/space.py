@@ -1,8 +1,9 @@
 """Where objects are with respect to each other, as people say it to tell one from another.
 
 Looked at from above by the scene's viewer, by default the robot: left is its left, the back is far
-from it, the front near. What a *destination* beside something means is in ``world/spatial.py``;
-here a phrase has to be true of something that stands there already, and is read more loosely.
+from it, the front near. What it means to be beside something is in ``world/spatial.py``, for what
+stands there as for what is to go there; only where that is true of nothing, phrases are read
+more loosely.
 """
 
 from __future__ import annotations
@@ -14,22 +15,22 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState
 
-NEXT_TO = 0.10
-"""Free distance up to which several objects count as next to something [m]."""
-FAR = 0.30
-"""Free distance from which nothing is next to or near something any more [m]."""
 OFFSET = 0.01
 """An object is on one side of another when it is off by more than this [m]."""
-OFF_THE_LINE = 0.5
-"""What stands between two things is off the line between them by at most this share of it."""
 DEEP = 2.0
 """Things spread so many times more away than sideways have no first from the left."""
 
 Test = Callable[[Thing], bool]
 Cost = Callable[[Thing], float]
 
+RELATIONS = {
+    Prep.LEFT: Nearby.LEFT, Prep.RIGHT: Nearby.RIGHT, Prep.FRONT: Nearby.FRONT,
+    Prep.BEHIND: Nearby.BEHIND, Prep.NEXT_TO: Nearby.NEXT_TO, Prep.NEAR: Nearby.NEAR,
+    Prep.BETWEEN: Nearby.BETWEEN,
+}  # fmt: skip
 ROBOT = Thing("robot")
 """Stands for the robot as a landmark; it is at the origin."""
 
@@ -134,6 +135,8 @@ def holds_at(
     }
     if prep in tests:
         return first != ROBOT and tests[prep](first)
+    if prep in RELATIONS and any(landmark.name == DESK for landmark in landmarks):
+        return False  # what is beside the desk is off it
     match prep:
         case Prep.LEFT:
             return to_the_left(thing, scene) > to_the_left(first, scene) + OFFSET
@@ -143,11 +146,21 @@ def holds_at(
             return to_the_back(thing, scene) > to_the_back(first, scene) + OFFSET
         case Prep.FRONT:
             return to_the_back(thing, scene) < to_the_back(first, scene) - OFFSET
-        case Prep.NEAR:
-            return first == ROBOT or gap(thing, first, scene) <= FAR
+        case Prep.NEAR | Prep.NEXT_TO:
+            return first == ROBOT or _gap(thing, first, scene) <= BESIDE
         case Prep.BETWEEN:
-            return _is_between(thing, landmarks, scene)
+            here, there, at = (position(t, scene)[:2] for t in (*landmarks[:2], thing))
+            return sum((a - m) * (b - m) for a, b, m in zip(here, there, at, strict=True)) < 0
     return None
+
+
+def is_plainly(prep: Prep, thing: Thing, landmarks: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether a relation to what is on the desk is true by its definition."""
+    relation = RELATIONS.get(prep)
+    names = tuple(landmark.name for landmark in landmarks)
+    if relation is None or not {thing.name, *names} <= scene.states.keys():
+        return ROBOT in landmarks
+    return holds(Whereabouts(relation, names), thing.name, scene)
 
 
 def ranked(
@@ -178,17 +191,12 @@ def ranked(
     return sorted(((cost(thing), thing) for thing in things), key=lambda item: item[0])
 
 
-def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
+def _gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
     """Free distance between two things' outlines, seen as discs [m]; infinite for the desk."""
     if DESK in (thing.name, landmark.name):
         return math.inf
     away = math.dist(position(thing, scene)[:2], position(landmark, scene)[:2])
     return away - radius(scene.infos[thing.name]) - radius(scene.infos[landmark.name])
-
-
-def is_next_to(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
-    """Whether hardly anything fits between two things."""
-    return landmark == ROBOT or gap(thing, landmark, scene) <= NEXT_TO
 
 
 def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing]:
@@ -250,17 +258,6 @@ def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
     aside = [to_the_left(thing, scene) for thing in things]
     away = [to_the_back(thing, scene) for thing in things]
     return max(aside) - min(aside), max(away) - min(away)
-
-
-def _is_between(thing: Thing, landmarks: Sequence[Thing], scene: SceneState) -> bool:
-    (x0, y0, _), (x1, y1, _) = (position(landmark, scene) for landmark in landmarks[:2])
-    x, y, _ = position(thing, scene)
-    length = math.dist((x0, y0), (x1, y1))
-    if length < OFFSET:
-        return False
-    along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length
-    askew = abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / length
-    return 0 < along < length and askew <= OFF_THE_LINE * length
 
 
 def _bearers(thing: Thing, scene: SceneState) -> frozenset[str]:

@@ -240,7 +240,7 @@ def _object_entry(info: ObjectInfo) -> Entry:
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
     generic = _kind_nouns(info.kind, heads)
     if info.container or any(part.container for part in info.parts):
-        generic = (*generic, *CONTAINER_NOUNS)
+        generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
     return Entry(
         thing=Thing(info.name),
         own=tuple(own),

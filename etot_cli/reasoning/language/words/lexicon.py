@@ -79,8 +79,8 @@ JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
-CONTAINER_NOUNS = ("container", "vessel", "receptacle")
-"""Nouns for anything that things can be put into."""
+CONTAINER_NOUNS = ("container", "receptacle", "vessel")
+"""Nouns for anything that things can be put into; a vessel is no furniture."""
 THING_NOUNS = (
     "object", "thing", "item", "one", "stuff", "everything", "anything", "something", "rest",
     "others", "else",

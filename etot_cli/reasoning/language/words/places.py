@@ -15,6 +15,7 @@ class Prep(StrEnum):
     FROM = "from"
     OF = "of"
     NEAR = "near"
+    NEXT_TO = "next to"
     LEFT = "left"
     RIGHT = "right"
     BEHIND = "behind"
@@ -48,20 +49,31 @@ SIDE = """
     (desk|table|scene|room|row),
     (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
     (on|at) the (left|right) of the (desk|table|scene),
-    on the far (left|right), [that is] (furthest|farthest|most) (to|on) the (left|right), in front,
+    on the far (left|right), in front, (furthest|farthest) (left|right|back),
+    (furthest|farthest|closest|nearest|most) (to|on|at) the (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
     (at|from|on) the (top|bottom)
 """
+NEARBY: dict[Nearby, str] = {
+    Nearby.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
+    Nearby.RIGHT: "(to|on|at) the right [hand] [side] of, right of, to the right from",
+    Nearby.FRONT: "in front of",
+    Nearby.BEHIND: "behind, in back of",
+    Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
+    Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
+    Nearby.AWAY: "[far] away from, far from",
+}
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on [top of], upon, atop, on the top of, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",
     Prep.OF: "of, belonging to",
-    Prep.NEAR: "next to, beside, nearby, near [to], close to, by, alongside, adjacent to, at",
-    Prep.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
-    Prep.RIGHT: "(to|on|at) the right [hand] [side] of, right of",
-    Prep.BEHIND: "behind, in back of, beyond",
-    Prep.FRONT: "in front of",
+    Prep.NEAR: NEARBY[Nearby.NEAR],
+    Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at",
+    Prep.LEFT: NEARBY[Nearby.LEFT],
+    Prep.RIGHT: NEARBY[Nearby.RIGHT],
+    Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond",
+    Prep.FRONT: NEARBY[Nearby.FRONT],
     Prep.UNDER: "underneath, under, below, beneath",
     Prep.ABOVE: "above, over",
     Prep.NEAREST: "(closest|nearest|closer|nearer) [to]",
@@ -84,15 +96,6 @@ HOME = """
     [back] to where (it|they) (was|were) before, to its original position,
     back where (it|they) belong[s]
 """
-NEARBY: dict[Nearby, str] = {
-    Nearby.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
-    Nearby.RIGHT: "(to|on|at) the right [hand] [side] of, right of",
-    Nearby.FRONT: "in front of",
-    Nearby.BEHIND: "behind, in back of",
-    Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
-    Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
-    Nearby.AWAY: "[far] away from, far from",
-}
 ITS_SIDE: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) its left [side|hand side]",
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
