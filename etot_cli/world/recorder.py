@@ -94,13 +94,9 @@ class Recorder:
             self._observe_contacts(data, now, elapsed)
         positions = data.xpos[self._bodies]
         offset = positions - self._origin
-        np.maximum(
-            self._farthest_squared,
-            np.einsum("ij,ij->i", offset, offset),
-            out=self._farthest_squared,
-        )
+        np.maximum(self._farthest_squared, np.vecdot(offset, offset), out=self._farthest_squared)
         offset = positions - self._trail_end
-        strayed = np.einsum("ij,ij->i", offset, offset) > TRAIL_STEP**2
+        strayed = np.vecdot(offset, offset) > TRAIL_STEP**2
         if strayed.any():
             self._extend_trails(positions, strayed)
         if self._keep_frames and (not self._times or now - self._times[-1] >= FRAME_PERIOD - 1e-6):
@@ -122,12 +118,12 @@ class Recorder:
         first, second = labels[:, 0], labels[:, 1]
         pairs = np.minimum(first, second) * len(self._labels) + np.maximum(first, second)
         total = np.bincount(pairs, weights=force, minlength=self._peak.size)
-        total[total < FORCE_THRESHOLD] = 0.0
-        fresh = (total > 0.0) & (self._peak == 0.0)
-        if fresh.any():
-            self._first_time[fresh] = now - self.start_time
-        np.maximum(self._peak, total, out=self._peak)
-        self._impulse += total * elapsed
+        # Few of all pairs touch at a time.
+        pressed = np.flatnonzero(total >= FORCE_THRESHOLD)
+        total, peak = total[pressed], self._peak[pressed]
+        self._first_time[pressed[peak == 0.0]] = now - self.start_time
+        self._peak[pressed] = np.maximum(peak, total)
+        self._impulse[pressed] += total * elapsed
 
     def _frame(self, data: mujoco.MjData) -> None:
         self._times.append(float(data.time))

@@ -9,6 +9,11 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import Keepout
@@ -17,7 +22,7 @@ from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.judging import DESK_GAP, Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
-from etot_cli.skills.placements.relief import swept_shapes
+from etot_cli.skills.placements.relief import free_distance, swept_shapes
 from etot_cli.skills.placements.support import (
     DESK_EDGE,
     Support,
@@ -76,6 +81,18 @@ def hand() -> Hand:
         ball=BALL | {"at": [0.35, -0.35]},
         unit=UNIT | {"at": [0.47, 0.0], "yaw_deg": -90, "drawers": drawers()},
     )
+
+
+@given(
+    arrays(bool, array_shapes(min_dims=2, max_dims=2, max_side=30), elements=st.booleans()),
+    st.integers(1, 40),
+)
+def test_free_distances_are_exact(mask: NDArray[np.bool_], rarity: int) -> None:
+    blocked = mask & (np.arange(mask.size).reshape(mask.shape) % rarity == 0)
+    if blocked.any():
+        assert np.array_equal(free_distance(blocked, 0.5), distance_transform_edt(~blocked) * 0.5)
+    else:
+        assert (free_distance(blocked, 0.5) == 10.0).all()
 
 
 def test_places_are_free_and_on_the_desk(hand: Hand) -> None:

@@ -288,12 +288,27 @@ def under(field: Vector | Cells, outside: float, stamp: Stamp, place: Cells) -> 
 
 
 def free_distance(blocked: NDArray[np.bool_], cell: float) -> Vector:
-    """Distance (a, b) of cells from the nearest blocked one [m]; large where none is."""
+    """Distance (a, b) of cells from the nearest blocked one [m]; large where none is.
+
+    Exact, along the rows first and then across them. It takes as long as scipy's, whose import
+    takes as long as seventy of them, in every process.
+    """
     if not blocked.any():
         return np.full(blocked.shape, 10.0)
-    from scipy import ndimage  # takes a tenth of what starting up takes
-
-    return np.asarray(ndimage.distance_transform_edt(~blocked) * cell)
+    rows, columns = blocked.shape
+    beyond = rows + columns
+    steps = np.arange(columns, dtype=np.int32)
+    before = np.maximum.accumulate(np.where(blocked, steps, -beyond), axis=1)
+    behind = np.minimum.accumulate(np.where(blocked, steps, 2 * beyond)[:, ::-1], axis=1)[:, ::-1]
+    squared = np.minimum(steps - before, behind - steps) ** 2
+    nearest, shifted = squared.copy(), np.empty_like(squared)
+    for step in range(1, rows):
+        if step**2 >= nearest.max():
+            break
+        np.add(squared, step**2, out=shifted)
+        np.minimum(nearest[step:], shifted[:-step], out=nearest[step:])
+        np.minimum(nearest[:-step], shifted[step:], out=nearest[:-step])
+    return np.asarray(np.sqrt(nearest.astype(np.float64)) * cell)
 
 
 def _under(
