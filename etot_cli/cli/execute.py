@@ -38,7 +38,7 @@ def execute(
         typer.Option(
             "--robot",
             metavar="NAME",
-            help="sim, xarm6, or worker:COMMAND for a robot in another process.",
+            help="sim, xarm6 or xarm6:ADDRESS, or worker:COMMAND for a robot in another process.",
         ),
     ] = "sim",
     perception: Annotated[
@@ -67,7 +67,7 @@ def execute(
         bool, typer.Option("--dry-run", help="Connect, look and plan, but move nothing.")
     ] = False,
     yes: Annotated[
-        bool, typer.Option("--yes", help="A real robot may move without being asked for.")
+        bool, typer.Option("--yes", help="A real robot may move without asking.")
     ] = False,
     grasp_url: Annotated[
         str | None,

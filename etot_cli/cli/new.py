@@ -10,7 +10,6 @@ from typing import Annotated
 import typer
 
 from etot_cli.cli.exits import NO, OK
-from etot_cli.cli.options import Json
 
 
 def new(
@@ -99,9 +98,9 @@ def new(
 
 def tasks(
     name: Annotated[
-        str | None, typer.Argument(metavar="[NAME]", help="Print only this task's file.")
+        str | None, typer.Argument(metavar="NAME", help="Print only where this one's file is.")
     ] = None,
-    json: Json = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False,
 ) -> int:
     """List the tasks that come with the program."""
     from etot_cli.specs.load import load_task

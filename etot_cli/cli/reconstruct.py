@@ -50,11 +50,18 @@ def reconstruct(
         list[str] | None,
         typer.Option("--material", metavar="NAME=MATERIAL", help="What an object is made of."),
     ] = None,
-    masks_url: Annotated[str | None, typer.Option("--masks-url", metavar="URL")] = None,
-    mesh_url: Annotated[str | None, typer.Option("--mesh-url", metavar="URL")] = None,
-    pose_url: Annotated[str | None, typer.Option("--pose-url", metavar="URL")] = None,
+    masks_url: Annotated[
+        str | None, typer.Option("--masks-url", metavar="URL", help="A server that finds masks.")
+    ] = None,
+    mesh_url: Annotated[
+        str | None, typer.Option("--mesh-url", metavar="URL", help="A server that makes meshes.")
+    ] = None,
+    pose_url: Annotated[
+        str | None, typer.Option("--pose-url", metavar="URL", help="A server that finds poses.")
+    ] = None,
     articulation_url: Annotated[
-        str | None, typer.Option("--articulation-url", metavar="URL")
+        str | None,
+        typer.Option("--articulation-url", metavar="URL", help="A server that finds joints."),
     ] = None,
     server_timeout: Annotated[
         float,
@@ -71,7 +78,7 @@ def reconstruct(
     """Turn one RGB-D frame into a scene that etot plan uses.
 
     Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
-    unusable; 3: a server is not there.
+    unusable; 3: a server is not there; 130: interrupted.
     """
     from etot_cli.commands.reconstruct import Options, reconstruct_capture
 

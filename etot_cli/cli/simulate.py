@@ -85,8 +85,8 @@ def simulate(
 ) -> int:
     """Carry a plan out in the simulator, judging every action.
 
-    Exit code 0: the plan works and the task is done; 1: it is not; 2: unusable input; 3: --video
-    or --frames without OpenGL; 130: interrupted.
+    Exit code 0: the plan works and the task is done; 1: it is not; 2: unusable input; 3: pictures
+    were asked for without OpenGL, or --view without a viewer; 130: interrupted.
     """
     if capture is not None:
         refuse_beside(context, "--capture", ("task", "capture", "noise", "vary", "seed", "json"))

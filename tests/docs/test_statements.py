@@ -89,6 +89,16 @@ def test_the_message_about_a_scene_is_that_of_today(tmp_path: Path) -> None:
     assert str(caught.value).endswith(told.strip())
 
 
+@pytest.mark.parametrize("eyes", ["state", "camera"])
+def test_the_figures_of_the_readme_are_those_of_the_results(eyes: str) -> None:
+    section = (DOCS / "results.md").read_text("utf-8").partition(f"with {eyes} perception\n")[2]
+    table = section.partition("\n## ")[0]
+    pairs = re.findall(r"^\| \w+ \| (\d+)/(\d+) \|", table, re.MULTILINE)
+    done, trials = (sum(int(pair[column]) for pair in pairs) for column in (0, 1))
+    assert trials >= 160
+    assert f"{done} of {trials}" in (ROOT / "README.md").read_text("utf-8")
+
+
 def test_files_and_classes_that_are_named_are_there() -> None:
     files = {f"/{path.relative_to(ROOT)}" for top in ("etot_cli", "tests", "docs")
              for path in (ROOT / top).rglob("*.py")}  # fmt: skip
