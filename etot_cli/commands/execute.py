@@ -181,8 +181,8 @@ class Runner:
         options = self._options
         trial = options.trial(number)
         request = DeviceRequest(
-            task=self._task, options=trial, robot=options.robot, perception=options.perception,
-            dry_run=options.dry_run, yes=options.yes, grasp_url=options.grasp_url,
+            task=self._task, options=trial, robot=options.robot, yes=options.yes,
+            grasp_url=options.grasp_url,
         )  # fmt: skip
         return run_trial(self._task, self._planners, trial, observer, open_cell(request))
 

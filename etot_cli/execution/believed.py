@@ -16,6 +16,7 @@ from etot_cli.control.robot import Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import WorldError
 from etot_cli.execution.observation import Mark, Observation
+from etot_cli.execution.world import away
 from etot_cli.skills.belief import Belief, build_twin
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.scene import Scene
@@ -26,8 +27,6 @@ from etot_cli.world.robot_index import ROBOT_PREFIX
 from etot_cli.world.snapshot import Memory, Snapshot, copy_configuration, save
 from etot_cli.world.state import SceneState
 
-AWAY = (3.0, 3.0)
-"""Where what is not there any more waits in the twin, x y [m]: on the floor beyond every desk."""
 CREEP_STEPS = 120
 """Physics steps without momentum, in which overlaps come apart and gaps of 4 mm close."""
 SETTLE_S = 0.4
@@ -177,7 +176,7 @@ class BelievedTwin:
             pose = data.joint(name).qpos
             pose[:3], pose[3:] = sighting.position, sighting.quaternion
             if sighting.mark is Mark.LOST:
-                pose[:3] = (AWAY[0] + rank, AWAY[1], 0.0)
+                pose[:3] = away(rank)
         if missing:
             raise WorldError(f"the look says nothing of {', '.join(missing)}")
         mujoco.mj_forward(world.model, data)

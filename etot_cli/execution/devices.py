@@ -41,16 +41,14 @@ CAMERAS = "azure-kinect, realsense or files:FOLDER"
 class DeviceRequest:
     """What a trial asks for.
 
-    ``robot``: a name, with what belongs to it after a colon (``worker:COMMAND``); ``perception``:
-    the eyes' name; ``dry_run``: connect and look, move nothing; ``yes``: the word that the robot
-    may move was given beforehand; ``grasp_url``: a grasp server, None for the built-in sampler.
+    ``robot``: a name, with what belongs to it after a colon (``worker:COMMAND``); ``yes``: the word
+    that the robot may move was given beforehand; ``grasp_url``: a grasp server, None for the
+    built-in sampler.
     """
 
     task: Task
     options: TrialOptions
     robot: str = SIMULATED
-    perception: str = "state"
-    dry_run: bool = False
     yes: bool = False
     grasp_url: str | None = None
 
@@ -96,7 +94,7 @@ def _xarm6(request: DeviceRequest) -> OpenedRobot:
         )
     if request.yes:
         return OpenedRobot(XArm6(spec, address, assumed))
-    if not request.dry_run:
+    if not request.options.dry_run:
         require_terminal()
     return OpenedRobot(XArm6(spec, address, ask))
 
@@ -175,11 +173,11 @@ def open_cell(request: DeviceRequest) -> Cell:
         EtotError: unknown names, or two that do not go together.
         ServiceError: a device, or the software for it, is not there.
     """
-    check_names(request.robot, request.perception)
+    check_names(request.robot, request.options.perception)
     if request.grasp_url is not None:
         check_address(request.grasp_url, "--grasp-url")
     opened = ROBOTS[request.robot_name](request)
-    eyes = EYES[request.perception](request, opened)
+    eyes = EYES[request.options.perception](request, opened)
     grasps = None
     if request.grasp_url is not None:
         if not isinstance(eyes, CameraEyes):

@@ -31,6 +31,11 @@ AWAY_SPACING = 1.0
 """What is away lies this far apart [m], so that nothing touches."""
 
 
+def away(rank: int) -> tuple[float, float, float]:
+    """The place of what is not on the scene, x y z [m], by its place in a list."""
+    return (AWAY[0] + AWAY_SPACING * rank, AWAY[1], 0.0)
+
+
 class ExecutionWorld:
     """A varied scene in one state, which only goes forward.
 
@@ -58,7 +63,7 @@ class ExecutionWorld:
         self.delay = round(varied.actuation.delay_s / CONTROL_PERIOD)
         prompt = varied.actuation.model_copy(update={"delay_s": 0.0})
         waiting = {
-            name: item.model_copy(update={"on": None, "inside": None, "at": self._away(rank)})
+            name: item.model_copy(update={"on": None, "inside": None, "at": away(rank)})
             for rank, (name, item) in enumerate(self.added.items())
         }
         self.world = build_world(
@@ -116,14 +121,10 @@ class ExecutionWorld:
         """Takes a free object off the scene."""
         rank = list(self.world.entries).index(name)
         joint = self.data.joint(name)
-        joint.qpos[:3] = self._away(rank)
+        joint.qpos[:3] = away(rank)
         joint.qvel[:] = 0.0
         self.absent.add(name)
         mujoco.mj_forward(self.world.model, self.data)
-
-    @staticmethod
-    def _away(rank: int) -> tuple[float, float, float]:
-        return (AWAY[0] + AWAY_SPACING * rank, AWAY[1], 0.0)
 
     def _begin(self) -> None:
         world, data = self.world, self.data

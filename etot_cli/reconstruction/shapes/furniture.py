@@ -20,14 +20,14 @@ from etot_cli.reconstruction.shapes.base import (
     rotate,
 )
 from etot_cli.specs.dimensions import LEAST_COMPARTMENT
+from etot_cli.specs.objects import Cabinet, Door, DrawerUnit
 
-UNIT_WALL = 0.006
-"""Panels of a drawer unit [m]; the default of the scene's kind."""
+UNIT_WALL: float = DrawerUnit.model_fields["wall"].default
+CABINET_WALL: float = Cabinet.model_fields["wall"].default
+DOOR_THICKNESS: float = Door.model_fields["thickness"].default
+"""What one picture does not show of furniture is as in a scene that does not say it either [m]."""
 ROUNDED = 0.001
 """What is fitted is written to a scene to within less than this [m]."""
-CABINET_WALL = 0.012
-DOOR_THICKNESS = 0.02
-"""What one picture does not show of a cabinet is taken as usual [m]."""
 DRAWER_SIDES = 0.6
 """Height of a drawer's sides as a share of its compartment."""
 Panel = tuple[list[float], list[float]]
