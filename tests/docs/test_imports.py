@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,15 @@ def test_every_room_is_drawn() -> None:
     text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     for room in rooms():
         assert f"`{room}`" in text, f"docs/design.md does not say what {room} is"
+    language = PACKAGE / "reasoning" / "language"
+    folders = {path.parent.name for path in language.glob("*/__init__.py")}
+    told = dict(
+        re.findall(r"^\| `(\w+)` \| [^|]+ \| (`[a-z_]+`, `[a-z_]+`) \|$", text, re.MULTILINE)
+    )
+    assert folders == set(told)
+    for folder, modules in told.items():
+        for module in re.findall(r"\w+", modules):
+            assert (language / folder / f"{module}.py").is_file(), f"{folder}/{module}"
 
 
 @pytest.mark.parametrize("room", sorted(BELOW))

@@ -10,6 +10,7 @@ import pytest
 from pydantic import AliasChoices, BaseModel
 
 from etot_cli.errors import SpecError
+from etot_cli.reasoning.vlm.prompts import Prompts
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.reporting.execute_report import TrialModel
 from etot_cli.reporting.plan_report import PlanReport
@@ -57,6 +58,13 @@ def test_settings_of_the_model() -> None:
             assert variable in told, variable
             if name not in UNTOLD:
                 assert same(told[variable][0], field.default), variable
+
+
+def test_fields_of_the_prompts() -> None:
+    told = rows(DOCS / "prompts.md")
+    prompts = Prompts()
+    for name in prompts.versions:
+        assert set(re.findall(r"`(\w+)`", told[name][1])) == prompts[name].fields, name
 
 
 @pytest.mark.parametrize("model", [RobotSpec, GripperSpec, DriverSpec])
