@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.frozen import MAX_KNOWN, FrozenScene
@@ -166,7 +167,7 @@ class CollisionChecker(FrozenScene):
         held = -9 if carried is None else carried
         moving = (owners < -1) | (owners == held)
         close = data.contact.dist < self._required(geoms, clearance, worked)
-        candidates = np.nonzero(close & moving.any(axis=1))[0]
+        candidates = np.nonzero(close & _either(moving))[0]
         if len(candidates) == 0:
             return []
         allowed = {self._object_names.index(n) for n in allow if n in world.entries}
@@ -211,8 +212,8 @@ class CollisionChecker(FrozenScene):
         if worked is None:
             return clearance
         required = np.full(len(pairs), clearance)
-        touched = (self._owner[pairs] == self._object_names.index(worked[0])).any(axis=1)
-        required[touched & self._finger[pairs].any(axis=1)] = worked[1]
+        touched = _either(self._owner[pairs] == self._object_names.index(worked[0]))
+        required[touched & _either(self._finger[pairs])] = worked[1]
         return required
 
     def hand_hits(
@@ -255,6 +256,11 @@ class CollisionChecker(FrozenScene):
         hand = owners == -2
         if fingers_only:
             hand &= self._finger[pairs]
-        near &= hand.any(axis=1) & (owners > -2).any(axis=1)
+        near &= _either(hand) & _either(owners > -2)
         others = (pairs[index][int(owners[index][0] == -2)] for index in np.nonzero(near)[0])
         return list(dict.fromkeys(self.world.geom_address[int(other)] for other in others))
+
+
+def _either(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which rows (k,) of pairs (k, 2) hold; ``any`` takes ten times as long for so little."""
+    return np.asarray(pairs[:, 0] | pairs[:, 1])

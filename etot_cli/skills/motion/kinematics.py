@@ -104,7 +104,7 @@ class Arm:
         self.lower, self.upper = np.array([joint.range for joint in joints], dtype=np.float64).T
         self.home = np.array(spec.home, dtype=np.float64)
         self._comfortable: dict[float, float] = {}
-        self._solved: dict[bytes, IkResult] = {}
+        self._solved: dict[tuple[object, ...], IkResult] = {}
         self._site = model.site(spec.tool_site).id
         self._configuration = mink.Configuration(model)
         self._damping = IK_DAMPING * np.eye(len(joints))
@@ -146,11 +146,10 @@ class Arm:
         return Pose(data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy())
 
     def _set(self, joints: Vector) -> None:
-        # What mink's update does, but for the constraints, which no frame depends on.
+        # What of mink's update the frames depend on; the rest only Jacobians need.
         data = self._configuration.data
         data.qpos[self._qpos] = joints
         mujoco.mj_kinematics(self._model, data)
-        mujoco.mj_comPos(self._model, data)
 
     def solve(self, target: Pose, seed: Vector, *, free_spin: bool = False) -> IkResult:
         """One inverse-kinematics descent from ``seed`` (n,).
@@ -164,10 +163,7 @@ class Arm:
             OutOfTimeError: the deadline has passed.
         """
         self._deadline.check()
-        key = b"".join(
-            np.ascontiguousarray(item).tobytes()
-            for item in (target.position, target.rotation, seed)
-        ) + bytes([free_spin])
+        key = (target.position.tobytes(), target.rotation.tobytes(), seed.tobytes(), free_spin)
         if key not in self._solved:
             if len(self._solved) >= MAX_SOLVED:
                 self._solved.clear()
@@ -176,11 +172,10 @@ class Arm:
 
     def _descend(self, target: Pose, seed: Vector, free_spin: bool) -> IkResult:
         task = self._tasks[free_spin]
-        task.set_target(
-            mink.SE3.from_rotation_and_translation(
-                mink.SO3.from_matrix(target.rotation), target.position
-            )
-        )
+        there = np.empty(7)
+        mujoco.mju_mat2Quat(there[:4], target.rotation.ravel())
+        there[4:] = target.position
+        task.set_target(mink.SE3(there))
         joints = _within(seed, self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN)
         best = np.inf
         stalled = 0
@@ -211,6 +206,7 @@ class Arm:
         linear system with a positive matrix, which MuJoCo solves in a tenth of the time; limits are
         kept by clipping.
         """
+        mujoco.mj_comPos(self._model, self._configuration.data)
         jacobian = task.compute_jacobian(self._configuration)[:, self._dof]
         weighted = jacobian * np.square(task.cost)[:, None]
         hessian = weighted.T @ jacobian + self._damping
