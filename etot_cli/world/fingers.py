@@ -109,16 +109,11 @@ def measure_fingers(spec: RobotSpec, changed_ns: int) -> Fingers:
         for j in range(model.njnt)
         if int(model.jnt_type[j]) in scalar and model.joint(j).name not in arm
     )
-    try:
-        addresses = [int(model.joint(name).qposadr[0]) for name in names]
-        first, second = (int(model.geom(name).id) for name in spec.gripper.pads)
-        actuator = int(model.actuator(spec.gripper.actuator).id)
-        arm_addresses = [int(model.joint(name).qposadr[0]) for name in spec.joints]
-        arm_actuators = [int(model.actuator(name).id) for name in spec.actuators]
-    except KeyError as error:
-        raise WorldError(
-            f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
-        ) from error
+    addresses = [int(model.joint(name).qposadr[0]) for name in names]
+    first, second = (int(model.geom(name).id) for name in spec.gripper.pads)
+    actuator = int(model.actuator(spec.gripper.actuator).id)
+    arm_addresses = [int(model.joint(name).qposadr[0]) for name in spec.joints]
+    arm_actuators = [int(model.actuator(name).id) for name in spec.actuators]
     # Only the gripper is to move, whatever the arm's servos are like.
     arm_dofs = [int(model.joint(name).dofadr[0]) for name in spec.joints]
     model.dof_armature[arm_dofs] = HEAVY

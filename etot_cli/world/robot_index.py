@@ -58,12 +58,31 @@ class RobotIndex:
 
 
 def add_robot(mj: mujoco.MjSpec, robot: RobotSpec) -> None:
-    """Attaches the robot's own model, all names prefixed."""
+    """Attaches the robot's own model, all names prefixed.
+
+    Raises:
+        WorldError: it is no model, or lacks something that the robot's YAML names.
+    """
     check_mjcf(robot.model_path)
     try:
         child = mujoco.MjSpec.from_file(str(robot.model_path))
     except ValueError as error:
         raise WorldError(f"{robot.model_path.name}: not a valid MJCF model ({error})") from error
+    gripper = robot.gripper
+    for key, names, there in (
+        ("joints", robot.joints, child.joints), ("actuators", robot.actuators, child.actuators),
+        ("tool_site", (robot.tool_site,), child.sites),
+        ("gripper.actuator", (gripper.actuator,), child.actuators),
+        ("gripper.fingers", gripper.fingers, child.bodies),
+        ("gripper.pads", gripper.pads, child.geoms),
+    ):  # fmt: skip
+        known = {item.name for item in there} - {"", "world"}
+        for name in names:
+            if name not in known:
+                raise WorldError(
+                    f"robot {robot.name}: {key}: found {name!r}, expected a name in {robot.model}: "
+                    f"{', '.join(sorted(known)) or 'it has none'}"
+                )
     mj.attach(child, prefix=ROBOT_PREFIX, frame=mj.worldbody.add_frame())
 
 
@@ -85,17 +104,12 @@ def robot_index(model: mujoco.MjModel, spec: RobotSpec) -> RobotIndex:
     def name(item: str) -> str:
         return ROBOT_PREFIX + item
 
-    try:
-        joints = [model.joint(name(item)) for item in spec.joints]
-        actuators = [model.actuator(name(item)) for item in spec.actuators]
-        fingers = [model.body(name(item)) for item in spec.gripper.fingers]
-        pads = [model.geom(name(item)).id for item in spec.gripper.pads]
-        gripper = model.actuator(name(spec.gripper.actuator)).id
-        site = model.site(name(spec.tool_site)).id
-    except KeyError as error:
-        raise WorldError(
-            f"robot {spec.name}: its YAML names something that {spec.model} lacks ({error})"
-        ) from error
+    joints = [model.joint(name(item)) for item in spec.joints]
+    actuators = [model.actuator(name(item)) for item in spec.actuators]
+    fingers = [model.body(name(item)) for item in spec.gripper.fingers]
+    pads = [model.geom(name(item)).id for item in spec.gripper.pads]
+    gripper = model.actuator(name(spec.gripper.actuator)).id
+    site = model.site(name(spec.tool_site)).id
     _check_joints(spec, joints)
     measured = fingers_of(spec)
     finger_joints = [int(model.joint(name(item)).qposadr[0]) for item in measured.joints]

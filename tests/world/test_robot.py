@@ -254,19 +254,21 @@ def test_unknown_robot_lists_the_known_ones(tmp_path: Path, robot: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("old", "new", "found"),
     [
-        ("joints: [a, d, f]", "joints: [a, d, elbow]"),
-        ("actuators: [a, d, f]", "actuators: [a, d, elbow]"),
-        ("tool_site: tip", "tool_site: nose"),
-        ("pads: [lp, rp]", "pads: [lp, thumb]"),
-        ("fingers: [l, r]", "fingers: [l, thumb]"),
+        ("joints: [a, d, f]", "joints: [a, d, elbow]", "joints: found 'elbow'"),
+        ("actuators: [a, d, f]", "actuators: [a, d, elbow]", "actuators: found 'elbow'"),
+        ("tool_site: tip", "tool_site: nose", "tool_site: found 'nose'"),
+        ("pads: [lp, rp]", "pads: [lp, thumb]", "gripper.pads: found 'thumb'"),
+        ("fingers: [l, r]", "fingers: [l, thumb]", "gripper.fingers: found 'thumb'"),
     ],
 )
-def test_names_that_the_model_lacks(tmp_path: Path, old: str, new: str) -> None:
+def test_names_that_the_model_lacks(tmp_path: Path, old: str, new: str, found: str) -> None:
     folder = robot_folder(tmp_path, (old, new))
-    with pytest.raises(WorldError, match=r"robot tiny: its YAML names .* that tiny\.xml lacks"):
-        build_world(Scene.model_validate({"robot": "tiny.yaml", "directory": str(folder)}))
+    ball = {"kind": "sphere", "diameter": 0.05, "at": [0.4, 0.0]}
+    scene = {"robot": "tiny.yaml", "directory": str(folder), "objects": {"ball": ball}}
+    with pytest.raises(WorldError, match=rf"robot tiny: {found}, expected a name in tiny\.xml: "):
+        build_world(Scene.model_validate(scene))
 
 
 @pytest.mark.parametrize(
