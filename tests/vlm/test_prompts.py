@@ -24,7 +24,7 @@ from etot_cli.reasoning.vlm.notes import Notebook, NoteKind
 from etot_cli.reasoning.vlm.player import Player
 from etot_cli.reasoning.vlm.prompts import BUILTIN, Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
-from etot_cli.reasoning.vlm.rendered import Unseen
+from etot_cli.reasoning.vlm.rendered import NominalOutcomes
 from etot_cli.reasoning.vlm.session import VlmSession
 from etot_cli.skills.action import Action, GraspPose, Verb, parse_plan
 from etot_cli.specs.scene import Scene
@@ -386,7 +386,7 @@ def test_every_place_that_plans_know_is_named_and_understood(make_settings: Make
 def test_without_pictures_varied_worlds_are_judged_by_their_state(make_settings: Make) -> None:
     """One question for an action, however many worlds it was tried in."""
     rules = [rule("compare", '{"before": [], "after": [], "outcome": "success"}')]
-    unseen = Unseen()
+    unseen = NominalOutcomes()
     records = [RolloutRecord(SCENE, SCENE, True, None) for _ in range(5)]
     unseen.remember(WorldOutcome(records[0]))
     with model(make_settings, *rules, nominal=unseen.knows) as (reasoner, server, _):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import time
 from concurrent.futures import Future
-from typing import Protocol
 
 import mujoco
 import numpy as np
@@ -27,25 +26,41 @@ DIGEST_DECIMALS = 2
 """Configurations that differ by less show the same picture [m or rad]."""
 
 
-class RenderedFrames:
+class NominalOutcomes:
+    """Knows what was simulated in the nominal world, by the identity of its record: equal records
+    of other worlds are not meant. An outcome is kept, so that its record's identity stays its own.
+    """
+
+    def __init__(self) -> None:
+        self._outcomes: dict[int, WorldOutcome] = {}
+
+    def remember(self, outcome: WorldOutcome) -> None:
+        """An action has been simulated there."""
+        self._outcomes[id(outcome.record)] = outcome
+
+    def knows(self, record: RolloutRecord) -> bool:
+        """Whether a record is of the nominal world."""
+        return id(record) in self._outcomes
+
+
+class RenderedFrames(NominalOutcomes):
     """Implements :class:`~etot_cli.reasoning.vlm.frames.FrameSource` for the nominal world.
 
     Args:
         scene: the scene that is planned in.
         width: longest side of a picture [px].
-        camera: of the scene; None for its first.
 
     Raises:
         ServiceError: there is no OpenGL.
-        WorldError: the scene cannot be built or has no such camera.
+        WorldError: the scene cannot be built.
     """
 
-    def __init__(self, scene: Scene, width: int, camera: str | None = None) -> None:
+    def __init__(self, scene: Scene, width: int) -> None:
+        super().__init__()
         self._scene = scene
         self._world = build_world(scene)
-        self._camera = camera or first_camera(scene)
+        self._camera = first_camera(scene)
         self._renderer = WorldRenderer(self._world, self._camera, width, width)
-        self._outcomes: dict[int, WorldOutcome] = {}
         self.spent_s = 0.0
         """Wall time that frames have taken so far [s]."""
         look = scene.model_dump_json(exclude={"directory", "name", "description"})
@@ -54,16 +69,6 @@ class RenderedFrames:
     def close(self) -> None:
         """Frees the graphics context; idempotent."""
         self._renderer.close()
-
-    def watch(self, simulator: Simulator) -> Simulator:
-        """The same simulator; what it simulates can be looked at afterwards."""
-        return Watched(simulator, self)
-
-    def remember(self, outcome: WorldOutcome) -> None:
-        """Makes an action of the nominal world available to :meth:`rollout`."""
-        # By identity: records hold mappings, and equal records show the same thing anyway. The
-        # outcome is kept, so that its id stays its own.
-        self._outcomes[id(outcome.record)] = outcome
 
     def view(self, scene: SceneState, *, marks: bool = False) -> list[Picture]:
         """The desk in a scene state, the arm at rest."""
@@ -146,35 +151,12 @@ class RenderedFrames:
         return np.array(data.qpos)
 
 
-class Witness(Protocol):
-    """Is shown what happens in the nominal world."""
-
-    def remember(self, outcome: WorldOutcome) -> None:
-        """An action has been simulated there."""
-        ...
-
-
-class Unseen:
-    """Knows which records are those of the nominal world, where no pictures are taken of it."""
-
-    def __init__(self) -> None:
-        self._outcomes: dict[int, WorldOutcome] = {}
-
-    def remember(self, outcome: WorldOutcome) -> None:
-        """By identity, as the pictures do; the outcome is kept, so that its id stays its own."""
-        self._outcomes[id(outcome.record)] = outcome
-
-    def knows(self, record: RolloutRecord) -> bool:
-        """Whether a record is of the nominal world."""
-        return id(record) in self._outcomes
-
-
 class Watched:
-    """A simulator that shows every nominal outcome to a witness."""
+    """A simulator whose nominal outcomes are remembered."""
 
-    def __init__(self, simulator: Simulator, witness: Witness) -> None:
+    def __init__(self, simulator: Simulator, outcomes: NominalOutcomes) -> None:
         self._simulator = simulator
-        self._witness = witness
+        self._outcomes = outcomes
 
     @property
     def jobs(self) -> int:
@@ -208,7 +190,7 @@ class Watched:
                 outer.set_exception(error)
                 return
             simulated = done.result()
-            self._witness.remember(simulated.outcomes[0])
+            self._outcomes.remember(simulated.outcomes[0])
             outer.set_result(simulated)
 
         def abandoned(done: Future[Simulated]) -> None:

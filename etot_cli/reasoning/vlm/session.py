@@ -16,7 +16,7 @@ from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.notes import Notebook
 from etot_cli.reasoning.vlm.prompts import Prompts
 from etot_cli.reasoning.vlm.reasoner import VlmReasoner
-from etot_cli.reasoning.vlm.rendered import RenderedFrames, Unseen, Watched
+from etot_cli.reasoning.vlm.rendered import NominalOutcomes, RenderedFrames, Watched
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.services.redact import public_url
 from etot_cli.specs.scene import Scene
@@ -54,7 +54,7 @@ class VlmSession:
         self._client = ChatClient(settings)
         self._frames = RenderedFrames(scene, settings.image_width) if settings.images else None
         shown = self._frames if self._frames is None or through is None else through(self._frames)
-        self._unseen = Unseen()
+        self._outcomes = self._frames or NominalOutcomes()
         # Where no state is known, as on a real robot, there is nothing to hint at.
         self._hints = settings.hints if settings.hints is not None else state is not None
         self._asker = Asker(self._client, prompts, self._notes, seed)
@@ -63,7 +63,7 @@ class VlmSession:
             frames=shown,
             judge=settings.judge,
             state=state,
-            nominal=None if self._frames is not None else self._unseen.knows,
+            nominal=None if self._frames is not None else self._outcomes.knows,
             marks=settings.marks,
             hints=self._hints,
             probe=settings.probe,
@@ -76,7 +76,7 @@ class VlmSession:
 
     def watch(self, simulator: Simulator) -> Simulator:
         """The simulator to search with: what it does can be looked at."""
-        return Watched(simulator, self._frames or self._unseen)
+        return Watched(simulator, self._outcomes)
 
     def at_once(self, assignment: Assignment, scene: SceneState) -> Branch | None:
         """One plan from one look at a scene, without any simulation.
