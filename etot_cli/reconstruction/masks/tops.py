@@ -25,9 +25,14 @@ NARROWEST = 5
 LEAST_THING = 75
 """What stands on a top shows at least this much of itself [px]."""
 ON_TOP = 0.004
+"""What rises above a level top by this much stands on it [m]: no thing is thinner. Halved, one of
+seven clean captures falls apart, as a thing's own relief counts; doubled, none changes."""
 ON_TOP_CLEAN = 0.0012
+"""The same for single readings of exact depth, so that things are whole down to their feet [m]: at
+4 mm a holder loses 6 of its 7446 pixels; at 0.3 mm nothing is gained."""
 FOOT_CLEAN = 0.0003
-"""What rises above a level top by this much stands on it [m]."""
+"""Exact depth tells from the top what is this much higher [m]: it errs by 0.05 mm there, and at
+1 mm a thing's foot begins to be missed."""
 REACH, REACH_NOISY = 4, 12
 """What stands on a top begins this near to the level part of it: the windows in which normals are
 measured end there [px]."""
