@@ -185,7 +185,7 @@ RACK = {"kind": "shelf", "size": [0.22, 0.36, 0.45], "mass": 6.0, "at": [0.52, 0
         "yaw_deg": 180, "boards": ["lower", "middle", "top"]}  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("thing", [MUG, BOX | {"size": [0.05, 0.05, 0.12]}], ids=["mug", "box"])
 def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) -> None:
     run = episode(seed, oven=FURNACE, thing=thing | {"at": [0.42, -0.15]})
@@ -194,6 +194,15 @@ def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) ->
     assert state.inside == "oven" and not state.toppled
     door = after.infos["oven"].parts[0]
     assert after.openness(door) > 0.85, "the door stays as it was"
+
+
+def test_what_lies_is_stood_up_where_the_hand_has_to_come_level() -> None:
+    """From above it has no room under the roof."""
+    can = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15}
+    on_its_side = can | {"at": [0.36, 0.30], "quaternion": [0.7071, 0.7071, 0.0, 0.0]}
+    low = RACK | {"size": [0.18, 0.34, 0.34], "at": [0.56, 0.0], "boards": ["lower", "top"]}
+    after = episode(rack=low, can=on_its_side).must("[PICK UP, can]", "[PUT ON, rack.lower]")
+    assert after.states["can"].on == ("rack.lower",) and not after.states["can"].toppled
 
 
 def test_goes_into_a_cabinet_from_a_file(tmp_path: Path) -> None:

@@ -17,6 +17,8 @@ HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
 TURNS_AT_ONCE = 4
 """The most comfortable turns mostly do, so the others are looked at only where they do not."""
+DOWN = 0.6
+"""A hand points down rather than level while it falls by more than this (sine; 37°)."""
 LYING = 0.5
 """What is long lies as long as it rises by less than this (sine)."""
 MAX_LAID = 2
@@ -88,7 +90,8 @@ def orientations(
     """Orientations to put an object down with, a few turns at a time, the best first: as it is
     held, then laid down where falling over does it no harm.
 
-    A rod that is too long for a vessel stands in it; so may other long things.
+    A rod that is too long for a vessel stands in it; so may other long things. What lies in a hand
+    that points down is stood up behind a front: the hand is level then, and gets in under the roof.
 
     Args:
         belief: holds the object.
@@ -97,10 +100,14 @@ def orientations(
         upright: it has to stand, even where it lies in the hand.
     """
     entry = belief.world.entries[attached.name]
-    if upright and entry.upright_matters:
-        now = belief.object_pose(attached.name).rotation
-        base = _align(now @ np.array(standing_axis(entry, now)), UP) @ now
-        return _turned(belief, attached, support, base, laid=False)
+    now = belief.object_pose(attached.name).rotation
+    axis = now @ np.array(standing_axis(entry, now))
+    enters_level = support.from_front and axis[2] < LYING and _points_down(belief)
+    found: list[Orientations] = []
+    if entry.upright_matters and (upright or enters_level):
+        found = _turned(belief, attached, support, _align(axis, UP) @ now, laid=False)
+        if upright:
+            return found
     if (
         entry.axis is not None
         and support.is_container
@@ -108,7 +115,6 @@ def orientations(
     ):
         return _turned(belief, attached, support, standing_rotation(belief, attached), laid=False)
     base = resting_rotation(belief, attached)
-    found: list[Orientations] = []
     is_drawer = support.address in belief.world.parts
     if support.is_container and not (support.from_front or is_drawer or entry.info.container):
         stood = stood_up(belief, attached, support)
@@ -208,10 +214,11 @@ def inward_rotations(attached: Attached, base: Vector, inward: Vector) -> list[V
 def _level_tool(belief: Belief) -> Vector:
     """The present tool orientation turned to point straight down or level, whichever is nearer."""
     rotation = belief.tool().rotation
-    approach = rotation[:, 2]
-    if approach[2] < -0.6:
-        return _align(approach, -UP) @ rotation
-    return rotation
+    return _align(rotation[:, 2], -UP) @ rotation if _points_down(belief) else rotation
+
+
+def _points_down(belief: Belief) -> bool:
+    return bool(belief.tool().rotation[2, 2] < -DOWN)
 
 
 def _align(source: Vector, target: Vector) -> Vector:
