@@ -62,7 +62,7 @@ def test_refused(name: str, text: str, wanted: str) -> None:
         ("numbered", "Put cube 5 in bin 1.", "Put cube 1 in bin 1."),
         ("kitchen", "Fry the egg in the pan.", "Put the egg in the frying pan."),
         ("stationery", "Sharpen the pencil.", "Pick up the pencil."),
-        ("cupboard", "Put the can in the same cabinet as the jar.", "Put the can in the cabinet."),
+        ("cupboard", "Put the can in the cabinet like the jar.", "Put the can in the cabinet."),
     ],
 )
 def test_a_rewording_keeps_what_was_understood(name: str, text: str, instead: str) -> None:

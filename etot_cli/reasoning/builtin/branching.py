@@ -19,6 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
     Close,
     Constraint,
     Goal,
+    Keep,
     Open,
     Pick,
     Put,
@@ -124,12 +125,12 @@ def _candidates(
                 yield None
                 continue
             for selected in product(*poses):
-                branch, left_open = _branch(ordered.steps, choice, selected, scene, course)
+                branch, left_open = _branch(ordered, choice, selected, scene, course)
                 yield _Candidate(branch, left_open, goal.constraints)
 
 
 def _branch(
-    steps: Sequence[Step],
+    goal: Goal,
     choice: Choice,
     poses: Sequence[GraspPose | None],
     scene: SceneState,
@@ -138,11 +139,12 @@ def _branch(
     """The actions of one way of resolving a goal, as far as they are still to be done, and the
     parts that insertions do not close again.
     """
+    steps = goal.steps
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
     puts = deque(_in_order(steps, choice, poses))
-    left_open = _left_open(steps, choice, course.first)
+    left_open = _left_open(goal, choice, course.first)
     kept_open = set(left_open)
     behind = course.behind(steps, choice)
     lasting = {put.name: place for place, row in choice.placements.items() for put in row}
@@ -204,13 +206,17 @@ def _shut(sketch: Sketch, parts: dict[str, PartInfo], in_hand: Sequence[str]) ->
         sketch.close(parts.popitem()[1], in_hand)
 
 
-def _left_open(steps: Sequence[Step], choice: Choice, scene: SceneState) -> set[str]:
-    """Parts that are to be opened in so many words and never closed again, and those that stand
-    open far enough and that no word is about.
+def _left_open(goal: Goal, choice: Choice, scene: SceneState) -> set[str]:
+    """Parts that are to be opened in so many words and never closed again, that must not be
+    closed, and that stand open far enough without a word about them.
     """
-    parts = (part for info in scene.infos.values() for part in info.parts)
+    parts = [part for info in scene.infos.values() for part in info.parts]
+    kept = {n for item in goal.constraints if item.keep is Keep.OPEN for n in item.names}
     found = {part.address: True for part in parts if scene.openness(part) >= STAYS_OPEN_AT}
-    found |= _last_words(steps, choice, scene)
+    found |= _last_words(goal.steps, choice, scene)
+    found |= {
+        part.address: True for part in parts if kept & {part.owner, f"{part.owner}.{part.name}"}
+    }
     return {address for address, open_ in found.items() if open_}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.errors import InstructionError
@@ -28,12 +29,15 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     try:
         return _read(instruction, scene)
     except (UnreadableError, ReferenceProblem) as error:
+        with suppress(UnreadableError, ReferenceProblem):
+            return _read(instruction, scene, common=True)
         raise InstructionError(_message(error, instruction, scene)) from None
 
 
-def _read(instruction: str, scene: SceneState) -> Goal:
+def _read(instruction: str, scene: SceneState, *, common: bool = False) -> Goal:
+    """The goal; slips of the pen in words that stand in no scene are put right where ``common``."""
     vocabulary = Vocabulary(scene)
-    found = read(vocabulary.joined(normalized(instruction)), vocabulary.words())
+    found = read(vocabulary.joined(normalized(instruction)), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
     return replace(goal, notes=(*slips, *goal.notes))

@@ -54,17 +54,18 @@ def _upward(
         if not listed:
             raise ReferenceProblem(text, "name them one by one to say their order", 2)
         return ordered if clause.upward else ordered[::-1]
-    ends = {"bottom": clause.bottom, "top": clause.top}
+    ends = {"bottom": clause.bottom, "middle": clause.middle, "top": clause.top}
     named = {end: _end(context, phrase, things) for end, phrase in ends.items() if phrase}
     rest = [thing for thing in ordered if thing not in named.values()]
+    if rest and clause.middle:
+        raise ReferenceProblem(text, f"say where {rest[0].name} goes", 2)
     if len(rest) > 1 or (rest and not named):
         # The widest below, and of equals the one that is named first.
         rest.sort(key=lambda thing: -max(context.scene.infos[thing.name].size[:2]))
         order = ", ".join(thing.name for thing in rest)
         context.discourse.notes.append(f"stack from the bottom up, by width: {order}")
-    bottom = [named["bottom"]] if "bottom" in named else []
-    top = [named["top"]] if "top" in named else []
-    return [*bottom, *rest, *top]
+    below = [named[end] for end in ("bottom", "middle") if end in named]
+    return [*below, *rest, *([named["top"]] if "top" in named else [])]
 
 
 def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing:

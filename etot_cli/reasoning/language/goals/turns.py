@@ -34,9 +34,12 @@ def in_turns(
         names = ", ".join(thing.part or thing.board or thing.name for thing in ordered)
         context.discourse.notes.append(f"one after the other: {names}")
     else:
-        ahead = _picked_out(context, spoken, turns.first, things, role)
+        ahead = _picked_out(context, spoken, turns.first or turns.all, things, role)
         behind = _picked_out(context, spoken, turns.last, things, role)
         between = [thing for thing in things if thing not in ahead and thing not in behind]
+        if turns.all and between:
+            names = " and ".join(thing.name for thing in between)
+            raise ReferenceProblem(text, f"say when it is the turn of {names}", 2)
         ordered = [*ahead, *between, *behind]
     return [context.single(thing, text) for thing in ordered]
 

@@ -59,11 +59,11 @@ _ALIKE = {
 _FIXED = """
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
-    right (next|behind|beside|in front),
+    back on [the] top of,    right (next|behind|beside|in front),
     at the very, (first|last) of all, one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
-    (near|close|next|closer|nearer) to,
+    (near|close|next|closer|nearer) to, near the,
     s (top|surface)
 """
 """Phrases in which such words say something else, or nothing of their own."""
@@ -145,8 +145,8 @@ def _said(node: object) -> Iterator[str]:
         case NounPhrase(without=without) if without:
             yield _DENIAL
         case AvoidClause():
-            yield from (_DENIAL, "other", "any")
-        case Beside(relation=Nearby.AWAY):
+            yield from (_DENIAL, "other", "any", "after", "afterwards")
+        case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
         case State(kept=kept, word=word, subjects=subjects):
             yield from ("both", "each", "all") if len(subjects) > 1 else ()
@@ -155,7 +155,7 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
-            yield from (_ORDER, "top", "bottom")
+            yield from (_ORDER, "top", "middle", "bottom")
         case PickClause(poses=poses) if len(poses) > 1:
             yield "either"
         case Turns(first=first, last=last) if first or last:
@@ -166,8 +166,6 @@ def _said(node: object) -> Iterator[str]:
             yield "same"
         case Destination(toward=Toward.HOME):
             yield "back"
-        case PickClause(poses=poses) if len(poses) > 1:
-            yield "either"
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):

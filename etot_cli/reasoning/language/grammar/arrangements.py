@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA, WITH
@@ -10,12 +11,14 @@ from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     phrase,
     separated,
     sequence,
     silent,
     some,
+    variants,
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -52,11 +55,11 @@ _ENDS = separated(
     sequence(
         noun_phrase,
         optional(BE),
-        either(phrase(manner.AT_BOTTOM, "bottom"), phrase(manner.AT_TOP, "top")),
+        one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP}),
         build=lambda np, end: (np, end),
     ),
     LIST,
-    most=2,
+    most=3,
 )
 
 
@@ -66,7 +69,22 @@ def _tower(
     named = {end: np for np, end in ends or ()}
     if ends and len(named) < len(ends):
         return None
-    return TowerClause(things, upward, named.get("bottom"), named.get("top"), base)
+    return TowerClause(things, upward, base=base, **named)
+
+
+def _of_its_ends(base: Any, ends: Any) -> tuple[TowerClause, ...]:
+    """A tower of what is named, and one of all that are called so, where that is not all."""
+    nouns = [np.words[-1] for np, _ in ends if len(np.words) > 1]
+    if len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
+        return ()
+    full = [
+        (replace(np, words=(*np.words, nouns[0])) if nouns and len(np.words) == 1 else np, end)
+        for np, end in ends
+    ]
+    every = NounPhrase("all", (f"{nouns[0]}s",), text=f"all {nouns[0]}s") if nouns else None
+    wholes = [Things(tuple(np for np, _ in full)), *([Things((every,))] if every else [])]
+    found = (_tower(things, None, full, base) for things in wholes)
+    return tuple(tower for tower in found if tower is not None)
 
 
 _ON = silent(phrase(places.ONTO))
@@ -134,6 +152,18 @@ TOWER = either(
             if before is not None and after is not None
             else _tower(things, before if after is None else after, ends)
         ),
+    ),
+    variants(
+        sequence(
+            silent(phrase(verbs.BUILD)),
+            silent(phrase("a tower, a stack, a pile")),
+            optional(DESTINATIONS, ()),
+            OPTIONAL_COMMA,
+            WITH,
+            _ENDS,
+            build=lambda base, ends: (base, ends),
+        ),
+        lambda found: _of_its_ends(*found),
     ),
     sequence(
         silent(phrase(verbs.BUILD)),

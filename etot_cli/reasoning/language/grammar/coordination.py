@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    NUMBERS,
+    is_descriptive,
+)
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -18,11 +23,12 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
         adjectives = bool(item.words) and all(
             is_descriptive(word) or word in LEVELS for word in item.words
         )
-        if index and (*item.words, item.determiner)[0].isdigit():
+        said = (*item.words, item.determiner)[0]
+        number = str(NUMBERS.get(said, said))
+        if index and number.isdigit():
             # "Cubes 1, 2 and 4": the numbers of things, no counts of them.
             before = next((np.words for np in found[index - 1 :: -1] if len(np.words) > 1), ("",))
             if before[-1].isdigit() and len(item.words) < 2 and not item.modifiers:
-                number = (*item.words, item.determiner)[0]
                 item = replace(item, determiner="", words=(*before[:-1], number))
         if index and not item.determiner and item.words and first.determiner:
             item = replace(item, loose=True)

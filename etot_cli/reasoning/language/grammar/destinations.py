@@ -73,7 +73,7 @@ BESIDE = spanned(
             build=lambda np, relation: _beside(relation, np),
         ),
         sequence(
-            silent(phrase("on, to, at, near, by")),
+            silent(phrase("in, on, to, at, near, by")),
             noun_phrase,
             silent(phrase("'s")),
             _REGION_OF_IT,

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Result,
     Rule,
+    at_end,
     either,
     one_of,
     optional,
@@ -107,6 +108,12 @@ _contents = either(
         either(_INSIDE_IT, _UPON_IT),
         build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
     ),
+    sequence(
+        silent(phrase("where")),
+        noun_phrase,
+        silent(phrase("(is|are|stands|stand|lies|lie|sits|sit|belongs) [currently]")),
+        build=lambda np: Modifier(Prep.WITH, (np,)),
+    ),
     quiet(
         sequence(
             silent(optional(phrase("that, which"), None)),
@@ -164,11 +171,31 @@ _modifier = either(
     _contents,
     _matching,
     sequence(RELATIVE, _described, build=lambda modifier: modifier),
-    sequence(silent(phrase("whose (color|colour) is")), QUALITY, build=lambda modifier: modifier),
+    sequence(
+        silent(phrase("whose (color|colour) is")),
+        optional(phrase("not", True), False),
+        QUALITY,
+        build=lambda denied, modifier: replace(modifier, denied=denied),
+    ),
     sequence(
         silent(phrase("~comma which (is|are)")),
         either(PLAIN_MODIFIER, QUALITY),
         COMMA,
+        build=lambda modifier: modifier,
+    ),
+    sequence(
+        # "The lamp, the one on the left, …"
+        silent(phrase("~comma the (one|ones)")),
+        silent(optional(RELATIVE, None)),
+        _described,
+        either(COMMA, at_end),
+        build=lambda modifier: modifier,
+    ),
+    sequence(
+        silent(phrase("~comma the")),
+        QUALITY,
+        silent(phrase("one, ones")),
+        either(COMMA, at_end),
         build=lambda modifier: modifier,
     ),
     sequence(

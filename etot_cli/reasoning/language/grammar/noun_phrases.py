@@ -8,10 +8,10 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import (
     AND,
     COMMA,
-    EITHER,
     NOUN_WORD,
     OPTIONAL_COMMA,
     OR,
+    alternatives,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import (
@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
-    separated,
+    quiet,
     sequence,
     silent,
     some,
@@ -37,7 +37,16 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import nouns
-from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    NUMBERS,
+    THING_NOUNS,
+    basic_color,
+    is_descriptive,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 _NUMBER = sequence(
@@ -45,7 +54,11 @@ _NUMBER = sequence(
     silent(optional(phrase("of [the|these|those]"), None)),
     build=lambda number: number,
 )
-DETERMINER = either(phrase(", ".join(nouns.DETERMINERS)), _NUMBER)
+DETERMINER = either(
+    phrase(", ".join(nouns.DETERMINERS)),
+    _NUMBER,
+    sequence(phrase("the, these, those"), _NUMBER, build=lambda *words: " ".join(words)),
+)
 PRONOUN = phrase("it, them, they, this, that, these, those, its")
 NON = silent(phrase("non, not"))
 _MATCHING_ADJECTIVE = silent(phrase(nouns.MATCHING_ADJECTIVES))
@@ -81,6 +94,12 @@ def _negative(determiner: str, without: str, words: Any, modifiers: Any) -> Noun
 def _general(determiner: str, head: str, quality: Any, modifiers: Any) -> NounPhrase:
     modifiers = modifiers if quality is None else (quality, *modifiers)
     return NounPhrase(determiner, (head,), modifiers)
+
+
+def _where_it_is(words: tuple[str, ...], np: NounPhrase) -> NounPhrase | None:
+    """The place that something is in or on ("the same drawer as the pen")."""
+    vague = matches_any(words[-1], (*THING_NOUNS, "color", "colour", "place", "way", "side"))
+    return None if vague else NounPhrase("the", words, (Modifier(Prep.WITH, (np,), ("same",)),))
 
 
 def _any_of(determiner: str, first: str, more: Any, rest: Any, modifiers: Any) -> NounPhrase | None:
@@ -137,6 +156,15 @@ noun_phrase.define(
                 WORDS,
                 silent(phrase("of (its|their) own")),
                 build=lambda words: NounPhrase("a", ("different", *words)),
+            ),
+            quiet(
+                sequence(
+                    silent(phrase("[the] same")),
+                    WORDS,
+                    silent(phrase("as")),
+                    noun_phrase,
+                    build=_where_it_is,
+                )
             ),
             sequence(_FREE_CHOICE, WORDS, silent(phrase(nouns.AS_YOU_LIKE)), build=NounPhrase),
             sequence(
@@ -226,7 +254,11 @@ _COORDINATION = sequence(
     ),
     build=_listed,
 )
-exceptions.define(_COORDINATION)
+_COLORED_ONES = sequence(
+    word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS),
+    build=lambda color: (NounPhrase("all", (color, "ones"), text=color),),
+)
+exceptions.define(either(_COORDINATION, _COLORED_ONES))
 NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))
 
 
@@ -242,10 +274,6 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 THINGS = Rule(
     either(
         valued(NP_LIST, Things),
-        sequence(
-            optional(EITHER),
-            separated(noun_phrase, OR, most=6),
-            build=_one_of,
-        ),
+        sequence(alternatives(noun_phrase, 5), build=_one_of),
     )
 )

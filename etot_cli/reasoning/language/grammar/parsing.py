@@ -168,6 +168,11 @@ def either(*parsers: Parser) -> Parser:
     return lambda given, at: [item for parser in parsers for item in parser(given, at)]
 
 
+def at_end(given: Input, at: int) -> list[Result]:
+    """Nothing, where no words are left."""
+    return [(at, NOTHING)] if at == len(given.words) else []
+
+
 def optional(parser: Parser, default: Any = NOTHING) -> Parser:
     """What a parser finds, or nothing at all."""
     return lambda given, at: [*parser(given, at), (at, default)]

@@ -8,9 +8,15 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
-from etot_cli.reasoning.language.grammar.parsing import either, phrase, sequence, silent
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    silent,
+)
 from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Things
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 
 def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
@@ -22,7 +28,12 @@ _FORBIDDEN = either(
     sequence(phrase(verbs.DISTURB, Avoid.MOVE), THINGS, build=_avoid),
     sequence(phrase(verbs.PICK, Avoid.MOVE), THINGS, build=_avoid),
     sequence(phrase(verbs.OPEN, Avoid.OPEN), THINGS, build=_avoid),
-    sequence(phrase(verbs.CLOSE, Avoid.CLOSE), THINGS, build=_avoid),
+    sequence(
+        phrase(verbs.CLOSE, Avoid.CLOSE),
+        THINGS,
+        silent(optional(phrase(small_words.TRAILING_THEN), None)),
+        build=_avoid,
+    ),
     sequence(phrase(verbs.PUT, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),

@@ -211,6 +211,22 @@ _SO_THAT_IT_IS = sequence(
     DESTINATIONS,
     build=PutGroup,
 )
+_INSTEAD = sequence(
+    DESTINATIONS,
+    OPTIONAL_COMMA,
+    silent(phrase("but [rather|instead]")),
+    DESTINATIONS,
+    build=lambda out, where: (out, where),
+)
+
+
+def _elsewhere(
+    things: Things, out: tuple[Destination, ...], where: tuple[Destination, ...]
+) -> PutClause:
+    """Things that go to one place and not to another ("not in the box but on the tray")."""
+    return PutClause((PutGroup(things, where),), ruled_out=out)
+
+
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     valued(_ONES_THAT_GO, lambda group: PutClause((group,))),
@@ -252,6 +268,26 @@ PUT = either(
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
     sequence(silent(phrase(verbs.PUT)), PUT_GROUPS, EXTRAS, build=_put),
+    sequence(
+        # "Get the pen in the box" is rather about the pen that is there.
+        silent(phrase("get[ting]")),
+        PUT_GROUP,
+        build=lambda group: PutClause((group,), far_fetched=2),
+    ),
+    sequence(
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        silent(phrase("not")),
+        _INSTEAD,
+        build=lambda things, places: _elsewhere(things, *places),
+    ),
+    sequence(
+        silent(phrase(verbs.DO_NOT)),
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        _INSTEAD,
+        build=lambda things, places: _elsewhere(things, *places),
+    ),
     sequence(
         silent(phrase(verbs.PUT)),
         RESPECTIVE_GROUPS,

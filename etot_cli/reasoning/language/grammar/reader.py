@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.text import (
     QUESTION,
     Correction,
     corrected,
+    exchanged,
     normalized,
     sentences_of,
     spaced,
@@ -79,12 +80,13 @@ class Read:
     corrections: tuple[Correction, ...]
 
 
-def read(text: str, vocabulary: frozenset[str]) -> Read:
+def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read:
     """All sentences of an instruction.
 
     Args:
         text: the instruction, normalized.
         vocabulary: words of the scene's objects, normalized.
+        common: slips in the grammar's own words are put right, too; nothing else is worth it.
 
     Raises:
         UnreadableError: part of the text is not covered by the grammar.
@@ -111,11 +113,16 @@ def read(text: str, vocabulary: frozenset[str]) -> Read:
         before = ". ".join(parts[: len(sentences)])
         words = []
         for word in words_in(part):
-            meant = None if _is_known(word, vocabulary) else corrected(word, spelled)
+            known_one = _is_known(word, vocabulary)
+            meant = None if known_one else corrected(word, spelled)
+            if common and meant is None and not known_one:
+                meant = exchanged(word, known.ALL_WORDS) or corrected(word, known.ALL_WORDS)
             if meant is not None:
                 corrections[Correction(word, meant)] = None
             words.append(meant or word)
         sentences.append(_sentence(tuple(words), before, vocabulary))
+    if common and not corrections:
+        raise UnreadableError(text[:40], "", "no word of it is misspelt")
     return Read(tuple(sentences), tuple(corrections))
 
 

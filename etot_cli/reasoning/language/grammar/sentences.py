@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import exceptions
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
@@ -25,7 +25,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
-from etot_cli.reasoning.language.grammar.states import ENSURE, IF_NOT_SO, MOVE, states
+from etot_cli.reasoning.language.grammar.states import (
+    ENSURE,
+    IF_NOT_SO,
+    MOVE,
+    OPEN_OR_CLOSED,
+    states,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -37,6 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     ReorientClause,
     Spoken,
+    State,
     Things,
     pronouns,
 )
@@ -220,6 +227,9 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
 def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
     done = first
     for joint, clause in more:
+        last, again = done[-1].clause, clause[0].clause
+        if isinstance(last, PutClause) and last.turns.first and isinstance(again, AgainClause):
+            clause = (replace(clause[0], clause=replace(again, far_fetched=1)), *clause[1:])
         if joint == "until" and isinstance(done[-1].clause, MoveClause):
             # What is opened until it is open is opened; anything else would wait.
             waits = (item.clause for item in clause if isinstance(item.clause, EnsureClause))
@@ -254,6 +264,11 @@ _PLACED = located(
     either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)),
     lambda at, clause: (Spoken(clause, at),),
 )
+_LEFT_SO = located(
+    sequence(NP_LIST, OPEN_OR_CLOSED, build=lambda nps, word: State(nps, word=word)),
+    lambda at, state: (Spoken(EnsureClause((state,)), at),),
+)
+"""How something is to be in the end, without a verb ("drawer shut")."""
 _TOPIC = located(
     sequence(
         silent(optional(phrase(small_words.LOOK_FOR), None)),
@@ -318,6 +333,13 @@ _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA, build=lambda: ())
 WHOLE = either(
     sequence(SENTENCE, silent(_END), silent(optional(phrase(QUESTION), None)), build=lambda r: r),
     sequence(EMPTY_WORDS, _PLACED, some(_JOINED, most=12), silent(_END), build=_verbless),
+    sequence(
+        EMPTY_WORDS,
+        optional(sequence(_PLACED, LIST, build=lambda put: put), ()),
+        _LEFT_SO,
+        silent(_END),
+        build=lambda put, left: (*put, *left),
+    ),
 )
 
 

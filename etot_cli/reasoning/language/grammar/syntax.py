@@ -123,12 +123,13 @@ class PutGroup:
 
 @dataclass(frozen=True, slots=True)
 class Turns:
-    """Which of several things come first and last, or from which side to which they are taken
-    ("left right").
+    """Which of several things come first and last, or all of them in order, or from which side to
+    which they are taken ("left right").
     """
 
     first: tuple[NounPhrase, ...] = ()
     last: tuple[NounPhrase, ...] = ()
+    all: tuple[NounPhrase, ...] = ()
     sweep: str = ""
 
 
@@ -146,8 +147,8 @@ class PutClause:
     """Each goes to a place of its own colour."""
     one_each: bool = False
     """Every place gets one."""
-    itself: bool = False
-    """The thing itself goes, in words that may mean what is in or on it ("clear X into Y")."""
+    far_fetched: int = 0
+    """By how much the words rather mean something else ("clear X into Y" what is in X)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,12 +192,13 @@ class ReorientClause:
 @dataclass(frozen=True, slots=True)
 class TowerClause:
     """Things upon each other. ``upward``: they are named from the bottom up (None: not said);
-    ``bottom``, ``top``: the ones that "with the red one at the bottom" names.
+    ``bottom``, ``middle``, ``top``: the ones that "with the red one at the bottom" names.
     """
 
     things: Things
     upward: bool | None = None
     bottom: NounPhrase | None = None
+    middle: NounPhrase | None = None
     top: NounPhrase | None = None
     base: tuple[Destination, ...] = ()
     """What the bottom one goes on, where it is not to stay."""
@@ -227,6 +229,8 @@ class AgainClause:
     trailing: bool = False
     destinations: tuple[Destination, ...] = ()
     """Where the same things go next ("…, then on the tray"); there are no ``things`` then."""
+    far_fetched: int = 0
+    """By how much the words rather go on with an order ("red first, then blue")."""
 
 
 class Avoid(StrEnum):
@@ -304,5 +308,5 @@ def reading_cost(node: object) -> int:
     if isinstance(node, tuple):
         return sum(reading_cost(item) for item in node)
     fields = getattr(node, "__dataclass_fields__", {})
-    itself = isinstance(node, PutClause) and node.itself  # as far-fetched as its contents
-    return itself + sum(reading_cost(getattr(node, name)) for name in fields)
+    own: int = getattr(node, "far_fetched", 0)
+    return own + sum(reading_cost(getattr(node, name)) for name in fields)

@@ -121,7 +121,7 @@ EMPTY = either(
         THINGS,
         silent(optional(phrase("away, up"), None)),
         DESTINATIONS,
-        build=lambda things, where: PutClause((PutGroup(things, where),), itself=True),
+        build=lambda things, where: PutClause((PutGroup(things, where),), far_fetched=1),
     ),
     sequence(
         silent(phrase(verbs.CLEAR)),

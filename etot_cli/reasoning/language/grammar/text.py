@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
 """Longer sentences are refused: the number of readings grows steeply with length."""
@@ -54,6 +56,8 @@ def normalized(text: str) -> str:
     text = re.sub(rf"(?<=\w)[{_HYPHENS}]most\b", "most", text)
     text = re.sub(rf"\b(left|right)[{_HYPHENS}]hand(?:ed)?\b", r"\1", text)
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
+    text = re.sub(rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]]), text)
+    text = re.sub(r"\bnothing but\b", "only", text)
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
@@ -108,6 +112,13 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     least = min(near.values(), default=allowed + 1)
     close = [item for item, count in near.items() if count == least]
     return close[0] if len(close) == 1 and least <= allowed else None
+
+
+def exchanged(word: str, known: Iterable[str]) -> str | None:
+    """The one known word of the same letters ("teh" for "the"); None when there is none."""
+    letters = sorted(word)
+    found = [item for item in known if len(word) > 2 and sorted(item) == letters]
+    return found[0] if len(found) == 1 else None
 
 
 def slips(first: str, second: str) -> int:

@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
+    optional,
     phrase,
     separated,
     sequence,
     silent,
+    some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Turns
-from etot_cli.reasoning.language.words import manner
+from etot_cli.reasoning.language.words import manner, small_words
 
 
 def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -33,7 +35,25 @@ _LAST_OF_THEM = sequence(
     separated(noun_phrase, LIST, most=2), silent(phrase("last")), build=_named_ones
 )
 SWEEP = one_of(manner.SWEEPS)
+_THEN = silent(either(LIST, sequence(OPTIONAL_COMMA, phrase(small_words.THEN_JOINTS), build=tuple)))
+_ONE_BY_ONE = either(
+    sequence(
+        silent(phrase("in the [following] order [of]")),
+        OPTIONAL_COMMA,
+        noun_phrase,
+        some(sequence(_THEN, noun_phrase, build=lambda np: np), least=1, most=5),
+        build=lambda first, more: (first, *more),
+    ),
+    sequence(
+        noun_phrase,
+        silent(phrase("first")),
+        some(sequence(_THEN, noun_phrase, build=lambda np: np), least=1, most=5),
+        silent(optional(phrase("last"), None)),
+        build=lambda first, more: _named_ones((first, *more)),
+    ),
+)
 TURN = either(
+    valued(_ONE_BY_ONE, lambda nps: ("all", nps)),
     valued(_FIRST_OF_THEM, lambda nps: ("first", nps)),
     valued(_LAST_OF_THEM, lambda nps: ("last", nps)),
     valued(SWEEP, lambda text: ("sweep", text)),
@@ -42,6 +62,8 @@ TURN = either(
 
 def turns_of(said: Sequence[Any]) -> Turns | None:
     """What was said of turns among other things, None where it was said twice."""
-    found = dict(item for item in said if item[0] in ("first", "last", "sweep"))
-    twice = sum(item[0] in found for item in said) > len(found)
-    return None if twice or ("sweep" in found and len(found) > 1) else Turns(**found)
+    found = [item for item in said if item[0] in ("first", "last", "sweep", "all")]
+    ends = {name for name, _ in found} <= {"first", "last"}
+    if len(dict(found)) < len(found) or not (ends or len(found) == 1):
+        return None
+    return Turns(**dict(found))

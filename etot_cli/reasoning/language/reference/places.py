@@ -203,7 +203,7 @@ class Places:
         part = all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside)
         if len(things) > 1 or (part and stacked and things[0].board is None):
             raise ReferenceProblem(text, "say which one of them", 2)
-        near = tuple(self._near(item, themes) for item in destination.beside)
+        near = tuple(near for item in destination.beside for near in self._near(item, themes))
         return [replace(place, beside=near) for place in surfaces]
 
     def _beside_only(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place:
@@ -216,7 +216,7 @@ class Places:
                 (surface,) = self._phrases.refer(phrase, Role.SURFACE, themes)
         if surface is None and (len(regions) == len(beside)):
             surface = self.on_the_desk().where
-        near = tuple(self._near(item, themes) for item in beside)
+        near = tuple(near for item in beside for near in self._near(item, themes))
         return Place(Relation.ON, surface, near)
 
     def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
@@ -235,10 +235,10 @@ class Places:
         if not fixed and not part:
             raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
 
-    def _near(self, beside: Beside, themes: Sequence[int]) -> Near:
-        """A relation to the things that its phrases mean."""
+    def _near(self, beside: Beside, themes: Sequence[int]) -> list[Near]:
+        """A relation to the things that its phrases mean; "next to the two cups" is to each."""
         if beside.relation.landmarks == 0:
-            return Near(beside.relation)
+            return [Near(beside.relation)]
         landmarks: list[int] = []
         for phrase in beside.phrases:
             if is_robot(phrase):
@@ -247,11 +247,14 @@ class Places:
             flat = all(self._is_support(t) for i in landmarks for t in self.discourse.things(i))
             if flat and beside.relation in _OPPOSITE and beside.text.startswith(("on ", "at ")):
                 self.discourse.notes.append(f"{beside.text!r}: beside it, not on it")
+        each = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR, Nearby.AWAY)
+        if each and len(landmarks) == 2:
+            return [Near(beside.relation, (landmark,)) for landmark in landmarks]
         if len(landmarks) != beside.relation.landmarks:
             text = " and ".join(phrase.text for phrase in beside.phrases)
             why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
             raise ReferenceProblem(text, why, 2)
-        return Near(beside.relation, tuple(landmarks))
+        return [Near(beside.relation, tuple(landmarks))]
 
     def _landmark(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> list[int]:
         """Referents of a landmark, each a single thing; "the two bowls" gives two."""

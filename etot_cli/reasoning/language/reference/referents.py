@@ -19,7 +19,12 @@ from etot_cli.reasoning.language.reference.narrowing import (
     spoken_part,
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
-from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, leaves_noun_out
+from etot_cli.reasoning.language.reference.usual_form import (
+    chooses,
+    is_robot,
+    leaves_noun_out,
+    usual_form,
+)
 from etot_cli.reasoning.language.words.lexicon import (
     ORDINALS,
     THING_NOUNS,
@@ -33,6 +38,9 @@ from etot_cli.world.state import SceneState
 
 _OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
 """What follows the last of several things and is said of that one, or is dealt with elsewhere."""
+
+_HOLDING = frozenset({Prep.WITH, Prep.CONTAINING, Prep.BEARING})
+"""What tells a thing by what is in or on it."""
 
 
 class Phrases:
@@ -137,6 +145,10 @@ class Phrases:
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
+        holder = self._where_it_went(phrase, role, excluded)
+        if holder is not None:
+            self.discourse.mention_again(holder, role)
+            return (holder,)
         resolved = self._resolved(phrase, role)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
         several = resolved.every and not whole
@@ -178,6 +190,27 @@ class Phrases:
                 return mention.referent
         return None
 
+    def _where_it_went(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int | None:
+        """What "the box with the pen in it" means once the pen has been put into it; None where
+        nothing has been moved that tells it.
+        """
+        inner = [i for item in phrase.modifiers if item.prep in _HOLDING for i in item.phrases]
+        for landmark in inner:
+            meant: set[Thing] = set()
+            if landmark.words and not quantity_of(landmark.determiner).other:
+                with suppress(ReferenceProblem):
+                    options = self._resolved(landmark, Role.ANY).options
+                    meant = {thing for option in options for thing in option}
+            for theme in self.discourse.put:
+                if meant & set(self.discourse.things(theme)):
+                    around = self.discourse.put_into.get(theme)
+                    plain = replace(phrase, modifiers=())
+                    if around is None or around != self.spoken_of(plain, role, excluded):
+                        why = f"{landmark.text} has been put elsewhere by then"
+                        raise ReferenceProblem(phrase.text, why, 3)
+                    return around
+        return None
+
     def _the_same(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int:
         found = self.spoken_of(phrase, role, excluded)
         if found is None:
@@ -194,13 +227,20 @@ class Phrases:
         """Things that were only mentioned to tell others by can be spoken of later on."""
         owner = () if phrase.owner is None else (phrase.owner,)
         named = [item for modifier in phrase.modifiers for item in modifier.phrases]
+        noun = usual_form(phrase).words[-1:]
         for landmark in (*owner, *named):
             if landmark.determiner == "one":
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
                 if quantity_of(landmark.determiner).other:
                     continue
-                resolved = self._resolver.resolve(landmark, Role.ANY, pronoun=self._pronoun_things)
+                elliptic = landmark.words[-1:] in (("one",), ("ones",))
+                resolved = self._resolver.resolve(
+                    landmark,
+                    Role.ANY,
+                    noun=noun[0] if elliptic and noun else None,
+                    pronoun=self._pronoun_things,
+                )
                 self.discourse.add(resolved, landmark.text, Role.ANY)
 
     def _resolved(self, phrase: NounPhrase, role: Role) -> Resolved:

@@ -222,8 +222,8 @@ def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thi
     def measure(thing: Thing) -> float:
         info = scene.infos[thing.name]
         x, y, z = info.size
-        values = {"volume": x * y * z, "height": z, "width": max(x, y), "mass": info.mass}
-        return -sign * values[quantity]
+        values = {"volume": x * y * z, "height": z, "width": max(x, y), "girth": min(x, y, z)}
+        return -sign * (info.mass if quantity == "mass" else values[quantity])
 
     return measure
 

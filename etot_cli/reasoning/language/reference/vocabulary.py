@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
+from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.text import normalized
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     KIND_GROUPS,
     KIND_NOUNS,
+    NUMBERS,
     THING_NOUNS,
     basic_color,
     is_plural_of,
@@ -65,6 +67,10 @@ class Entry:
     def is_called(self, words: Sequence[str]) -> bool:
         """Whether words are its whole name or label."""
         return tuple(words) in self.called
+
+    def numbered(self) -> list[str]:
+        """The words before its numbers."""
+        return [word for words in self.called for word, n in pairwise(words) if n.isdigit()]
 
     def grade(self, noun: str) -> int | None:
         """How well a noun fits, None where it does not."""
@@ -135,25 +141,21 @@ class Vocabulary:
 
     def joined(self, text: str) -> str:
         """Normalized text in which names and labels that no noun phrase could be ("mug a", "carton
-        of milk", "yellow and white mug") stand as one word.
+        of milk", "yellow and white mug") stand as one word each, in either number.
         """
-        for words, name in sorted(self._odd_names(), key=lambda item: -len(item[0])):
-            spaced = r"[ ,]*\s".join(re.escape(word) for word in words)
-            text = re.sub(rf"(?<!\w){spaced}(?!\w)", name, text)
+        for before in {word for entry in self.objects for word in entry.numbered()}:
+            # "Box two" where boxes have numbers; "the box one by one" is none of them.
+            number = rf"\b({re.escape(before)}) ({'|'.join(NUMBERS)})\b"
+            no_count = r"(?! (?:by|at|after|of|per|(?:in )?each)\b)"
+            text = re.sub(number + no_count, lambda said: f"{said[1]} {NUMBERS[said[2]]}", text)
+        odd = {words for entry in self.objects for words in entry.called if _is_odd(words)}
+        for words in sorted(odd, key=lambda words: (-len(words), words)):
+            cut = _cut_of(words) or len(words)
+            plural = "(?:es|s)?" if cut < len(words) else ""
+            spelled = [re.escape(word) + plural * (i == cut - 1) for i, word in enumerate(words)]
+            pattern = r"(?<!\w)" + r"[ ,]*\s".join(spelled) + r"(?!\w)"
+            text = re.sub(pattern, lambda found: re.sub(r"[ ,]+", "_", found[0]), text)
         return text
-
-    def _odd_names(self) -> list[tuple[tuple[str, ...], str]]:
-        """Names of several words, at least one of which is no noun or adjective; each as one word
-        that means the object.
-        """
-        found = []
-        for entry in self.objects:
-            for words in entry.called:
-                odd = any(word in GRAMMAR_WORDS or len(word) == 1 for word in words)
-                unique = sum(words in other.called for other in self.objects) == 1
-                if len(words) > 1 and odd and unique:
-                    found.append((words, entry.exact[0]))
-        return found
 
     def is_known(self, word: str) -> bool:
         """Whether some object of the scene is called so, at least in part."""
@@ -214,10 +216,20 @@ _LINKS = ("of", "with", "for", "in", "and", "on", "the", "a")
 """Words inside a label after which no noun of its own stands ("carton of milk" is a carton)."""
 
 
+def _is_odd(words: Sequence[str]) -> bool:
+    """Whether one of several words of a name is no noun or adjective."""
+    odd = (word in GRAMMAR_WORDS or re.fullmatch(r"\D", word) for word in words)
+    return len(words) > 1 and any(odd)
+
+
+def _cut_of(words: Sequence[str]) -> int | None:
+    """Where what a thing is of, with or for begins."""
+    return next((i for i, word in enumerate(words) if i and word in ("of", "with", "for")), None)
+
+
 def _head_of(words: Sequence[str]) -> str | None:
     """The noun of a label's words."""
-    cut = next((i for i, word in enumerate(words) if i and word in ("of", "with", "for")), None)
-    nouns = words[:cut]
+    nouns = words[: _cut_of(words)]
     return nouns[-1] if nouns else None
 
 
@@ -238,13 +250,14 @@ def _object_entry(info: ObjectInfo) -> Entry:
         head = _head_of(nouns)
         heads.update({} if head is None else {head: None})
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
+    whole = dict.fromkeys("_".join(words) for words in called if _is_odd(words))
     generic = _kind_nouns(info.kind, heads)
     if info.container or any(part.container for part in info.parts):
         generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
     return Entry(
         thing=Thing(info.name),
-        own=tuple(own),
-        heads=tuple(heads),
+        own=(*own, *whole),
+        heads=(*heads, *whole),
         generic=generic,
         numbers=tuple(numbers),
         exact=(info.name.casefold(),),

@@ -5,6 +5,7 @@ Words for particular objects come from the scene itself, from each object's name
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import lru_cache
 
@@ -129,8 +130,12 @@ SIZES = {
     **dict.fromkeys(("small", "smaller", "smallest", "little", "tiny"), ("volume", -1)),
     **dict.fromkeys(("tall", "taller", "tallest", "high", "higher"), ("height", 1)),
     **dict.fromkeys(("short", "shorter", "shortest", "low", "flat"), ("height", -1)),
-    **dict.fromkeys(("wide", "wider", "widest", "broad"), ("width", 1)),
-    **dict.fromkeys(("narrow", "narrower", "narrowest", "slim", "thin"), ("width", -1)),
+    **dict.fromkeys(("wide", "wider", "widest", "broad", "broader", "broadest"), ("width", 1)),
+    **dict.fromkeys(("narrow", "narrower", "narrowest"), ("width", -1)),
+    **dict.fromkeys(("thick", "thicker", "thickest", "fat", "fatter", "fattest"), ("girth", 1)),
+    **dict.fromkeys(
+        ("thin", "thinner", "thinnest", "slim", "slimmer", "slimmest", "slender"), ("girth", -1)
+    ),
     **dict.fromkeys(("long", "longer", "longest"), ("width", 1)),
     **dict.fromkeys(("heavy", "heavier", "heaviest"), ("mass", 1)),
     **dict.fromkeys(("lighter", "lightest"), ("mass", -1)),
@@ -174,6 +179,8 @@ def singular(word: str) -> str:
     """The singular of a regular noun; other words come back as they are."""
     if word in _IRREGULAR:
         return _IRREGULAR[word]
+    if named := re.fullmatch("(.+?)(_(?:of|with|for)_.+)", word):
+        return singular(named[1]) + named[2]
     if len(word) > 4 and word.endswith("ies"):
         return word[:-3] + "y"
     if len(word) > 4 and word.endswith(("shes", "ches", "xes", "sses", "zes")):

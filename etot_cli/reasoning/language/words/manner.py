@@ -32,6 +32,7 @@ TOP_DOWN = """
     from (the top|top) to bottom, from top to the bottom
 """
 AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base"
+AT_MIDDLE = "in the (middle|centre|center), in between"
 AT_TOP = "at the top, on [the] top, uppermost, highest"
 AS_IT_IS = """
     where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,

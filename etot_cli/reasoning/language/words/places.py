@@ -100,55 +100,30 @@ ITS_SIDE: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) its left [side|hand side]",
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
 }
+_AT = "on|at|to|in|onto|towards|near|along"
+_ENDS = "side|end|half|part|edge|border"
+_QUARTERS = {
+    (Nearby.AT_LEFT, Nearby.AT_FRONT): ("front left|left front", "near left"),
+    (Nearby.AT_RIGHT, Nearby.AT_FRONT): ("front right|right front", "near right"),
+    (Nearby.AT_LEFT, Nearby.AT_BACK): ("back left|left back|rear left", "far left"),
+    (Nearby.AT_RIGHT, Nearby.AT_BACK): ("back right|right back|rear right", "far right"),
+}
+"""How they are called, and how their corners are called besides: "far left" alone is a side."""
 REGIONS: dict[tuple[Nearby, ...], str] = {
-    (
-        Nearby.AT_LEFT,
-    ): "(on|at|to|in|onto|towards) the left (side|end|half|part|edge|border), (on|at) the left",
-    (Nearby.AT_RIGHT,): (
-        "(on|at|to|in|onto|towards) the right (side|end|half|part|edge|border), (on|at) the right"
-    ),
-    (Nearby.AT_FRONT,): ("(on|at|to|in|onto|towards) the front [side|end|half|part|edge|border]"),
-    (Nearby.AT_BACK,): (
-        "(on|at|to|in|onto|towards) the (back|rear) [side|end|half|part|edge|border]"
-    ),
+    (Nearby.AT_LEFT,): f"({_AT}) the [far] left ({_ENDS}), (on|at) the [far] left",
+    (Nearby.AT_RIGHT,): f"({_AT}) the [far] right ({_ENDS}), (on|at) the [far] right",
+    (Nearby.AT_FRONT,): f"({_AT}) the front [{_ENDS}]",
+    (Nearby.AT_BACK,): f"({_AT}) the (back|rear) [{_ENDS}]",
     (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) the (middle|centre|center)",
     (Nearby.AT_EDGE,): "(at|on|near|to|by) (the|an) (edge|border|rim)",
     (Nearby.AT_CORNER,): "(in|at|into|to|on) (the|a) corner",
-    (
-        Nearby.AT_LEFT,
-        Nearby.AT_FRONT,
-    ): "(in|at|into|to|on) the (front left|left front|near left) [part|quarter|area]",
-    (
-        Nearby.AT_LEFT,
-        Nearby.AT_FRONT,
-        Nearby.AT_CORNER,
-    ): "(in|at|into|to|on) the (front left|left front|near left) corner",
-    (
-        Nearby.AT_RIGHT,
-        Nearby.AT_FRONT,
-    ): "(in|at|into|to|on) the (front right|right front|near right) [part|quarter|area]",
-    (
-        Nearby.AT_RIGHT,
-        Nearby.AT_FRONT,
-        Nearby.AT_CORNER,
-    ): "(in|at|into|to|on) the (front right|right front|near right) corner",
-    (
-        Nearby.AT_LEFT,
-        Nearby.AT_BACK,
-    ): "(in|at|into|to|on) the (back left|left back|rear left|far left) [part|quarter|area]",
-    (
-        Nearby.AT_LEFT,
-        Nearby.AT_BACK,
-        Nearby.AT_CORNER,
-    ): "(in|at|into|to|on) the (back left|left back|rear left|far left) corner",
-    (
-        Nearby.AT_RIGHT,
-        Nearby.AT_BACK,
-    ): "(in|at|into|to|on) the (back right|right back|rear right|far right) [part|quarter|area]",
-    (
-        Nearby.AT_RIGHT,
-        Nearby.AT_BACK,
-        Nearby.AT_CORNER,
-    ): "(in|at|into|to|on) the (back right|right back|rear right|far right) corner",
+    **{
+        (*sides, *corner): f"(in|at|into|to|on) the ({said}) {named}"
+        for sides, (plain, besides) in _QUARTERS.items()
+        for corner, said, named in (
+            ((), plain, "[part|quarter|area]"),
+            ((Nearby.AT_CORNER,), f"{plain}|{besides}", "corner"),
+        )
+    },
 }
 BUT_NOT = "but not, and not, not"
