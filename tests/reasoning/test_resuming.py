@@ -66,6 +66,8 @@ def arrangement(state: SceneState) -> dict[str, object]:
         "Put the ball nearest to the plate into the red mug.",
         "Put the largest mug on the plate.",
         "Pick up the right ball.",
+        # Out of something that is closed or moved before it is put elsewhere.
+        "Take the white mug out of the cupboard, close the cupboard and put the mug on the plate.",
         # Several.
         "Put two of the balls on the plate.",
         "Put all balls on the desk into the lower drawer.",

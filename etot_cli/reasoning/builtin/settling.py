@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import (
     Goal,
+    Open,
     Pick,
+    Place,
     Put,
+    Referent,
+    Relation,
     Step,
+    Thing,
     referents_of,
 )
-from etot_cli.reasoning.builtin.relations import is_on
+from etot_cli.reasoning.builtin.relations import bearers, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.world.state import DESK, SceneState
+
+_ON_THE_DESK = Referent(((Thing(DESK),),), text=DESK)
 
 
 def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
@@ -36,13 +43,18 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
     for index, step in enumerate(goal.steps):
         later = goal.steps[index + 1 :]
         if isinstance(step, Pick) and _is_moved(goal, step.what, later):
+            if _must_be_out(goal, step.what, later, scene):
+                desk = len(goal.referents)
+                goal = replace(goal, referents=(*goal.referents, _ON_THE_DESK))
+                place = Place(Relation.ON, desk)
+                steps.append(Put((step.what,), (place,), poses=step.poses, removal=True))
             continue
         if isinstance(step, Put) and step.removal:
-            kept = tuple(i for i in step.what if not any(_moves(other, i) for other in later))
-            if not kept:
-                continue
-            _check_removal(goal, kept, scene)
-            steps.append(replace(step, what=kept))
+            last = [i for i in step.what if not any(_moves(other, i) for other in later)]
+            _check_removal(goal, last, scene)
+            kept = tuple(i for i in step.what if i in last or _must_be_out(goal, i, later, scene))
+            if kept:
+                steps.append(replace(step, what=kept))
             continue
         if isinstance(step, Put):
             steps.append(_with_poses(step, goal.steps[:index]))
@@ -56,6 +68,22 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
                 text, "turning something is no skill of its own; say where it is to go", 2
             )
     return replace(goal, steps=tuple(steps))
+
+
+def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneState) -> bool:
+    """Whether what it lies in or on is moved, closed or filled before it goes elsewhere itself."""
+    names = {t.name for option in goal.referents[referent].options for t in option}
+    around = set[str]().union(*(bearers(scene, name) for name in names if name in scene.states))
+    for step in later:
+        if isinstance(step, Put) and names & _named(goal, step.what):
+            return False
+        if not isinstance(step, Open) and around & _named(goal, referents_of(step)):
+            return True
+    return False
+
+
+def _named(goal: Goal, referents: Iterable[int]) -> set[str]:
+    return {t.name for i in referents for option in goal.referents[i].options for t in option}
 
 
 def _is_moved(goal: Goal, referent: int, later: Sequence[Step]) -> bool:

@@ -308,5 +308,5 @@ def reading_cost(node: object) -> int:
     if isinstance(node, tuple):
         return sum(reading_cost(item) for item in node)
     fields = getattr(node, "__dataclass_fields__", {})
-    own: int = getattr(node, "far_fetched", 0)
-    return own + sum(reading_cost(getattr(node, name)) for name in fields)
+    cost: int = getattr(node, "far_fetched", 0)
+    return cost + sum(reading_cost(getattr(node, name)) for name in fields)
