@@ -209,23 +209,22 @@ def wood_grain(seed: int) -> NDArray[np.uint8]:
     """Planks with a grain, gray with a hint of warmth, (n, n, 3); colours come from the geom."""
     draw = np.random.default_rng(seed)
     size = TEXTURE_PX
-    rows, columns = np.mgrid[0:size, 0:size] / size
+    rows, columns = np.arange(size)[:, None] / size, np.arange(size) / size
     image = np.zeros((size, size))
     planks = 5
+    on_plank = (rows[:, 0] * planks).astype(int)
     for plank in range(planks):
-        inside = (rows * planks).astype(int) == plank
         phase, bend, tone = draw.uniform(0, 6), draw.uniform(0.6, 1.4), draw.uniform(-0.03, 0.03)
         wave = 0.05 * np.sin(2 * np.pi * (bend * columns + phase))
-        across = rows * planks % 1
+        across = rows[on_plank == plank] * planks % 1
         broad = np.sin(2 * np.pi * (1.3 * across + 2.2 * wave * planks + phase))
         rings = np.sin(2 * np.pi * (4.5 * across**1.5 + 3.0 * wave * planks + phase))
-        image[inside] = (0.88 + tone + 0.02 * broad + 0.018 * rings)[inside]
+        image[on_plank == plank] = 0.88 + tone + 0.02 * broad + 0.018 * rings
     # Fibres: every row its own shade, changing slowly along the plank.
     knots = draw.normal(0, 1, (size, 9))
     where = np.linspace(0, 8, size)
     image += 0.016 * np.stack([np.interp(where, np.arange(9), row) for row in knots])
-    gap = (rows * planks % 1) < 0.012
-    image[gap] -= 0.16
+    image[(rows[:, 0] * planks % 1) < 0.012] -= 0.16
     warm = np.stack([image, image * 0.975, image * 0.94], axis=-1)
     return np.asarray(np.clip(warm, 0, 1) * 255, dtype=np.uint8)
 
