@@ -145,6 +145,7 @@ def test_every_kind_of_cause_and_every_field_of_a_report_is_told() -> None:
             assert re.search(rf"`{told}[`.]", text), f"{model.__name__} has {told}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
 def test_the_output_that_is_shown_is_that_of_today(
     page: str, tmp_path_factory: pytest.TempPathFactory
