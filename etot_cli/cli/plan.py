@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from enum import StrEnum
 from math import isnan
@@ -156,6 +155,7 @@ def plan(
             check_place(file)
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
+    from etot_cli.world.workers import cores
 
     heed()
 
@@ -165,7 +165,7 @@ def plan(
         reasoner=reasoner.value,
         vary=vary,
         record=html,
-        jobs=jobs or _cores(),
+        jobs=jobs or min(MAX_JOBS, cores()),
         worlds=worlds,
         look=look,
         without=frozenset(without or ()),
@@ -196,10 +196,3 @@ def plan(
     if code == NO and report.statistics.limit == "service":
         raise ServiceError(report.stopped)
     return code
-
-
-def _cores() -> int:
-    """Processor cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return min(MAX_JOBS, len(os.sched_getaffinity(0)))
-    return min(MAX_JOBS, os.cpu_count() or 1)

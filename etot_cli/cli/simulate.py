@@ -110,9 +110,10 @@ def simulate(
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
-    from etot_cli.commands.pages import cores, write_simulate_page
+    from etot_cli.commands.pages import write_simulate_page
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
+    from etot_cli.world.workers import cores
 
     heed()
 

@@ -17,7 +17,6 @@ from etot_cli.commands.pages import (
     PAGE_NAME,
     Wanted,
     coarse_first,
-    cores,
     take_pictures,
 )
 from etot_cli.commands.render import rendering
@@ -33,6 +32,7 @@ from etot_cli.world.configurations import states_of
 from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
 from etot_cli.world.state import ObjectState, SceneState
 from etot_cli.world.studio import Progress, Shot, alike
+from etot_cli.world.workers import cores
 
 if TYPE_CHECKING:
     from etot_cli.world.captions import Tone

@@ -6,7 +6,6 @@ command's answer: without OpenGL it shows drawn views from above, and says what 
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -33,6 +32,7 @@ from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.state import RolloutRecord
 from etot_cli.world.studio import Progress, Shot, Studio, alike, take
+from etot_cli.world.workers import cores
 
 PAGE_NAME = "report.html"
 PAGE_PICTURES_BYTES = 6_500_000
@@ -266,10 +266,3 @@ def page_studio(scene: Scene, framed: NDArray[Any], count: int) -> Studio:
     return Studio(
         scene, framed, width, int(width / RATIO) // 2 * 2, samples, encoding="webp", quality=QUALITY
     )
-
-
-def cores() -> int:
-    """Processor cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -77,15 +77,6 @@ def check_robot_is_free(world: World, data: mujoco.MjData) -> None:
             )
 
 
-def place_object(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
-    """Writes the pose that ``spec`` gives a free object, among the others as they now stand.
-
-    Raises:
-        WorldError: it does not fit there.
-    """
-    _place(world, data, name, spec)
-
-
 def settle_objects(world: World, data: mujoco.MjData, seconds: float) -> None:
     """Lets the objects come to rest for so long [s], while the arm stands still where it is."""
     joints = world.robot.qpos
@@ -158,7 +149,12 @@ def _supports_first(world: World, names: list[str]) -> list[str]:
     return ordered
 
 
-def _place(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
+def place_object(world: World, data: mujoco.MjData, name: str, spec: ObjectBase) -> None:
+    """Writes the pose that ``spec`` gives a free object, among the others as they now stand.
+
+    Raises:
+        WorldError: it does not fit there.
+    """
     pose = data.joint(name).qpos
     pose[3:] = resting_quaternion(spec)
     if spec.at is not None and len(spec.at) == 3:

@@ -33,6 +33,13 @@ IDLE_DEATHS = 4
 Result = TypeVar("Result")
 
 
+def cores() -> int:
+    """Processor cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 class WorkerLostError(Exception):
     """The process that worked on a task ended without a result; ``str(error)`` says how."""
 

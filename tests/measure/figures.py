@@ -12,13 +12,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from etot_cli.commands.pages import cores
 from etot_cli.commands.render import takes
 from etot_cli.commands.simulate import SimulateOptions, Simulation, run_simulate
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.specs.load import load_task
 from etot_cli.world.film import Take, key_moments
 from etot_cli.world.studio import Shot, Studio, take
+from etot_cli.world.workers import cores
 from tests.measure.expectations import NAIVE_PLANS, TASKS
 
 ROOT = Path(__file__).parents[2]

@@ -14,6 +14,11 @@ from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.tree_report import NodeModel
 
 NO_FRAMES: Sequence[Frame] = ()
+TOLD = {
+    "id", "parent", "action", "safe", "origin", "status", "changes", "moved", "contacts",
+    "worlds_alive", "simulated_s", "wall_s",
+}  # fmt: skip
+"""Of a node, by its names in the report."""
 
 
 def plan_page(report: PlanReport, frames: Frames, pictures: Store, notice: str = "") -> str:
@@ -88,19 +93,11 @@ def _card(node: NodeModel, frames: Frames) -> dict[str, Any]:
 def _node(node: NodeModel, frames: Sequence[Frame], report: PlanReport) -> dict[str, Any]:
     notes = report.vlm.notes if report.vlm is not None else []
     return {
-        "id": node.id,
-        "parent": node.parent,
-        "action": node.action,
-        "safe": node.safe,
-        "origin": node.origin,
-        "status": node.status,
+        **node.model_dump(include=TOLD),
         "kind": node.cause.kind.value if node.cause else "",
         "cause": node.cause.text if node.cause else "",
         "time": node.cause.time_s if node.cause else None,
-        "changes": node.changes,
         "frames": [{"key": frame.key, "caption": frame.caption} for frame in frames],
-        "moved": [item.model_dump() for item in node.moved],
-        "contacts": [item.model_dump() for item in node.contacts],
         "words": [
             f"{note.kind.value}: {note.text}" for note in notes if note.action == node.action
         ],
@@ -108,9 +105,6 @@ def _node(node: NodeModel, frames: Sequence[Frame], report: PlanReport) -> dict[
             {"world": loss.world, "text": loss.cause.text if loss.cause else loss.status}
             for loss in node.losses
         ],
-        "worlds_alive": node.worlds_alive,
-        "simulated_s": node.simulated_s,
-        "wall_s": node.wall_s,
     }
 
 
