@@ -4,72 +4,44 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Protocol
 
 from etot_cli.execution.records import Carried, Happened, Look, PlanMade, Trial
 from etot_cli.skills.action import Action, format_plan
 
 
-class TrialObserver(Protocol):
-    """Watches a trial, e.g. to draw it."""
+class TrialObserver:
+    """Watches a trial, e.g. to draw it, and itself does nothing."""
 
     def planned(self, plan: PlanMade) -> None:
         """There is a plan, or none."""
-        ...
 
     def looked(self, look: Look) -> None:
         """The robot has looked."""
-        ...
 
     def acting(self, action: Action, index: int) -> None:
         """An action begins; ``index`` counts those of the trial from 0."""
-        ...
 
     def acted(self, carried: Carried) -> None:
         """It has its verdict."""
-        ...
 
     def disturbed(self, happened: Happened) -> None:
         """Somebody did something."""
-        ...
 
 
-class ExecutionObserver(TrialObserver, Protocol):
+class ExecutionObserver(TrialObserver):
     """Watches all trials; of those that run beside each other it is told in words."""
 
     def trial_started(self, number: int, total: int) -> None:
         """A trial begins; its number from 0."""
-        ...
 
     def trial_doing(self, number: int, total: int, text: str) -> None:
         """What a trial that runs beside others has come to."""
-        ...
 
     def trial_ended(self, trial: Trial, total: int) -> None:
         """It is over."""
-        ...
 
 
-class SilentTrial:
-    """Watches and says nothing."""
-
-    def planned(self, plan: PlanMade) -> None:
-        """Ignored."""
-
-    def looked(self, look: Look) -> None:
-        """Ignored."""
-
-    def acting(self, action: Action, index: int) -> None:
-        """Ignored."""
-
-    def acted(self, carried: Carried) -> None:
-        """Ignored."""
-
-    def disturbed(self, happened: Happened) -> None:
-        """Ignored."""
-
-
-class Notes:
+class Notes(TrialObserver):
     """Writes what a trial does into a file that the trials of several processes share, a line each.
 
     Lines are appended whole, so nobody waits for anybody, and a process that dies leaves nothing
@@ -86,9 +58,6 @@ class Notes:
     def planned(self, plan: PlanMade) -> None:
         """The plan."""
         self._write(f"{plan.reason}: {format_plan(plan.actions) or plan.stopped or plan.status}")
-
-    def looked(self, look: Look) -> None:
-        """Looks are too many."""
 
     def acting(self, action: Action, index: int) -> None:
         """What is tried."""

@@ -7,7 +7,7 @@ from contextlib import suppress
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError, WorldError
 from etot_cli.execution.cell import Cell, Closes, MakePlanner, TrialOptions, simulated_cell
 from etot_cli.execution.loop import Loop
-from etot_cli.execution.observers import SilentTrial, TrialObserver
+from etot_cli.execution.observers import TrialObserver
 from etot_cli.execution.records import Ended, Trial
 from etot_cli.specs.task import Task
 
@@ -35,7 +35,7 @@ def run_trial(
         EtotError: the task cannot be understood, or its scene cannot be built.
     """
     cell = cell or simulated_cell(task, options)
-    loop = Loop(task, make_planner, options, observer or SilentTrial(), cell)
+    loop = Loop(task, make_planner, options, observer or TrialObserver(), cell)
     try:
         ended = loop.run()
     except KeyboardInterrupt:

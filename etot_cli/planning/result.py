@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
 
 from etot_cli.control.simulated import WorldOutcome
 from etot_cli.planning.alternatives import Prefix
@@ -130,44 +129,22 @@ class SearchResult:
         return () if self.leaf is None else self.leaf.actions
 
 
-class SearchObserver(Protocol):
-    """Watches a search, e.g. to draw it. Called from the searching thread; changes no node."""
+class SearchObserver:
+    """Watches a search, e.g. to draw it, and itself does nothing. Called from the searching
+    thread; changes no node.
+    """
 
     def proposed(self, tree: PlanTree) -> None:
         """The tree of the priori branches is built."""
-        ...
 
     def started(self, node: PlanNode) -> None:
         """The search now waits for this node's outcome."""
-        ...
 
     def judged(self, node: PlanNode) -> None:
         """The node has its verdict."""
-        ...
 
     def revised(self, node: PlanNode, branch: Branch | None) -> None:
         """The reasoner answered to the node's failure; None when it knows no revision."""
-        ...
 
     def finished(self, result: SearchResult) -> None:
         """The search is over, whatever its status."""
-        ...
-
-
-class SilentObserver:
-    """Watches and says nothing."""
-
-    def proposed(self, tree: PlanTree) -> None:
-        """Ignored."""
-
-    def started(self, node: PlanNode) -> None:
-        """Ignored."""
-
-    def judged(self, node: PlanNode) -> None:
-        """Ignored."""
-
-    def revised(self, node: PlanNode, branch: Branch | None) -> None:
-        """Ignored."""
-
-    def finished(self, result: SearchResult) -> None:
-        """Ignored."""

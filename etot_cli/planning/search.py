@@ -24,7 +24,6 @@ from etot_cli.planning.result import (
     SearchObserver,
     SearchResult,
     SearchStatus,
-    SilentObserver,
     told,
 )
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
@@ -63,7 +62,7 @@ def search(
         InstructionError: the assignment cannot be understood against the scene.
     """
     run = _Search(
-        assignment, simulator, reasoner, limits or Limits(), without, observer or SilentObserver(),
+        assignment, simulator, reasoner, limits or Limits(), without, observer or SearchObserver(),
         check=check,
     )  # fmt: skip
     return run.result()

@@ -9,6 +9,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from etot_cli.execution.observers import ExecutionObserver
 from etot_cli.execution.records import Carried, Happened, Look, PlanMade, Trial
 from etot_cli.reporting.style import (
     LOOKS,
@@ -30,7 +31,7 @@ TRIALS_KEPT = 12
 """Lines of finished trials that stay in sight."""
 
 
-class ExecutionLog:
+class ExecutionLog(ExecutionObserver):
     """Plain lines, for logs and pipes.
 
     Args:
@@ -86,7 +87,7 @@ class ExecutionLog:
         print(visible(line), file=self._stream, flush=True)
 
 
-class ExecutionView:
+class ExecutionView(ExecutionObserver):
     """Draws the execution in place. A context manager and an observer.
 
     Args:

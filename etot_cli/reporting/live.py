@@ -9,7 +9,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-from etot_cli.planning.result import SearchResult
+from etot_cli.planning.result import SearchObserver, SearchResult
 from etot_cli.planning.tree import FAILED, NodeStatus, PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.reporting.style import LOOKS, RUNNING, badge, counted, speaks_unicode
@@ -26,7 +26,7 @@ LINES_LEFT_BEHIND = 40
 """Of a large tree that stays on the screen after the search."""
 
 
-class LiveView:
+class LiveView(SearchObserver):
     """Draws the planning tree in place while it is searched. A context manager and an observer.
 
     Args:

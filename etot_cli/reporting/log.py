@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TextIO
 
-from etot_cli.planning.result import SearchResult
+from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.tree import FAILED, NodeStatus, PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.reporting.simulate_report import StepModel
@@ -13,7 +13,7 @@ from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.reading import visible
 
 
-class PlainLog:
+class PlainLog(SearchObserver):
     """Writes one line per event; observes searches and simulations.
 
     Args:
@@ -61,9 +61,6 @@ class PlainLog:
             self._say("  no revision")
         elif self._detailed and branch is not None:
             self._say(f"  revised: {format_plan(branch.actions)}  {branch.reason}".rstrip())
-
-    def finished(self, result: SearchResult) -> None:
-        """The summary follows elsewhere."""
 
     def step_started(self, index: int, action: Action, total: int) -> None:
         """Says what is tried, in detail only."""

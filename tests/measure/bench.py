@@ -22,7 +22,7 @@ import mujoco
 
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control import physics_world
-from etot_cli.planning.result import SilentObserver
+from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from tests.measure.bench_scenes import crowd_file, hopeless_files
@@ -100,7 +100,7 @@ def overhead(tasks: list[str], runs: int) -> tuple[str, bool]:
     return table(heads, rows), good
 
 
-class Chains(SilentObserver):
+class Chains(SearchObserver):
     """Watches a search for what had to wait for what.
 
     A node waits for its parent; a corrected one also for the failure that it answers to.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from etot_cli.planning.options import Ablation, Limits
-from etot_cli.planning.result import LimitKind, SearchResult, SearchStatus, SilentObserver
+from etot_cli.planning.result import LimitKind, SearchObserver, SearchResult, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
@@ -214,7 +214,7 @@ def test_time_limit_of_zero() -> None:
     assert result.limit is LimitKind.TIME and result.statistics.nodes_evaluated == 0
 
 
-class InterruptAfter(SilentObserver):
+class InterruptAfter(SearchObserver):
     """Presses Ctrl-C at the nth verdict or reflection."""
 
     def __init__(self, events: int) -> None:
