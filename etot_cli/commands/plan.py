@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.timed import TimedReasoner
@@ -39,6 +39,9 @@ from etot_cli.specs.look import Look
 from etot_cli.specs.reading import printable
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
+
+if TYPE_CHECKING:  # few plan with a model
+    from etot_cli.reasoning.vlm.session import VlmSession
 
 MODEL = "vlm"
 """Name of the reasoner that asks a vision-language model."""
@@ -97,7 +100,7 @@ def plan_task(
     task: Task | None = None
     scene: Scene | None = None
     result: SearchResult | None = None
-    session: doors.ModelSession | None = None
+    session: VlmSession | None = None
     reasoner: TimedReasoner | None = None
     interrupted = False
     try:
