@@ -185,3 +185,17 @@ def test_a_pan_too_wide_for_the_hand_is_taken_by_its_handle(tmp_path: Path, yaw_
     run = Episode(make_scene(tmp_path, pan=pan))
     assert run.must("[PICK UP, pan]").holding == "pan"
     assert run.must("[PUT ON, desk]").states["pan"].on == ("desk",)
+
+
+@pytest.mark.parametrize(
+    ("at", "quaternion"),
+    [((0.40, 0.15), (0.7071, 0.0, -0.7071, 0.0)), ((0.42, 0.0), (0.7071, 0.7071, 0.0, 0.0))],
+    ids=["facing the robot", "facing to the right"],
+)
+def test_a_wide_vessel_that_lies_is_taken_through_its_mouth(
+    at: tuple[float, float], quaternion: tuple[float, ...]
+) -> None:
+    """No two of its sides are near enough to each other, and a hand from above meets no rim."""
+    cup = CUP | {"diameter": 0.095, "height": 0.09, "at": list(at), "quaternion": list(quaternion)}
+    after = episode(cup=cup).must("[PICK UP, cup]", "[PUT ON, desk] (upright)")
+    assert not after.states["cup"].toppled and after.states["cup"].on == ("desk",)

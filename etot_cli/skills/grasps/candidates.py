@@ -24,6 +24,7 @@ from etot_cli.skills.grasps.lines import (
     level_direction,
     through_parts,
 )
+from etot_cli.skills.grasps.mouths import across_mouth
 from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
 from etot_cli.world.arrays import Vector
@@ -47,6 +48,9 @@ FRICTION_COST = 0.1
 """Added to the score for a needed friction of 1: as much as 12 mm beside the centre."""
 LEAN_COST = 0.25
 """Added to the score per radian of lean."""
+MOUTH_COST = 0.2
+"""Score of a wall that is taken through the mouth of what lies: as of 80 mm taken right across the
+middle. Of the walls that are met from above, most have the rest of the vessel in the way."""
 TOO_WIDE_TRIES = 1.35
 """Objects up to so many times the opening are still tried, off their widest line."""
 
@@ -112,6 +116,7 @@ def sample_grasps(
             _from_above(world, solids, data, name, bounds, lines, grasps, wide)
     if pose in (None, GraspPose.HORIZONTAL):
         _from_side(world, solids, data, name, (low, high, center, axis), grasps, wide)
+        _through_mouth(world, solids, data, name, grasps, wide)
     widths = [grasp.width for grasp in (*grasps, *wide)]
     return GraspSet(
         tuple(sorted(grasps, key=lambda grasp: grasp.score)),
@@ -245,6 +250,29 @@ def _from_side(
             world, grasps, wide, middle, approach, closing, outer, GraspPose.HORIZONTAL,
             score + outer.width * 2,
         )  # fmt: skip
+
+
+def _through_mouth(
+    world: World,
+    solids: Solids,
+    data: mujoco.MjData,
+    name: str,
+    grasps: list[Grasp],
+    wide: list[Grasp],
+) -> None:
+    lines = across_mouth(world, data, name)
+    if not lines:
+        return
+    points, closings, _ = (np.array(column) for column in zip(*lines, strict=True))
+    found = solids.intervals(data, name, points, closings)
+    for (point, closing, approach), line in zip(lines, found, strict=True):
+        for wall, is_rim in _choices(line, []):
+            if is_rim:
+                middle = point + closing * (wall.start + wall.end) / 2
+                _add(
+                    world, grasps, wide, middle, approach, closing, wall,
+                    GraspPose.HORIZONTAL, MOUTH_COST,
+                )  # fmt: skip
 
 
 def _add(
