@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.errors import InstructionError
-from etot_cli.reasoning.builtin.goal import Goal
+from etot_cli.reasoning.builtin.goal import Goal, Open, Pick
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
-from etot_cli.world.state import SceneState
+from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.world.state import OPEN_AT, SceneState
 
 
 def goal_of(instruction: str, scene: SceneState) -> Goal:
@@ -40,7 +44,19 @@ def _read(instruction: str, scene: SceneState, *, common: bool = False) -> Goal:
     found = read(vocabulary.joined(normalized(instruction)), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
-    return replace(goal, notes=(*slips, *goal.notes))
+    return replace(goal, notes=(*slips, *goal.notes, *_said_with_more(instruction, goal)))
+
+
+def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
+    """What words that ask for more than any skill does were taken for."""
+    words = " ".join(["", *re.findall(r"\w+", normalized(instruction)), ""])
+    for patterns, step, why in (
+        (manner.ALL_THE_WAY, Open, f"what is open is so to {OPEN_AT:.0%} of its travel or more"),
+        (verbs.TO_SOMEBODY, Pick, "it is held up, not handed over"),
+    ):
+        said = [text for text in spellings(patterns) if f" {text} " in words]
+        if said and any(isinstance(item, step) for item in goal.steps):
+            yield f"{said[0]!r}: {why}"
 
 
 def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene: SceneState) -> str:

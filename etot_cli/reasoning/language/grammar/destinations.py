@@ -92,6 +92,11 @@ BESIDES = valued(
 )
 INTO = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
 ONTO = sequence(silent(phrase(places.ONTO)), TARGETS, build=_toward(Toward.ON))
+OVER = sequence(
+    silent(phrase(places.OVER)),
+    TARGETS,
+    build=lambda targets: Destination(Toward.ON, targets, places.OVER),
+)
 _to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
 _top_of = sequence(
     silent(phrase(places.ONTO)),
@@ -104,6 +109,7 @@ destination = Rule(
     either(
         INTO,
         ONTO,
+        OVER,
         _to,
         _top_of,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),

@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.world.spatial import Nearby
 
 _SIDES: dict[tuple[str, ...], Nearby] = {("left",): Nearby.LEFT, ("right",): Nearby.RIGHT}
+_REGIONS = {Nearby.LEFT: Nearby.AT_LEFT, Nearby.RIGHT: Nearby.AT_RIGHT}
 
 
 def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]]:
@@ -45,27 +46,35 @@ def _other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
     round, "A to the left and B to the right of C".
     """
     found = [groups[0]]
-    if len(groups) > 1 and len(marks := _marks(groups[1])) == 1:
-        found = [_beside(groups[0], marks)]
+    if len(groups) > 1:
+        found = [_beside(groups[0], _marks(groups[1]))]
     for group in groups[1:]:
         group = _beside(group, _marks(found[-1]))
         found.append(group)
     return tuple(found)
 
 
-def _marks(group: PutGroup) -> set[tuple[NounPhrase, ...]]:
-    return {item.phrases for where in group.destinations for item in where.beside}
+def _marks(group: PutGroup) -> tuple[Beside, ...]:
+    found = (item for where in group.destinations for item in where.beside if item.phrases)
+    return tuple({item.phrases: item for item in found}.values())
 
 
-def _beside(group: PutGroup, marks: set[tuple[NounPhrase, ...]]) -> PutGroup:
-    """A group that goes to a bare side, with the landmark that the other group has."""
+def _beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
+    """A group that goes to a bare side, with the landmark that the other group has, or with the
+    surface of which that goes to the other side.
+    """
     (first, *more) = group.destinations
-    side = _SIDES.get(first.targets[0].words) if first.toward is Toward.TO else None
-    if side is None or more or len(marks) != 1:
+    bare = [item.relation for item in first.beside if not item.phrases]
+    side = next((near for near, at in _REGIONS.items() if [at] == bare), None)
+    if first.toward is Toward.TO:
+        side = _SIDES.get(first.targets[0].words)
+    else:
+        marks = [m for m in marks if m.relation in (*_REGIONS, *_REGIONS.values())]
+    if side is None or more or len(marks) != 1 or first.targets[1:]:
         return group
-    beside = tuple(Beside(side, mark) for mark in marks if mark)
-    where = (Destination(Toward.BESIDE, beside=beside),)
-    return replace(group, destinations=where) if beside else group
+    relation = side if marks[0].relation.landmarks else _REGIONS[side]
+    beside = (replace(marks[0], relation=relation),)
+    return replace(group, destinations=(Destination(Toward.BESIDE, beside=beside),))
 
 
 def _targets(group: PutGroup) -> list[NounPhrase]:

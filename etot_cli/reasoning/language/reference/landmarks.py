@@ -17,6 +17,7 @@ RANKED = frozenset(
     }
 )  # fmt: skip
 """Relations that are true of some things more than of others."""
+_DISTANCES = frozenset({Prep.NEAREST, Prep.FARTHEST})
 EQUAL = 1e-6
 """Distances that differ by no more, which is rounding, leave the choice open [m]."""
 
@@ -35,6 +36,9 @@ def related(
     ``notes`` gets what was chosen where several would do, or none by the relation's definition.
     """
     prep = modifier.prep
+    by_robot = any(space.ROBOT in several for several in landmarks)
+    if by_robot and not (prep is Prep.NEAR and len(things) > 1) and prep not in _DISTANCES:
+        raise ReferenceProblem(modifier.phrases[0].text, "say beside which object", 2)
     fitting = [
         thing
         for thing in things
@@ -50,6 +54,8 @@ def related(
         if prep in space.RELATIONS
         and any(space.is_plainly(prep, thing, marks, scene) for marks in _tuples(landmarks))
     ]
+    if not plainly and len(things) == 1 and _is_fixed_beside(prep, things[0], scene):
+        return things if modifier.denied else []  # it says where something goes, not which fridge
     fitting = plainly or fitting
     if modifier.denied:
         return [thing for thing in things if thing not in fitting]
@@ -93,6 +99,11 @@ def related(
         roughly = "" if plainly else ", though only roughly"
         notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
     return chosen
+
+
+def _is_fixed_beside(prep: Prep, thing: Thing, scene: SceneState) -> bool:
+    info = scene.infos.get(thing.name)
+    return prep in space.RELATIONS and info is not None and not info.movable
 
 
 def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:

@@ -346,6 +346,9 @@ class Resolver:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)
             return list(ways[0])
         if is_robot(phrase):
+            if phrase.words[-1] == "me" and self._scene.forward != (1.0, 0.0):
+                why = "the scene is looked at through a camera; say whether the robot is meant"
+                raise ReferenceProblem(phrase.text, why, 3)
             return [space.ROBOT]
         if phrase.words and matches_any(phrase.words[-1], BODY_NOUNS):
             why = "the robot has one gripper and no other tool"

@@ -6,28 +6,23 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Near, Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import FLAT, PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
-from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.words.lexicon import SIDES, word_set
-from etot_cli.world.spatial import Nearby
+from etot_cli.reasoning.language.reference.surroundings import Surroundings, is_support
+from etot_cli.reasoning.language.reference.usual_form import usual_form
+from etot_cli.reasoning.language.words.lexicon import SIDES
+from etot_cli.reasoning.language.words.places import OVER
 from etot_cli.world.state import DESK, SceneState
 
 _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
 """Anywhere on the desk, nobody having said so."""
-
-
-_OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
-_OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
-_PARTS = word_set("edge end border rim half part corner quarter area")
-"""Words for parts of a flat top."""
 LID = 0.95
 """What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
 
@@ -45,6 +40,7 @@ class Places:
         self._scene = scene
         self._phrases = phrases
         self.discourse = discourse
+        self._surroundings = Surroundings(scene, phrases, discourse)
 
     def on_the_desk(self) -> Place:
         """Somewhere on the desk."""
@@ -77,13 +73,21 @@ class Places:
             if destination.toward is Toward.HERE:
                 found = list(self._here(destination.word, themes, prefer))
             elif destination.toward is Toward.BESIDE:
-                found = [self._beside_only(destination.beside, themes)]
+                surface = self._surroundings.surface(destination.beside, themes)
+                if surface is None and not any(b.relation.landmarks for b in destination.beside):
+                    surface = self.on_the_desk().where
+                near = self._surroundings.near(destination.beside, themes)
+                found = [Place(Relation.ON, surface, near)]
             else:
                 found = [
                     place
                     for phrase in destination.targets
                     for place in self._targets(destination.toward, phrase, themes)
                 ]
+                inside = any(place.relation is Relation.INSIDE for place in found)
+                if inside and destination.word == OVER:
+                    text = destination.targets[0].text
+                    raise ReferenceProblem(text, "it is no lid; say into or onto it", 3)
                 if destination.beside:
                     found = self._narrowed(found, destination, themes)
             places.update(dict.fromkeys(found))
@@ -152,11 +156,15 @@ class Places:
         laid = [thing for theme in themes for thing in self.discourse.things(theme)]
         if toward is Toward.ON and fits_in:
             self._check_alike(laid, things, index)
-        on = (thing for thing in things if toward is not Toward.TO or self._is_support(thing))
+        on = (
+            thing for thing in things if toward is not Toward.TO or is_support(thing, self._scene)
+        )
         fits_on = any(
             can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
             for thing in on
         )
+        if toward is Toward.TO and not self._goes_in(laid, things):
+            fits_in = False  # who brings it to a mug may want it beside that
         if fits_in and (toward is not Toward.ON or not fits_on):
             found.append(Place(Relation.INSIDE, index))
         if fits_on and (toward is not Toward.INSIDE or not fits_in):
@@ -169,14 +177,15 @@ class Places:
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found
 
-    def _is_support(self, thing: Thing) -> bool:
-        """Whether what is brought to a thing goes on top of it; a vessel takes things in, and who
-        brings something to a tall box may want it beside that.
-        """
-        if thing.name == DESK or thing.board is not None:
-            return True
-        info = self._scene.infos[thing.name]
-        return info.surface and (not info.movable or info.size[2] <= FLAT * min(info.size[:2]))
+    def _goes_in(self, laid: Sequence[Thing], around: Sequence[Thing]) -> bool:
+        """Whether things go into one that can be moved as they lie, or are meant for it."""
+        infos = self._scene.infos
+        room = [min(infos[t.name].size[:2]) for t in around if infos[t.name].movable]
+        return all(
+            infos[thing.name].elongated or max(infos[thing.name].size[:2]) <= min(room)
+            for thing in laid
+            if room
+        )
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""
@@ -203,118 +212,8 @@ class Places:
         part = all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside)
         if len(things) > 1 or (part and stacked and things[0].board is None):
             raise ReferenceProblem(text, "say which one of them", 2)
-        near = tuple(near for item in destination.beside for near in self._near(item, themes))
+        near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
         return [replace(place, beside=near) for place in surfaces]
-
-    def _beside_only(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place:
-        """A place beside something, on whatever that stands on, or a region of a surface."""
-        surface: int | None = None
-        regions = [item for item in beside if item.relation.landmarks == 0]
-        for item in regions:
-            for phrase in item.phrases:
-                self._check_region(phrase, item)
-                (surface,) = self._phrases.refer(phrase, Role.SURFACE, themes)
-        if surface is None and (len(regions) == len(beside)):
-            surface = self.on_the_desk().where
-        near = tuple(near for item in beside for near in self._near(item, themes))
-        return Place(Relation.ON, surface, near)
-
-    def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
-        """Whether a thing has such a region. The left side of what can be moved is beside it, the
-        left edge of a tray is a part of it.
-        """
-        resolved = self._phrases.meaning(phrase, Role.ANY)
-        things = {thing for option in resolved.options for thing in option}
-        if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
-            raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
-        anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
-        if region.relation in anywhere or all(thing.name == DESK for thing in things):
-            return
-        fixed = not any(t.name == DESK or self._scene.infos[t.name].movable for t in things)
-        part = _PARTS & {*region.text.split()} and all(self._is_support(t) for t in things)
-        if not fixed and not part:
-            raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
-
-    def _near(self, beside: Beside, themes: Sequence[int]) -> list[Near]:
-        """A relation to the things that its phrases mean; "next to the two cups" is to each."""
-        if beside.relation.landmarks == 0:
-            return [Near(beside.relation)]
-        landmarks: list[int] = []
-        for phrase in beside.phrases:
-            if is_robot(phrase):
-                raise ReferenceProblem(phrase.text, "say beside which object", 2)
-            landmarks += self._landmark(phrase, themes, beside.relation)
-            flat = all(self._is_support(t) for i in landmarks for t in self.discourse.things(i))
-            if flat and beside.relation in _OPPOSITE and beside.text.startswith(("on ", "at ")):
-                self.discourse.notes.append(f"{beside.text!r}: beside it, not on it")
-        each = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR, Nearby.AWAY)
-        if each and len(landmarks) == 2:
-            return [Near(beside.relation, (landmark,)) for landmark in landmarks]
-        if len(landmarks) != beside.relation.landmarks:
-            text = " and ".join(phrase.text for phrase in beside.phrases)
-            why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
-            raise ReferenceProblem(text, why, 2)
-        return [Near(beside.relation, tuple(landmarks))]
-
-    def _landmark(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> list[int]:
-        """Referents of a landmark, each a single thing; "the two bowls" gives two."""
-        found = []
-        discourse = self.discourse
-        single = phrase.pronoun and phrase.pronoun not in PLURAL_PRONOUNS and not phrase.modifiers
-        indices = (
-            (self._beside_it(phrase, themes, relation),)
-            if single and not phrase.determiner
-            else self._phrases.refer(phrase, Role.ANY, themes)
-        )
-        for index in indices:
-            discourse.last_landmark = (discourse.clause, index, relation)
-            referent = self.discourse.referents[index]
-            if index in themes:
-                raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
-            things = self.discourse.things(index)
-            if any(thing.name == DESK for thing in things):
-                raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
-            if any(self._scene.states[thing.name].inside is not None for thing in things):
-                raise ReferenceProblem(phrase.text, "it lies in a container", 2)
-            if all(len(option) == 1 for option in referent.options):
-                found.append(index)
-            else:
-                for thing in things:
-                    alone = Resolved(((thing,),), definite=False, other=False, noun=thing.name)
-                    found.append(self.discourse.add(alone, phrase.text, Role.ANY))
-        return found
-
-    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> int:
-        """What "next to it" is beside.
-
-        In "the can left of the jar and the tin right of it" that is the jar, in "the can next to
-        the jar and the tin behind it" it may as well be the can. What was put into
-        something that can be moved is not "it" but that is: nothing is beside what is inside.
-
-        Raises:
-            AmbiguousReference: it may as well be beside the place that something was put at.
-        """
-        discourse = self.discourse
-        clause, mark, how = discourse.last_landmark
-        if clause == discourse.clause:
-            same = (item for item in discourse.mentions if item.clause == clause)
-            moved = {item.referent for item in same if item.role is Role.THEME} - {*themes}
-            if moved and _OPPOSITE.get(how) is not relation:
-                named = [discourse.referents[item].text for item in (*sorted(moved), mark)]
-                raise AmbiguousReference(phrase.text, named)
-            discourse.mention_again(mark, Role.ANY)
-            return mark
-        inside = discourse.put_into
-        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside])
-        said = [item.clause for item in discourse.mentions if item.referent == index]
-        rivals = [mark] if mark != index and clause in said else []
-        infos = self._scene.infos
-        if any(not infos[t.name].movable for t in discourse.things(index) if t.name in infos):
-            rivals += [theme for theme, around in inside.items() if around == index]
-        if rivals:
-            named = [discourse.referents[item].text for item in (*rivals, index)]
-            raise AmbiguousReference(phrase.text, named)
-        return index
 
     def _here(self, word: str, themes: Sequence[int], prefer: Sequence[int]) -> tuple[Place, ...]:
         discourse = self.discourse

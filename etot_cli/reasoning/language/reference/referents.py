@@ -9,6 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
+from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -153,7 +154,7 @@ class Phrases:
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
         several = resolved.every and not whole
         index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
-        self._note_landmarks(phrase)
+        self._note_landmarks(phrase, resolved.options)
         return (index,)
 
     def _both(self, role: Role, text: str, excluded: Sequence[int]) -> tuple[int, ...]:
@@ -223,12 +224,14 @@ class Phrases:
         """The basic colours that a thing is called by, or the one that it has."""
         return self._resolver.colors_of(thing)
 
-    def _note_landmarks(self, phrase: NounPhrase) -> None:
-        """Things that were only mentioned to tell others by can be spoken of later on."""
-        owner = () if phrase.owner is None else (phrase.owner,)
-        named = [item for modifier in phrase.modifiers for item in modifier.phrases]
+    def _note_landmarks(self, phrase: NounPhrase, told: tuple[tuple[Thing, ...], ...]) -> None:
+        """Things that were only mentioned to tell others by can be spoken of later on. "Its plate"
+        is the one on which what was told by it is.
+        """
+        owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner)]
+        named = [(item.prep, landmark) for item in phrase.modifiers for landmark in item.phrases]
         noun = usual_form(phrase).words[-1:]
-        for landmark in (*owner, *named):
+        for prep, landmark in (*owner, *named):
             if landmark.determiner == "one":
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
@@ -241,6 +244,13 @@ class Phrases:
                     noun=noun[0] if elliptic and noun else None,
                     pronoun=self._pronoun_things,
                 )
+                if prep in (Prep.ON, Prep.IN, Prep.FROM) and len(told) == len(told[0]) == 1:
+                    options = tuple(
+                        option
+                        for option in resolved.options
+                        if space.holds_at(prep, told[0][0], option, self._scene)
+                    )
+                    resolved = replace(resolved, options=options or resolved.options)
                 self.discourse.add(resolved, landmark.text, Role.ANY)
 
     def _resolved(self, phrase: NounPhrase, role: Role) -> Resolved:

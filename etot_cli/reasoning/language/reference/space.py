@@ -147,7 +147,7 @@ def holds_at(
         case Prep.FRONT:
             return to_the_back(thing, scene) < to_the_back(first, scene) - OFFSET
         case Prep.NEAR | Prep.NEXT_TO:
-            return first == ROBOT or _gap(thing, first, scene) <= BESIDE
+            return first == ROBOT or gap(thing, first, scene) <= BESIDE
         case Prep.BETWEEN:
             here, there, at = (position(t, scene)[:2] for t in (*landmarks[:2], thing))
             return sum((a - m) * (b - m) for a, b, m in zip(here, there, at, strict=True)) < 0
@@ -191,7 +191,7 @@ def ranked(
     return sorted(((cost(thing), thing) for thing in things), key=lambda item: item[0])
 
 
-def _gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
+def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
     """Free distance between two things' outlines, seen as discs [m]; infinite for the desk."""
     if DESK in (thing.name, landmark.name):
         return math.inf

@@ -138,7 +138,7 @@ REASONS = {
     ),
     **dict.fromkeys(
         ("halfway", "half", "partially", "slightly", "partly", "little"),
-        "things are opened and closed fully",
+        "how far something goes cannot be asked for",
     ),
     **dict.fromkeys(
         ("push", "pull", "slide", "swing", "shove", "nudge", "drag"),

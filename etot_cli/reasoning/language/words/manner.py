@@ -4,6 +4,8 @@ from __future__ import annotations
 
 OPEN_STATE = "[wide|all the way|fully|completely] open, opened"
 CLOSED_STATE = "[fully|completely|properly|all the way] (closed|shut)"
+ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
+"""Of what is opened they ask for more than is done."""
 UNLESS_OPEN = """
     if [it is|they are] [still|currently] (closed|shut), unless (it is|they are) [already] open,
     if (it is|they are) not [already] open[ed], if not [already] open[ed], if (necessary|needed)

@@ -80,7 +80,8 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from, away from",
 }
 INTO = "in to, into, inside [of], in, within"
-ONTO = "onto, on to, on [the] top of, on, upon, atop, over"
+ONTO = "onto, on to, on [the] top of, on, upon, atop"
+OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
 ONTO_DIRECTED = "onto, on to, on top of, over"
 TO = "[over] to"

@@ -1,0 +1,194 @@
+"""What a place beside things, or a part of a surface, is beside and a part of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence, Set
+
+from etot_cli.reasoning.builtin.goal import Near, Thing
+from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.coreference import FLAT, PLURAL_PRONOUNS, Discourse
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.referents import Phrases
+from etot_cli.reasoning.language.reference.usual_form import is_robot
+from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.world.spatial import BESIDE, Nearby
+from etot_cli.world.state import DESK, SceneState
+
+_OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
+_OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
+_PARTS = word_set("edge end border rim half part corner quarter area")
+"""Words for parts of a flat top."""
+
+
+def is_support(thing: Thing, scene: SceneState) -> bool:
+    """Whether what is brought to a thing goes on top of it; a vessel takes things in, and who
+    brings something to a tall box may want it beside that.
+    """
+    if thing.name == DESK or thing.board is not None:
+        return True
+    info = scene.infos[thing.name]
+    return info.surface and (not info.movable or info.size[2] <= FLAT * min(info.size[:2]))
+
+
+class Surroundings:
+    """Turns relations to things into relations to referents of a discourse.
+
+    Args:
+        scene: what is spoken about.
+        phrases: resolves the noun phrases in them.
+        discourse: what was spoken of before; it grows.
+    """
+
+    def __init__(self, scene: SceneState, phrases: Phrases, discourse: Discourse) -> None:
+        self._scene = scene
+        self._phrases = phrases
+        self._discourse = discourse
+
+    def surface(self, beside: Sequence[Beside], themes: Sequence[int]) -> int | None:
+        """The referent of which regions are said to be parts, if any."""
+        surface: int | None = None
+        for item in (item for item in beside if item.relation.landmarks == 0):
+            for phrase in item.phrases:
+                self._check_region(phrase, item)
+                (surface,) = self._phrases.refer(phrase, Role.SURFACE, themes)
+        return surface
+
+    def near(
+        self, beside: Sequence[Beside], themes: Sequence[int], below: Set[str] = frozenset()
+    ) -> tuple[Near, ...]:
+        """The relations; ``below``: names of what it is all to be on, where that is said.
+
+        Raises:
+            ReferenceProblem: nothing can be there.
+        """
+        near = tuple(near for item in beside for near in self._near(item, themes))
+        moved = {thing for i in self._discourse.put for thing in self._discourse.things(i)}
+        for item in near:
+            things = [thing for i in item.landmarks for thing in self._discourse.things(i)]
+            things = [thing for thing in things if thing not in moved]
+            under = [bearers(self._scene, thing.name) for thing in things]
+            names = " and ".join(thing.name for thing in things)
+            if len(item.landmarks) > 1 and any(under) and not frozenset.intersection(*under):
+                raise ReferenceProblem(names, "they do not stand on the same", 3)
+            away = [thing for thing, on in zip(things, under, strict=True) if not below & on]
+            if below - {DESK} and any(
+                all(space.gap(thing, Thing(name), self._scene) > BESIDE for name in below)
+                for thing in away
+            ):
+                raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
+        return near
+
+    def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
+        """Whether a thing has such a region. The left side of what can be moved is beside it, the
+        left edge of a tray is a part of it.
+        """
+        resolved = self._phrases.meaning(phrase, Role.ANY)
+        things = {thing for option in resolved.options for thing in option}
+        if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
+            raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
+        anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
+        if region.relation in anywhere or all(thing.name == DESK for thing in things):
+            return
+        part = _PARTS & {*region.text.split()}
+        if not self._are_fixed(things) and not (
+            part and all(is_support(thing, self._scene) for thing in things)
+        ):
+            raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
+
+    def _are_fixed(self, things: Iterable[Thing]) -> bool:
+        return not any(t.name == DESK or self._scene.infos[t.name].movable for t in things)
+
+    def _near(self, beside: Beside, themes: Sequence[int]) -> list[Near]:
+        """A relation to the things that its phrases mean; "next to the two cups" is to each."""
+        if beside.relation.landmarks == 0:
+            return [Near(beside.relation)]
+        landmarks: list[int] = []
+        for phrase in beside.phrases:
+            if is_robot(phrase):
+                raise ReferenceProblem(phrase.text, "say beside which object", 2)
+            landmarks += self._landmark(phrase, themes, beside.relation)
+        each = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR, Nearby.AWAY)
+        if each and len(landmarks) == 2:
+            return [Near(beside.relation, (landmark,)) for landmark in landmarks]
+        if len(landmarks) != beside.relation.landmarks:
+            text = " and ".join(phrase.text for phrase in beside.phrases)
+            why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
+            raise ReferenceProblem(text, why, 2)
+        if beside.relation in _OPPOSITE:
+            self._check_side(beside, [t for i in landmarks for t in self._discourse.things(i)])
+        return [Near(beside.relation, tuple(landmarks))]
+
+    def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:
+        """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,
+        which is said.
+        """
+        if "side" in beside.text.split() and self._are_fixed(things):
+            raise ReferenceProblem(beside.text, "say 'left of' and so on, or on which part", 1)
+        flat = all(is_support(thing, self._scene) for thing in things)
+        note = f"{beside.text!r}: beside it, not on it"
+        if flat and beside.text.startswith(("on ", "at ")) and note not in self._discourse.notes:
+            self._discourse.notes.append(note)
+
+    def _landmark(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> list[int]:
+        """Referents of a landmark, each a single thing; "the two bowls" gives two."""
+        found = []
+        discourse = self._discourse
+        single = phrase.pronoun and phrase.pronoun not in PLURAL_PRONOUNS and not phrase.modifiers
+        indices = (
+            (self._beside_it(phrase, themes, relation),)
+            if single and not phrase.determiner
+            else self._phrases.refer(phrase, Role.ANY, themes)
+        )
+        for index in indices:
+            discourse.last_landmark = (discourse.clause, index, relation)
+            referent = self._discourse.referents[index]
+            if index in themes:
+                raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
+            things = self._discourse.things(index)
+            if any(thing.name == DESK for thing in things):
+                raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
+            if any(self._scene.states[thing.name].inside is not None for thing in things):
+                raise ReferenceProblem(phrase.text, "it lies in a container", 2)
+            if all(len(option) == 1 for option in referent.options):
+                found.append(index)
+            else:
+                for thing in things:
+                    alone = Resolved(((thing,),), definite=False, other=False, noun=thing.name)
+                    found.append(self._discourse.add(alone, phrase.text, Role.ANY))
+        return found
+
+    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> int:
+        """What "next to it" is beside.
+
+        In "the can left of the jar and the tin right of it" that is the jar, in "the can next to
+        the jar and the tin behind it" it may as well be the can. What was put into
+        something that can be moved is not "it" but that is: nothing is beside what is inside.
+
+        Raises:
+            AmbiguousReference: it may as well be beside the place that something was put at.
+        """
+        discourse = self._discourse
+        clause, mark, how = discourse.last_landmark
+        if clause == discourse.clause:
+            same = (item for item in discourse.mentions if item.clause == clause)
+            moved = {item.referent for item in same if item.role is Role.THEME} - {*themes}
+            if moved and _OPPOSITE.get(how) is not relation:
+                named = [discourse.referents[item].text for item in (*sorted(moved), mark)]
+                raise AmbiguousReference(phrase.text, named)
+            discourse.mention_again(mark, Role.ANY)
+            return mark
+        inside = discourse.put_into
+        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside])
+        said = [item.clause for item in discourse.mentions if item.referent == index]
+        rivals = [mark] if mark != index and clause in said else []
+        infos = self._scene.infos
+        if any(not infos[t.name].movable for t in discourse.things(index) if t.name in infos):
+            rivals += [theme for theme, around in inside.items() if around == index]
+        if rivals:
+            named = [discourse.referents[item].text for item in (*rivals, index)]
+            raise AmbiguousReference(phrase.text, named)
+        return index
