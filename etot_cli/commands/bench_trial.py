@@ -153,10 +153,11 @@ class _Bench:
             return BuiltinThinking(), KinematicSimulator()
         from etot_cli.benchmark.methods.model_thinking import ModelThinking
         from etot_cli.reasoning.builtin import BuiltinReasoner
-        from etot_cli.reasoning.vlm.session import open_vlm
+        from etot_cli.reasoning.vlm.settings import VlmSettings
 
-        session = open_vlm(setup.vlm, scene, seed=setup.seed, state=BuiltinReasoner())
-        return ModelThinking(session), KinematicSimulator()
+        settings, state = VlmSettings.load(**setup.vlm), BuiltinReasoner()
+        thinking = ModelThinking(settings, scene, seed=setup.seed, state=state)
+        return thinking, KinematicSimulator()
 
     def close(self) -> None:
         """Ends sessions; idempotent."""

@@ -20,7 +20,6 @@ from etot_cli.errors import ServiceError
 from etot_cli.reasoning.protocol import ReasonerStopped, StopReason
 from etot_cli.reasoning.vlm.chat import Picture
 from etot_cli.reasoning.vlm.frames import Eye, FrameSource
-from etot_cli.reasoning.vlm.session import VlmSession
 from etot_cli.reasoning.vlm.settings import VlmSettings
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.deadline import NEVER
@@ -149,5 +148,5 @@ def open_video(
         kept.append(VideoFrames(rendered))
         return kept[0]
 
-    session = VlmSession(settings, scene, seed=seed, state=None, through=through)
-    return VideoThinking(session), VideoWorldModel(endpoint, kept[0], seed)
+    thinking = VideoThinking(settings, scene, seed=seed, state=None, through=through)
+    return thinking, VideoWorldModel(endpoint, kept[0], seed)
