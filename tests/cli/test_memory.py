@@ -61,10 +61,16 @@ def test_a_narrow_place_is_enough_for_workers_too(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_a_plan_needs_no_library_for_pictures() -> None:
-    """OpenCV and the video library take more address space than all the others together."""
-    loaded = "import sys, etot_cli.control.simulator, etot_cli.commands.plan, "
-    loaded += "etot_cli.reporting.plan_summary; print({'cv2', 'av', 'coacd'} & {*sys.modules})"
+def test_nothing_is_loaded_that_neither_a_plan_nor_a_benchmark_begins_with() -> None:
+    """OpenCV and the video library take more address space than all the others together; the rest
+    would keep all workers of a benchmark waiting.
+    """
+    loaded = (
+        "import sys, etot_cli.commands.plan, etot_cli.reporting.plan_summary, "
+        "etot_cli.commands.bench, etot_cli.commands.bench_trial\n"
+        "print({'cv2', 'av', 'coacd', 'scipy.stats', 'scipy.ndimage', 'jinja2', 'httpx', "
+        "'etot_cli.benchmark.problems'} & {*sys.modules})"
+    )
     done = subprocess.run(
         [sys.executable, "-c", loaded], cwd=ROOT, env=environment(), capture_output=True,
         text=True, check=True,

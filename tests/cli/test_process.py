@@ -55,17 +55,6 @@ def test_help_imports_nothing_heavy(tmp_path: Path, arguments: str) -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_a_benchmark_begins_without_what_its_trials_do_not_need(tmp_path: Path) -> None:
-    """What is imported before the first trial keeps all workers waiting."""
-    script = (
-        "import sys\nfrom etot_cli.commands import bench, bench_trial\n"
-        "idle = {'scipy.stats', 'jinja2', 'cv2', 'av', 'httpx', 'etot_cli.benchmark.problems'}\n"
-        "found = idle & set(sys.modules)\nassert not found, found\n"
-    )
-    done = call([sys.executable, "-c", script], tmp_path)
-    assert done.returncode == 0, done.stderr
-
-
 @pytest.mark.slow
 def test_ctrl_c_leaves_a_valid_report(tmp_path: Path) -> None:
     process = subprocess.Popen(
