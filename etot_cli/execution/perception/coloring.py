@@ -36,7 +36,7 @@ EXPECTED = 0.06
 what is as good 1 cm away is not believed, what is plainly better is."""
 ROUNDS = 2
 """What is behind a thing is known from where it truly is, and that from what is behind it. A second
-round takes the rod of the tests from 1.4 to 1.15 mm off, on average of 25; more change nothing."""
+round takes the rod of the tests from 1.4 to 1.15 mm off, on average of 25; more do no better."""
 SHIFT, SHIFTS, TURNS = 1 / 3, range(-7, 8), (-0.6, -0.3, 0.0, 0.3, 0.6)
 """Shares of the first and the last move, along and about a thing, that are tried together before
 smaller ones are: outlines of depth place the ends of a rod to 2 cm, and turn it by up to 6°."""
