@@ -77,26 +77,23 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
 
 def _all_of(context: Context, index: int) -> int:
     """Who closes a chest closes all its drawers; "the drawer" of a chest is one that is open."""
-    discourse = context.discourse
+    discourse, infos = context.discourse, context.scene.infos
     noun = next(item.noun for item in reversed(discourse.mentions) if item.referent == index)
-    parts = [
-        [
-            Thing(thing.name, part.name)
-            for part in context.scene.infos[thing.name].parts
-            if thing.part is None
-        ]
-        for thing in discourse.things(index)
-    ]
-    joints = {
-        part.joint_type
-        for thing in discourse.things(index)
-        for part in context.scene.infos[thing.name].parts
-    }
-    if min(map(len, parts)) < 2 or any(
-        matches_any(noun, JOINT_NOUNS.get(joint, ())) for joint in joints
-    ):
+    whole = [infos[thing.name] for thing in discourse.things(index) if thing.part is None]
+    joints = {part.joint_type for info in whole for part in info.parts}
+    by_part = any(matches_any(noun, JOINT_NOUNS.get(joint, ())) for joint in joints)
+    if by_part or all(len(info.parts) < 2 for info in whole):
         return index
-    every = Resolved(tuple(map(tuple, parts)), definite=True, other=False, noun=noun)
+    options = tuple(
+        tuple(
+            Thing(thing.name, part.name)
+            for thing in option
+            for part in infos[thing.name].parts
+            if thing.part in (None, part.name)
+        )
+        for option in discourse.referents[index].options
+    )
+    every = Resolved(options, definite=True, other=False, noun=noun)
     return discourse.add(every, discourse.referents[index].text, Role.PART)
 
 

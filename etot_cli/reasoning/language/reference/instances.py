@@ -82,7 +82,8 @@ def _check_named(
         AmbiguousReference: it is true of another thing of the kind, and may mean that one; said of
             a whole name, that is but noted.
     """
-    for word, rivals in match.named:
+    named = () if things[0].part or things[0].board else match.named
+    for word, rivals in named:
         others = [entry.thing for entry in rivals]
         fitting: list[Thing] = []
         with suppress(ReferenceProblem):

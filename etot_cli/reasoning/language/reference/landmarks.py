@@ -52,7 +52,11 @@ def related(
         thing
         for thing in fitting
         if prep in space.RELATIONS
-        and any(space.is_plainly(prep, thing, marks, scene) for marks in _tuples(landmarks))
+        and any(
+            space.is_plainly(prep, thing, marks, scene)
+            and not any(space.carries(thing, mark, scene) for mark in marks)
+            for marks in _tuples(landmarks)
+        )
     ]
     if not plainly and len(things) == 1 and _is_fixed_beside(prep, things[0], scene):
         return things if modifier.denied else []  # it says where something goes, not which fridge

@@ -108,7 +108,7 @@ class Surroundings:
             return [Near(beside.relation)]
         landmarks: list[int] = []
         for phrase in beside.phrases:
-            if is_robot(phrase):
+            if is_robot(phrase) or phrase.text in ("each other", "one another"):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
             landmarks += self._landmark(phrase, themes, beside.relation)
         each = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR, Nearby.AWAY)
