@@ -454,3 +454,25 @@ def test_a_drawer_that_need_not_be_open_any_more_stays_closed_where_it_cannot_be
     assert revisions(step) == [meanwhile], "what goes on top of it does not need it open"
     step = failed(start, meanwhile, 3, cause(CauseKind.NO_GRASP, "chest"))
     assert revisions(step) == [bring, f"[CLOSE, chest] {bring}"]
+
+
+def test_a_vessel_under_a_roof_is_brought_out_before_it_is_filled_or_emptied() -> None:
+    start = scenes.scene(
+        scenes.cabinet("cupboard", (0.5, 0.0), 1.0),
+        scenes.cup("mug", (0.5, 0.0), inside="cupboard", on="cupboard"),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.5, 0.0), inside="mug", on="mug"),
+    )  # fmt: skip
+    out = "[PICK UP, mug] [PUT ON, desk]"
+    fill = "[PICK UP, nut] [PUT INTO, mug]"
+    step = failed(start, fill, 1, cause(CauseKind.NO_ROOM, "cupboard", "nut"), held(start, "nut"))
+    assert f"{out} {fill}" in revisions(step)
+    empty = "[PICK UP, egg] [PUT ON, desk]"
+    step = failed(start, empty, 0, cause(CauseKind.NO_GRASP, "mug", "cupboard", "egg"))
+    assert f"{out} {empty}" in revisions(step)
+    on_top = changed(start, mug={"inside": None, "on": ("chest",)})
+    chest = scenes.drawers("chest", (0.5, 0.3), {"upper": 1.0})
+    on_top = replace(
+        on_top, infos=on_top.infos | {"chest": chest[0]}, states=on_top.states | {"chest": chest[1]}
+    )
+    step = failed(on_top, empty, 0, cause(CauseKind.NO_GRASP, "chest", "egg"))
+    assert f"{out} {empty}" not in revisions(step), "there is no roof over it"

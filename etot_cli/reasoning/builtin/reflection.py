@@ -8,12 +8,13 @@ itself (too big, too heavy) has no correction.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
+    carriers,
     contents,
     distance,
     has_front,
@@ -188,17 +189,29 @@ class _Case:
 
     # -- by verb -----------------------------------------------------------------------------------
 
+    def _brought_out(self, furniture: str, vessels: Iterable[str]) -> Iterator[Correction]:
+        """The branch with a vessel taken out of or from under furniture, where the hand does not
+        get at what is in it.
+        """
+        scene = self.failed.record.before
+        for vessel in sorted(vessels):
+            state = scene.states[vessel]
+            places = (*state.on, state.inside or vessel)
+            if any(owner_of(place) == furniture and has_front(scene, place) for place in places):
+                yield from relocated(self.failed, vessel, None, self.failed.index)
+
     def _of_pick(self) -> Iterator[Correction]:
-        index = self.failed.index
+        index, scene = self.failed.index, self.failed.record.before
         for name in self._culprits():
             placed = placed_by(self.actions, name, index)
             if placed is not None:
                 yield from self._earlier(placed, name)
-            elif self.failed.record.before.infos[name].movable:
+            elif scene.infos[name].movable:
                 yield from self._out_of_the_way(name, index)
             else:
                 yield from self._taken_before_opening(name)
                 yield from shut_meanwhile(self.failed, name)
+                yield from self._brought_out(name, carriers(scene, self.action.target))
         if self.cause.kind in _COVERED:
             for opening in opened_before(self.actions, index):
                 part = self.failed.start.part(self.actions[opening].target)
@@ -290,6 +303,8 @@ class _Case:
                     if owner_of(self.actions[opening].target) == name:
                         yield from self._earlier(opening, name)
                 yield from shut_meanwhile(self.failed, name)
+                if owner in self.failed.record.before.infos:
+                    yield from self._brought_out(name, [owner])
         if self.action.safe and not self._is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
