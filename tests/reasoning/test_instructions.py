@@ -124,7 +124,6 @@ REWORDED: dict[str, dict[str, list[str]]] = {
         "Grab one of the balls": BALLS,
         "Take either tennis ball": BALLS,
         "Lift any ball": BALLS,
-        "Pick up a tennis": BALLS,
         "Pick up the left ball": BALLS[:1],
         "Pick up the second ball": BALLS[1:],
         "Pick up ball 2": BALLS[1:],

@@ -250,6 +250,9 @@ def _distributions(
             return ((place,) * count for place in places)
         case Grouping.SEPARATELY:
             return permutations(places, count)
+        case Grouping.SPREAD:
+            used = min(count, len(places))
+            return (ways for ways in product(places, repeat=count) if len({*ways}) == used)
         case Grouping.ANY:
             return product(places, repeat=count)
 

@@ -27,6 +27,8 @@ class Grouping(StrEnum):
     ANY = "any"
     TOGETHER = "together"
     SEPARATELY = "separately"
+    SPREAD = "spread"
+    """No place is left out while there are things for it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,7 +109,8 @@ def _moves(step: Step, referent: int) -> bool:
 def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> None:
     for index in removed:
         things = [thing for option in goal.referents[index].options for thing in option]
-        if things and all(is_on(scene, thing.name, DESK) for thing in things):
+        names = {DESK, *(thing.name for thing in things)}
+        if things and all(any(is_on(scene, t.name, below) for below in names) for t in things):
             text = goal.referents[index].text
             raise ReferenceProblem(text, "it stands on the desk; say where it is to go", 2)
 

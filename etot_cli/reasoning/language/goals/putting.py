@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
 from etot_cli.reasoning.language.reference.distribution import distributed, is_different
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -75,6 +76,8 @@ def put(context: Context, clause: PutClause) -> None:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(_spread(context, place) for place in places)
+        for index in themes:
+            _choose_from_elsewhere(context, index, places)
         places_of = dict.fromkeys(themes, places)
         for condition in clause.conditions:
             _condition(context, condition, themes, places_of)
@@ -82,6 +85,26 @@ def put(context: Context, clause: PutClause) -> None:
         context.discourse.last_places = places
         if clause.ruled_out:
             rule_out(context, themes, clause.ruled_out)
+
+
+def _choose_from_elsewhere(context: Context, theme: int, places: Sequence[Place]) -> None:
+    """Of several things that may be meant those are put somewhere that are not there yet."""
+    discourse = context.discourse
+    referent = discourse.referents[theme]
+    fixed = [place.where for place in places if place.where is not None and not place.beside]
+    if theme in discourse.put or any(len(discourse.referents[i].options) > 1 for i in fixed):
+        return
+    targets = [target for index in fixed for target in discourse.things(index)]
+    there = [
+        thing
+        for thing in discourse.things(theme)
+        if any(touches(thing, target, context.scene) for target in targets)
+    ]
+    options = tuple(option for option in referent.options if not {*option} & {*there})
+    if there and options and len(referent.options) > 1:
+        discourse.referents[theme] = replace(referent, options=options)
+        names = ", ".join(thing.name for thing in there)
+        discourse.notes.append(f"{referent.text!r} is none that is there already ({names})")
 
 
 def _without_riders(context: Context, themes: list[int]) -> list[int]:

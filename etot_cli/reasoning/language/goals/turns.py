@@ -55,7 +55,7 @@ def _picked_out(
     noun = spoken.phrases[-1].words[-1:]
     found: list[Thing] = []
     for phrase in phrases:
-        full = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun)
+        full = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun, context)
         resolved = context.phrases.meaning(full, role)
         if len(resolved.options) != 1:
             raise ReferenceProblem(phrase.text, "say which one of them", 2)
@@ -65,12 +65,12 @@ def _picked_out(
     return found
 
 
-def _with_noun(phrase: NounPhrase, noun: tuple[str, ...]) -> NounPhrase:
+def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> NounPhrase:
     """An elliptic phrase ("blue first") with the noun that it leaves out."""
     single = tuple(map(singular, noun))
     if phrase.words[-1:] in (("one",), ("ones",)):
         kept = single if phrase.words[-1] == "one" else noun
         return replace(phrase, words=(*phrase.words[:-1], *kept))
-    # An adjective alone leaves its noun out; anything else is a noun of its own.
-    descriptive = phrase.words and all(map(is_descriptive, phrase.words))
-    return replace(phrase, words=(*phrase.words, *single)) if descriptive else phrase
+    # An adjective alone leaves its noun out; so does a word that names nothing.
+    adjectives = all(map(is_descriptive, phrase.words)) or not context.phrases.named(phrase.words)
+    return replace(phrase, words=(*phrase.words, *single)) if adjectives else phrase

@@ -82,7 +82,9 @@ EXTRA = sequence(
 )
 
 
-def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+def _put(
+    groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
+) -> PutClause | None:
     groupings = [item for item in extras if isinstance(item, Grouping)]
     conditions = tuple(item for item in extras if isinstance(item, State))
     said = [item for item in extras if isinstance(item, tuple) and item]
@@ -95,7 +97,7 @@ def _put(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
         return None
     if len(groupings) > 1 or turns is None:
         return None
-    grouping = groupings[0] if groupings else Grouping.ANY
+    grouping = groupings[0] if groupings else grouping
     if "upright" in named:
         groups = tuple(replace(group, upright=True) for group in groups)
     return PutClause(
@@ -260,7 +262,7 @@ PUT = either(
             build=lambda things, nps: PutGroup(things, (Destination(Toward.TO, nps),)),
         ),
         EXTRAS,
-        build=lambda group, extras: _put((group,), extras),
+        build=lambda group, extras: _put((group,), extras, Grouping.SPREAD),
     ),
     sequence(
         silent(phrase(verbs.STACK)),

@@ -11,10 +11,10 @@ from etot_cli.reasoning.language.reference.unmatched import (
     nothing_fits,
 )
 from etot_cli.reasoning.language.reference.vocabulary import (
+    CONTENT,
     EXACT,
     GENERIC,
     HEAD,
-    PART_OF_NAME,
     Entry,
     Vocabulary,
     is_general_noun,
@@ -54,7 +54,7 @@ class Match:
     dropped: tuple[str, ...] = ()
     """Words of these notes that do not tell one thing from another."""
     loose: bool = False
-    """The noun is but another word of their names."""
+    """The noun only says what is in them ("the tissues" of a box of tissues)."""
     named: tuple[tuple[str, tuple[Entry, ...]], ...] = ()
     """Words for size, side, order or state that are part of their names, with all that these told
     them from."""
@@ -95,7 +95,9 @@ def match_words(
     by_name &= sum(entry.is_called(words[-1:]) for entry in vocabulary.objects) < 2
     for entry in everything:
         if len(words) == 1 and words[0] in entry.exact and (by_name or not words[0].isalpha()):
-            return Match((entry,))
+            if entry.info is None or not entry.only_tells(words[0]):
+                return Match((entry,))
+            return Match((entry,), notes=(f"read {words[0]!r} as {entry.info.label}",))
     number = words[-1] if words[-1].isdigit() and len(words) > 1 else None
     if number is not None:
         words = words[:-1]
@@ -155,11 +157,7 @@ def _pools(
         for word in adjectives
     )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
-    if (
-        not adjectives
-        and head in DESK_NOUNS
-        and all(e.grade(head) == PART_OF_NAME for e in fitting)
-    ):
+    if not adjectives and head in DESK_NOUNS and all(e.grade(head) == CONTENT for e in fitting):
         return [[vocabulary.desk], objects]  # whatever a table tennis ball is called
     if upon or any(entry.info is not None and entry.info.boards for entry in fitting):
         # "The top shelf" is a board of the shelf before it is a drawer of something else.
@@ -231,7 +229,9 @@ def _match_in(
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
         plural = any(entry.is_plural(head) for entry in entries)
-    loose = best == PART_OF_NAME or (
+    if best == GENERIC and any(e.only_tells(head) and e.grade(head) is None for e in pool):
+        return None  # where there is a glass jar "the glass" is no cup
+    loose = best == CONTENT or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
     if loose and any(_is_object(entry) for entry in entries):
@@ -242,7 +242,7 @@ def _match_in(
         plural,
         tuple(sifted.notes),
         tuple(sifted.dropped),
-        loose=best == PART_OF_NAME,
+        loose=best == CONTENT,
         named=tuple(sifted.named),
     )
 

@@ -106,6 +106,10 @@ class Resolver:
         grades = [entry.grade(noun) for entry in self._vocabulary.objects]
         return any(grade in (EXACT, HEAD) for grade in grades)
 
+    def names(self, noun: str) -> bool:
+        """Whether anything can be called by a noun, be it for its kind."""
+        return any(entry.grade(noun) is not None for entry in self._vocabulary.entries().values())
+
     def resolve(
         self,
         phrase: NounPhrase,
@@ -295,11 +299,13 @@ class Resolver:
                 raise ReferenceProblem(
                     phrase.text, f"this is true of none of what it could mean ({names})", 1
                 )
-            bare = modifier.denied and modifier.prep is Prep.WITH
+            bare = modifier.denied and modifier.prep in (Prep.WITH, Prep.FROM)
             alike = len(things) == 1 or all(thing.board for thing in things)
             if bare and found == things and alike:
                 why = "there is no other one that this would tell it from"
                 raise ReferenceProblem(phrase.text, why, 2)
+            if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
+                found = space.with_what_lies_on_them(found, things, self._scene)
             things = found
         return things
 

@@ -224,6 +224,10 @@ class Phrases:
         """The basic colours that a thing is called by, or the one that it has."""
         return self._resolver.colors_of(thing)
 
+    def named(self, words: Sequence[str]) -> bool:
+        """Whether anything is called by the last of some words."""
+        return bool(words) and self._resolver.names(words[-1])
+
     def _note_landmarks(self, phrase: NounPhrase, told: tuple[tuple[Thing, ...], ...]) -> None:
         """Things that were only mentioned to tell others by can be spoken of later on. "Its plate"
         is the one on which what was told by it is.

@@ -77,6 +77,15 @@ def rests_on(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     return any(is_on(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
+def with_what_lies_on_them(
+    found: Sequence[Thing], among: Sequence[Thing], scene: SceneState
+) -> list[Thing]:
+    """Things and what stands on them, from the top down; what lies in one of them comes along."""
+    rest = [thing for thing in among if thing not in found]
+    above = [thing for thing in rest if any(rests_on(thing, below, scene) for below in found)]
+    return [*(with_what_lies_on_them(above, rest, scene) if above else ()), *found]
+
+
 def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     """Whether a thing lies inside a landmark."""
     if thing.name == DESK:

@@ -29,9 +29,10 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
-EXACT, HEAD, GENERIC, PART_OF_NAME = range(4)
+EXACT, HEAD, GENERIC, CONTENT = range(4)
 """How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
-its kind; another word of its name."""
+its kind; what it is a pack or box of. A word before the noun (the "paper" of a paper clip) tells
+what is called so from others, but names nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ class Entry:
         info: the object (or the part's owner); None for the desk.
         called: the words of its label and of its name.
         owner: the own words of what it is a part of.
+        content: the noun behind the "of" of its label.
     """
 
     thing: Thing
@@ -63,6 +65,7 @@ class Entry:
     info: ObjectInfo | None = None
     called: tuple[tuple[str, ...], ...] = ()
     owner: tuple[str, ...] = ()
+    content: tuple[str, ...] = ()
 
     def is_called(self, words: Sequence[str]) -> bool:
         """Whether words are its whole name or label."""
@@ -80,9 +83,13 @@ class Entry:
             return HEAD
         if matches_any(noun, self.generic):
             return GENERIC
-        if matches_any(noun, self.own):
-            return PART_OF_NAME
+        if matches_any(noun, self.content):
+            return CONTENT
         return None
+
+    def only_tells(self, word: str) -> bool:
+        """Whether a word stands in its name before the noun and does not name it."""
+        return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
 
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""
@@ -248,7 +255,9 @@ def _object_entry(info: ObjectInfo) -> Entry:
         nouns = [word for word in words if not word.isdigit() and len(word) > 1]
         own.update(dict.fromkeys(word for word in nouns if word not in _LINKS))
         head = _head_of(nouns)
-        heads.update({} if head is None else {head: None})
+        # The name "tea_2" of a tea mug is no noun for it.
+        short = heads and len(nouns) == 1 and head in called[0][:-1] and head not in heads
+        heads.update({} if head is None or short else {head: None})
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
     whole = dict.fromkeys("_".join(words) for words in called if _is_odd(words))
     generic = _kind_nouns(info.kind, heads)
@@ -264,6 +273,7 @@ def _object_entry(info: ObjectInfo) -> Entry:
         color=info.color,
         info=info,
         called=tuple(dict.fromkeys(words for words in called if words)),
+        content=tuple(words[-1] for words in called if "of" in words[1:]),
     )
 
 
