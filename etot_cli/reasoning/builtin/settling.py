@@ -56,9 +56,10 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
             if kept:
                 steps.append(replace(step, what=kept))
             continue
-        if isinstance(step, Put):
-            steps.append(_with_poses(step, goal.steps[:index]))
-            continue
+        if isinstance(step, Pick) and step.what in (o.what for o in later if isinstance(o, Pick)):
+            continue  # "pick up the cup and grip it from above" is one pick
+        if isinstance(step, Put | Pick):
+            step = _with_poses(step, goal.steps[:index])
         steps.append(step)
     _check_hand(goal, steps)
     for index in turned:
@@ -115,10 +116,11 @@ def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> Non
             raise ReferenceProblem(text, "it stands on the desk; say where it is to go", 2)
 
 
-def _with_poses(step: Put, earlier: Sequence[Step]) -> Put:
+def _with_poses(step: Put | Pick, earlier: Sequence[Step]) -> Put | Pick:
     """The step with the grasp poses that an earlier pick of the same things asked for."""
-    for other in reversed(earlier):
-        if isinstance(other, Pick) and other.what in step.what and other.poses != (None,):
+    what = step.what if isinstance(step, Put) else (step.what,)
+    for other in reversed(earlier if step.poses == (None,) else ()):
+        if isinstance(other, Pick) and other.what in what and other.poses != (None,):
             return replace(step, poses=other.poses)
     return step
 

@@ -7,6 +7,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
@@ -138,3 +139,10 @@ def between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneStat
         names = ", ".join(thing.name for thing in things)
         raise ReferenceProblem(phrase.text, f"one of {names} should be between two others", 2)
     return found
+
+
+def is_one(phrase: NounPhrase) -> bool:
+    """Whether a phrase speaks of one thing that is known ("the cup")."""
+    quantity = quantity_of(phrase.determiner)
+    plural = not phrase.words or singular(phrase.words[-1]) != phrase.words[-1]
+    return quantity.definite and not quantity.every and quantity.count in (None, 1) and not plural

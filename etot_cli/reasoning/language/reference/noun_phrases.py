@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.instances import called_exactly, opti
 from etot_cli.reasoning.language.reference.landmarks import (
     RANKED,
     between_the_others,
+    is_one,
     means_the_others,
     related,
 )
@@ -35,7 +36,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     THING_NOUNS,
     basic_color,
     matches_any,
-    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -77,11 +77,9 @@ class Resolved:
     again: bool = False
 
 
-def _is_one(phrase: NounPhrase) -> bool:
-    """Whether a phrase speaks of one thing that is known ("the cup")."""
-    quantity = quantity_of(phrase.determiner)
-    plural = not phrase.words or singular(phrase.words[-1]) != phrase.words[-1]
-    return quantity.definite and not quantity.every and quantity.count in (None, 1) and not plural
+def _names(things: Sequence[Thing]) -> str:
+    parts = ((thing.name, thing.part or thing.board) for thing in things)
+    return ", ".join(dict.fromkeys(".".join(filter(None, names)) for names in parts))
 
 
 class Resolver:
@@ -134,10 +132,8 @@ class Resolver:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
         phrase = usual_form(phrase)
-        if not phrase.words and phrase.determiner in _INCOMPLETE:
-            raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
-        if not phrase.words and noun is None:
-            raise ReferenceProblem(phrase.text, "it is not clear what this refers to")
+        if not phrase.words and (noun is None or phrase.determiner in _INCOMPLETE):
+            raise ReferenceProblem(phrase.text, UNCLEAR)
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
         if quantity.unclear:
@@ -182,30 +178,27 @@ class Resolver:
         things = self._modified(things, modifiers, quantity, count, phrase, pronoun, notes)
         things = self._without(things, phrase, words, noun, pronoun)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
-            names = ", ".join(thing.name for thing in things)
-            raise ReferenceProblem(phrase.text, f"not {among}, but {names} fit", 2)
+            raise ReferenceProblem(phrase.text, f"not {among}, but {_names(things)} fit", 2)
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
         if len(things) == 1 and any(item.words[0] == "to" for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
         if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
-            names = ", ".join(thing.name for thing in things)
-            why = f"say 'the' one of {names}, or to which side of what"
+            why = f"say 'the' one of {_names(things)}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
         things = select(match.selectors, modifiers, things, count, self._scene, phrase.text, notes)
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
-            names = ", ".join(thing.name for thing in things)
-            raise ReferenceProblem(phrase.text, f"say which of {names}", 2)
+            raise ReferenceProblem(phrase.text, f"say which of {_names(things)}", 2)
         if match.plural and match.loose and len(things) == 1 and not quantity.count:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
-            names = ", ".join(thing.name for thing in things)
-            raise ReferenceProblem(phrase.text, f"it is not the only one: {names}", 2, word="only")
+            raise ReferenceProblem(
+                phrase.text, f"it is not the only one: {_names(things)}", 2, word="only"
+            )
         vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
         single = quantity.definite and count == 1
         if match.dropped and (single or vague) and len(things) > 1:
-            names = ", ".join(thing.name for thing in things)
-            why = f"{match.dropped[0]!r} does not tell which of {names} is meant"
+            why = f"{match.dropped[0]!r} does not tell which of {_names(things)} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
@@ -295,9 +288,8 @@ class Resolver:
                 raise AmbiguousReference(phrase.text, sorted(named))
             found = [thing for way in ways for thing in way]
             if not found:
-                names = ", ".join(dict.fromkeys(thing.name for thing in things))
                 raise ReferenceProblem(
-                    phrase.text, f"this is true of none of what it could mean ({names})", 1
+                    phrase.text, f"this is true of none of what it could mean ({_names(things)})", 1
                 )
             bare = modifier.denied and modifier.prep in (Prep.WITH, Prep.FROM)
             alike = len(things) == 1 or all(thing.board for thing in things)
@@ -336,7 +328,7 @@ class Resolver:
         # "everything in a box" is what one box holds.
         ways = (
             [[thing] for thing in things]
-            if _is_one(item) or (quantity.every and quantity_of(item.determiner).count == 1)
+            if is_one(item) or (quantity.every and quantity_of(item.determiner).count == 1)
             else [things]
             for item, things in zip(modifier.phrases, each, strict=True)
         )
