@@ -47,9 +47,21 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_run(state.goal())
     _check_turns(state.timed, state.context.discourse)
     goal = settled(state.goal(), scene, state.context.turned)
+    _check_held(state.timed, goal)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
     return goal
+
+
+def _check_held(said: Sequence[Timed], goal: Goal) -> None:
+    """Whether anything is to be done "then" while what was picked up stays in the hand."""
+    held: int | None = None
+    for item in said:
+        if held is not None and item.steps and item.order is Order.THEN:
+            why = "it is in the hand by then; say where it is to go before"
+            raise ReferenceProblem(goal.referents[held].text, why, 4)
+        picked = [step.what for step in item.steps if isinstance(step, Pick) and step in goal.steps]
+        held = picked[-1] if picked else held
 
 
 def _check_kept(goal: Goal) -> None:

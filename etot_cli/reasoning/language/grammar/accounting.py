@@ -159,7 +159,7 @@ def _said(node: object) -> Iterator[str]:
             yield from (_ORDER, "top", "middle", "bottom")
         case PickClause(poses=poses) if len(poses) > 1:
             yield "either"
-        case Turns(first=first, last=last) if first or last:
+        case Turns(first=first, last=last, all=every) if first or last or every:
             yield _ORDER
         case SwapClause():
             yield "other"

@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -24,12 +25,15 @@ def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
 
 
 _FORBIDDEN = either(
-    sequence(phrase(verbs.TOUCH, Avoid.TOUCH), THINGS, build=_avoid),
-    sequence(phrase(verbs.DISTURB, Avoid.MOVE), THINGS, build=_avoid),
-    sequence(phrase(verbs.PICK, Avoid.MOVE), THINGS, build=_avoid),
-    sequence(phrase(verbs.OPEN, Avoid.OPEN), THINGS, build=_avoid),
     sequence(
-        phrase(verbs.CLOSE, Avoid.CLOSE),
+        one_of(
+            {
+                Avoid.TOUCH: verbs.TOUCH,
+                Avoid.MOVE: f"{verbs.DISTURB}, {verbs.PICK}",
+                Avoid.OPEN: verbs.OPEN,
+                Avoid.CLOSE: verbs.CLOSE,
+            }
+        ),
         THINGS,
         silent(optional(phrase(small_words.TRAILING_THEN), None)),
         build=_avoid,

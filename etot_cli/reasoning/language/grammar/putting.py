@@ -309,28 +309,19 @@ PUT = either(
         EXTRAS,
         build=_put,
     ),
-    sequence(
-        silent(phrase(verbs.PUT_DOWN)),
-        THINGS,
-        build=lambda things: PutClause((PutGroup(things, DOWN),)),
-    ),
-    sequence(
-        silent(phrase(verbs.PUT)),
-        THINGS,
-        silent(phrase("down")),
-        build=lambda things: PutClause((PutGroup(things, DOWN),)),
-    ),
-    sequence(
-        silent(phrase(verbs.PUT_BACK)),
-        THINGS,
-        silent(optional(phrase("back"), None)),
-        build=lambda things: PutClause((PutGroup(things, BACK),)),
-    ),
-    sequence(
-        silent(phrase(verbs.PUT)),
-        THINGS,
-        silent(phrase("back")),
-        build=lambda things: PutClause((PutGroup(things, BACK),)),
+    *(
+        sequence(
+            silent(phrase(verb)),
+            THINGS,
+            silent(particle),
+            build=lambda things, where=where: PutClause((PutGroup(things, where),)),
+        )
+        for verb, particle, where in (
+            (verbs.PUT_DOWN, optional(phrase("down"), None), DOWN),
+            (verbs.PUT, phrase("down"), DOWN),
+            (verbs.PUT_BACK, optional(phrase("back"), None), BACK),
+            (verbs.PUT, phrase("back"), BACK),
+        )
     ),
 )
 VERBLESS = sequence(PUT_GROUPS, EXTRAS, build=_put)

@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
     MoveClause,
+    NounPhrase,
     Order,
     PutClause,
     PutGroup,
@@ -53,7 +54,11 @@ from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
-LEFT_OUT = sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps)
+LEFT_OUT = sequence(
+    silent(phrase(f"{nouns.EXCEPT}, [but|and] leav(e|ing) [out]")),
+    exceptions,
+    build=lambda nps: nps,
+)
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
@@ -260,12 +265,17 @@ def _without(orders: tuple[Order, ...], out: Any, rest: Reading) -> Reading | No
     return None if orders or clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
+def _state_left(nps: tuple[NounPhrase, ...], word: str) -> State | None:
+    """Headlines have no articles; "the drawer shut" lacks a verb."""
+    return None if nps[0].determiner in ("the", "a", "an") else State(nps, word=word)
+
+
 _PLACED = located(
     either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)),
     lambda at, clause: (Spoken(clause, at),),
 )
 _LEFT_SO = located(
-    sequence(NP_LIST, OPEN_OR_CLOSED, build=lambda nps, word: State(nps, word=word)),
+    sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left),
     lambda at, state: (Spoken(EnsureClause((state,)), at),),
 )
 """How something is to be in the end, without a verb ("drawer shut")."""

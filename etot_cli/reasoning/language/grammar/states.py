@@ -55,34 +55,29 @@ def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -
 
 
 _PLAIN_MOVE = either(
-    sequence(
-        silent(phrase("pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)")),
-        THINGS,
-        build=lambda things: MoveClause(things, opens=True),
+    *(
+        sequence(
+            silent(phrase(verb)),
+            THINGS,
+            build=lambda things, opens=opens: MoveClause(things, opens),
+        )
+        for verb, opens in (
+            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
+            (verbs.CLOSE, False),
+        )
     ),
-    sequence(
-        silent(phrase(verbs.OPEN)), THINGS, build=lambda things: MoveClause(things, opens=True)
-    ),
-    sequence(
-        silent(phrase(verbs.PULL)),
-        THINGS,
-        silent(phrase(manner.OPEN_STATE)),
-        build=lambda things: MoveClause(things, opens=True),
-    ),
-    sequence(
-        silent(phrase(verbs.CLOSE)), THINGS, build=lambda things: MoveClause(things, opens=False)
-    ),
-    sequence(
-        silent(phrase("push[ing], slid(e|ing)")),
-        THINGS,
-        silent(phrase("[back|all the way|fully|completely] in")),
-        build=lambda things: MoveClause(things, opens=False),
-    ),
-    sequence(
-        silent(phrase(verbs.PULL)),
-        THINGS,
-        silent(phrase(manner.CLOSED_STATE)),
-        build=lambda things: MoveClause(things, opens=False),
+    *(
+        sequence(
+            silent(phrase(verb)),
+            THINGS,
+            silent(phrase(particle)),
+            build=lambda things, opens=opens: MoveClause(things, opens),
+        )
+        for verb, particle, opens in (
+            (verbs.PULL, manner.OPEN_STATE, True),
+            (verbs.PULL, manner.CLOSED_STATE, False),
+            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
+        )
     ),
 )
 MOVE = either(
