@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from pathlib import Path
@@ -14,6 +15,9 @@ from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, Verbose
 from etot_cli.cli.session import Session
 
+FARTHEST_M = 5.0
+"""No desk of a robot is farther from its base; a larger number is in another unit [m]."""
+
 
 def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
     """``NAME=VALUE`` options as a mapping."""
@@ -23,6 +27,29 @@ def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
         if not separator or not name or not value:
             raise typer.BadParameter(f"{flag} {item!r}: expected NAME=VALUE")
         found[name] = value
+    return found
+
+
+def _numbers(text: str, flag: str, names: str, optional: int = 0) -> tuple[float, ...]:
+    """Numbers that a flag takes, separated by commas; ``optional``: so many may be missing."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    most = names.count(",") + 1
+    if not most - optional <= len(found) <= most or not all(map(math.isfinite, found)):
+        raise typer.BadParameter(f"{flag} {text!r}: expected {names}, numbers with commas between")
+    return found
+
+
+def _workspace(text: str) -> tuple[float, ...]:
+    x0, x1, y0, y1 = found = _numbers(text, "--workspace", "X0,X1,Y0,Y1")
+    if x0 >= x1 or y0 >= y1:
+        raise typer.BadParameter(f"--workspace {text!r}: expected X0 < X1 and Y0 < Y1")
+    if max(map(abs, found)) > FARTHEST_M:
+        raise typer.BadParameter(
+            f"--workspace {text!r}: expected metres, none beyond ±{FARTHEST_M:g}"
+        )
     return found
 
 
@@ -49,6 +76,18 @@ def reconstruct(
     material: Annotated[
         list[str] | None,
         typer.Option("--material", metavar="NAME=MATERIAL", help="What an object is made of."),
+    ] = None,
+    workspace: Annotated[
+        str | None,
+        typer.Option(
+            "--workspace",
+            metavar="X0,X1,Y0,Y1",
+            help="Leave out what stands outside this rectangle of the base frame [m].",
+        ),
+    ] = None,
+    ignore: Annotated[
+        list[str] | None,
+        typer.Option("--ignore", metavar="NAME", help="Leave this thing out; repeatable."),
     ] = None,
     masks_url: Annotated[
         str | None, typer.Option("--masks-url", metavar="URL", help="A server that finds masks.")
@@ -80,7 +119,8 @@ def reconstruct(
     Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
     unusable; 3: a server is not there; 130: interrupted.
     """
-    from etot_cli.commands.reconstruct import Options, reconstruct_capture
+    area = None if workspace is None else _workspace(workspace)
+    from etot_cli.commands.reconstruct import Options, Workspace, reconstruct_capture
 
     heed()
     from etot_cli.reporting.files import report_text
@@ -96,7 +136,7 @@ def reconstruct(
         meshes={name: Path(file) for name, file in _pairs(mesh, "--mesh").items()},
         library=library, masks_url=masks_url, mesh_url=mesh_url, pose_url=pose_url,
         articulation_url=articulation_url, deadline=server_timeout,
-        seed=seed,
+        workspace=None if area is None else Workspace(*area), ignore=tuple(ignore or ()), seed=seed,
     )  # fmt: skip
     reconstruction = reconstruct_capture(options, folder)
     report = reconstruction.report

@@ -11,6 +11,7 @@ import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError, SpecError, WorldError
+from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.options import Options
@@ -34,7 +35,7 @@ from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
 from etot_cli.world.state import triple
 
-__all__ = ["Options", "reconstruct_capture"]
+__all__ = ["Options", "Workspace", "reconstruct_capture"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
@@ -94,7 +95,7 @@ def _report(
         status = "success" if still and twin.whole else "partial"
     found: dict[str, Any] = {
         "desk_top": None, "tilt_deg": 0.0, "depth_shift_px": (0, 0), "objects": [], "joints": [],
-        "warnings": [], "stages": {},
+        "ignored": [], "outside_workspace": 0, "warnings": [], "stages": {},
     }  # fmt: skip
     if twin is not None:
         found = {
@@ -109,6 +110,8 @@ def _report(
                 )
                 for joint in twin.joints
             ],
+            "ignored": twin.ignored,
+            "outside_workspace": twin.outside,
             "warnings": twin.warnings,
             "stages": {name: round(max(value, 0.0), 4) for name, value in twin.timing.items()},
         }  # fmt: skip

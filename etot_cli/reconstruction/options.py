@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.services import DEADLINE
 
 
@@ -15,7 +16,8 @@ class Options:
     ``auto``: find masks even where the capture has some. ``second``: a capture of the same scene
     with another joint state; by default the folder ``second`` in the capture, where there is one.
     ``meshes``: mesh files by object name. ``library``: a file of known things. The URLs let servers
-    take stages over.
+    take stages over. ``workspace``: what stands elsewhere is left out; ``ignore``: so is what has
+    one of these names.
     """
 
     capture: Path
@@ -30,5 +32,7 @@ class Options:
     pose_url: str | None = None
     articulation_url: str | None = None
     deadline: float = DEADLINE
+    workspace: Workspace | None = None
+    ignore: tuple[str, ...] = ()
     seed: int = 0
     settle: bool = True

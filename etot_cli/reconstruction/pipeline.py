@@ -15,13 +15,19 @@ from etot_cli.reconstruction.articulation.furnish import furnish
 from etot_cli.reconstruction.articulation.server import asked_joints
 from etot_cli.reconstruction.articulation.two_frames import Joint, articulate
 from etot_cli.reconstruction.capture.calibration import Calibrated, calibrate
-from etot_cli.reconstruction.capture.folder import disjoint, read_capture, unique_name
+from etot_cli.reconstruction.capture.folder import disjoint, read_capture, safe_name, unique_name
 from etot_cli.reconstruction.fit.rejoin import rejoin
 from etot_cli.reconstruction.fit.second_look import look_again
 from etot_cli.reconstruction.fit.supports import fit_all
 from etot_cli.reconstruction.free_form.completion import complete
 from etot_cli.reconstruction.known.given import given_shapes
 from etot_cli.reconstruction.known.library import without, words_of
+from etot_cli.reconstruction.leaving_out import (
+    checked_names,
+    outside,
+    set_aside,
+    without_ignored,
+)
 from etot_cli.reconstruction.masks.automatic import find_segments
 from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
 from etot_cli.reconstruction.masks.naming import assign_names, color_of, hint_of, mentions
@@ -46,6 +52,9 @@ class Twin:
     settled: dict[str, assembly.Settled] = field(default_factory=dict)
     whole: bool = True
     """Whether all that was found in reach is in the scene, and ``etot plan`` takes that."""
+    ignored: list[str] = field(default_factory=list)
+    outside: int = 0
+    """How many things stand outside the workspace."""
 
 
 def reconstruct(options: Options) -> Twin:
@@ -57,13 +66,11 @@ def reconstruct(options: Options) -> Twin:
     """
     timing: dict[str, float] = {}
     clock = _Clock(timing)
-    seen = calibrate(read_capture(options.capture, use_masks=not options.auto), seed=options.seed)
+    seen = _calibrated(options.capture, options)
     clock.lap("calibration")
-    warnings, doubts = list(seen.warnings), list[str]()
-    segments = _segments(seen, options)
-    if segments and segments[0].named:
-        segments, doubts = usable_segments(seen, segments)
-        warnings += doubts + (unmasked(seen, segments) if segments else [])
+    warnings = list(seen.warnings)
+    seen, segments, left, doubts = _segments(seen, options)
+    warnings += doubts
     if not segments:
         raise SpecError(
             "; ".join(["no object is seen on the desk", *doubts]), file=str(options.capture)
@@ -79,30 +86,83 @@ def reconstruct(options: Options) -> Twin:
     warnings += beyond
     if not solids:
         raise SpecError("; ".join(["nothing is in reach", *beyond]), file=str(options.capture))
+    before = [solid.name for solid in solids]
     solids = _named(seen, solids, options.instruction)
+    called = dict(zip(before, (solid.name for solid in solids), strict=True))
+    if not segments[0].named:
+        names = {solid.name for solid in solids}
+        solids, notes = without_ignored(
+            solids, checked_names(options.ignore, names, str(options.capture))
+        )
+        warnings += notes
+        if not solids:
+            raise SpecError("all that is found is ignored", file=str(options.capture))
     clock.lap("articulation")
     title = safe_title(options.capture)
     document = assembly.scene_document(title, seen, solids, options.materials)
     solids, document, impossible = assembly.what_a_scene_may_have(solids, document)
     warnings += impossible
-    twin = Twin(seen, solids, document, warnings, timing, joints, whole=not impossible)
+    joints = [
+        replace(joint, owner=called[joint.owner])
+        for joint in joints if called.get(joint.owner) in document["objects"]
+    ]  # fmt: skip
+    twin = Twin(
+        seen, solids, document, warnings, timing, joints, whole=not impossible,
+        ignored=sorted(map(safe_name, options.ignore)), outside=left,
+    )  # fmt: skip
     if options.settle and not any(solid.kind == "mesh" for solid in solids):
         settle_twin(twin, options.capture)
     clock.lap("assembly")
     return twin
 
 
-def _segments(seen: Calibrated, options: Options) -> list[Segment]:
-    """Pixels of the objects: from a server, from the capture's masks, or found."""
+def _calibrated(folder: Path, options: Options) -> Calibrated:
+    """A capture in its levelled frame; masks that are ignored are set aside."""
+    capture = read_capture(folder, use_masks=not options.auto)
+    ignored = {safe_name(name) for name in options.ignore}
+    aside = [mask for name, mask in capture.masks.items() if name in ignored]
+    return calibrate(capture, seed=options.seed, workspace=options.workspace, aside=aside)
+
+
+def _segments(
+    seen: Calibrated, options: Options
+) -> tuple[Calibrated, list[Segment], int, list[str]]:
+    """Pixels of the objects: from a server, from the capture's masks, or found.
+
+    Returns:
+        the capture with what is left out set aside, the segments, how many stand outside the
+        workspace, and what is to be said.
+    """
     if options.masks_url is not None:
         prompts = [" ".join(filter(None, (m.color, m.noun))) for m in mentions(options.instruction)]
         masks = services.ask_masks(options.masks_url, seen.capture.color, prompts, options.deadline)
         masks = disjoint(masks, [])
     else:
         masks = seen.capture.masks
+    notes: list[str] = []
     if masks:
-        return [Segment(name, mask, label=name.replace("_", " ")) for name, mask in masks.items()]
-    return find_segments(seen)
+        # A mask that shows nothing has been left out already.
+        files = {safe_name(path.stem) for path in (options.capture / "masks").glob("*.png")}
+        ignored = checked_names(options.ignore, {*masks, *files}, str(options.capture))
+        if options.masks_url is not None:
+            seen = set_aside(seen, (masks[name] for name in ignored & set(masks)))
+        segments = [
+            Segment(name, mask, label=name.replace("_", " "))
+            for name, mask in masks.items() if name not in ignored
+        ]  # fmt: skip
+    else:
+        segments = find_segments(seen)
+    left: list[Segment] = []
+    if options.workspace is not None:
+        seen, segments, left = outside(seen, segments, options.workspace)
+        if left:
+            notes.append(
+                f"{len(left)} thing(s) outside the workspace ({options.workspace}): left out"
+            )
+    if masks:
+        segments, doubts = usable_segments(seen, segments)
+        notes += doubts + (unmasked(seen, segments) if segments else [])
+    return seen, segments, len(left), notes
 
 
 def _shapes(
@@ -119,7 +179,7 @@ def _shapes(
         segments = [segment for segment in segments if segment.name in lost]
         segments += [solid.segment for solid in solids]
     solids = [
-        complete(seen, solid, [o.mask for o in segments if o.name != solid.name])
+        complete(seen, solid, [*(o.mask for o in segments if o.name != solid.name), *seen.aside])
         for solid in solids
     ]
     return [furnish(seen, solid, hints.get(solid.name)) for solid in solids], sorted(lost)
@@ -134,11 +194,13 @@ def _joints(
         folder = options.capture / "second"
     joints: list[Joint] = []
     if folder is not None:
-        later = calibrate(read_capture(folder, use_masks=not options.auto), seed=options.seed)
+        later = _calibrated(folder, options)
         masks = later.capture.masks
-        segments = (
-            [Segment(name, mask) for name, mask in masks.items()] if masks else find_segments(later)
-        )
+        ignored = {safe_name(name) for name in options.ignore}
+        segments = [Segment(name, mask) for name, mask in masks.items() if name not in ignored]
+        segments = segments if masks else find_segments(later)
+        if options.workspace is not None:
+            later, segments, _ = outside(later, segments, options.workspace)
         others, _ = _shapes(later, segments, options)
         solids, joints = articulate(solids, others)
     if options.articulation_url is not None:

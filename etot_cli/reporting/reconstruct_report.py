@@ -98,6 +98,10 @@ class ReconstructReport(Model):
     """By how much the camera's pose was levelled."""
     depth_shift_px: tuple[int, int]
     """By how much depth was moved back onto colour (right, down)."""
+    ignored: list[str]
+    """Names of what was left out because ``--ignore`` says so."""
+    outside_workspace: int = Field(ge=0)
+    """How many things were left out because they stand outside ``--workspace``."""
     objects: list[ReconstructedObjectModel]
     joints: list[JointModel]
     pieces: list[PiecesModel]

@@ -6,6 +6,7 @@ against colour is measured and taken back. Both are said in the warnings.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,6 +17,7 @@ from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.alignment import SHIFT_NOTED, displaced, measure_shift
 from etot_cli.reconstruction.capture.folder import Capture
 from etot_cli.reconstruction.capture.view import Array, Mask, View
+from etot_cli.reconstruction.capture.workspace import Workspace
 
 REACH = 1.1
 """Only points this near to the robot's axis can be the desk it works on [m]."""
@@ -50,7 +52,8 @@ class Calibrated:
     ``depth`` (h, w) [m] lies on colour; ``cloud`` (h, w, 3) base frame, NaN = none; ``height``
     (h, w) above the desk [m]; ``desk_top`` [m]; ``noise``: residual of the desk plane [m];
     ``desk`` (h, w): pixels of the desk; ``outline`` (k, 2): x y of the hull of the desk's visible
-    part; ``tilt_deg`` corrected; ``shift`` (right, down) [px] taken back.
+    part; ``tilt_deg`` corrected; ``shift`` (right, down) [px] taken back; ``aside``: pixels (h, w)
+    of each thing that is left out on purpose. It may hide others, and is neither desk nor theirs.
     """
 
     capture: Capture
@@ -65,10 +68,23 @@ class Calibrated:
     tilt_deg: float
     shift: tuple[int, int]
     warnings: tuple[str, ...]
+    aside: tuple[Mask, ...] = ()
 
 
-def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
+def calibrate(
+    capture: Capture,
+    *,
+    seed: int = 0,
+    workspace: Workspace | None = None,
+    aside: Sequence[Mask] = (),
+) -> Calibrated:
     """Levels the camera's pose to the desk and lays depth on colour.
+
+    Args:
+        capture: the frame.
+        seed: of the planes that are tried.
+        workspace: only what lies in it says where the desk is.
+        aside: pixels (h, w) of things that are left out; they are not taken for desk.
 
     Raises:
         SpecError: no desk is seen, it leans impossibly, or the camera is below it.
@@ -77,9 +93,17 @@ def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
     rng = np.random.default_rng(seed)
     view = capture.view
     cloud = view.cloud(capture.depth)
-    plane = _desk_plane(cloud, rng)
+    elsewhere = np.any([np.zeros(capture.depth.shape, dtype=bool), *aside], axis=0)
+
+    def asked(points: Array) -> Mask:
+        return np.asarray(~elsewhere if workspace is None else ~elsewhere & workspace.holds(points))
+
+    def fitted(points: Array) -> tuple[Array, Array, float] | None:
+        return _desk_plane(np.where(asked(points)[..., None], points, np.nan), rng)
+
+    plane = fitted(cloud)
     if plane is None:
-        raise _no_desk(capture, rng)
+        raise _no_desk(capture, fitted, workspace)
     normal, middle, noise = plane
     tilt = float(np.degrees(np.arccos(np.clip(normal[2], -1.0, 1.0))))
     if (view.position - middle) @ normal <= 0:
@@ -103,7 +127,7 @@ def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
         cloud = view.cloud(depth)
         # Depth was measured along other rays than colour's by some pixels, so the plane is
         # looked at once more.
-        normal, middle, noise = _desk_plane(cloud, rng) or (normal, middle, noise)
+        normal, middle, noise = fitted(cloud) or (normal, middle, noise)
         view = view.moved(_levelled(view.camera_to_base, normal, middle))
         cloud = view.cloud(depth)
         top = float(middle[2])
@@ -115,24 +139,32 @@ def calibrate(capture: Capture, *, seed: int = 0) -> Calibrated:
             )
     desk = np.abs(height) < max(0.004, 4 * noise)
     desk &= np.hypot(cloud[..., 0], cloud[..., 1]) < 2 * REACH
-    desk = _largest(desk)
-    kernel = np.ones((3, 3), np.uint8)
-    inner = cv2.erode(desk.astype(np.uint8), kernel, borderType=cv2.BORDER_CONSTANT, borderValue=0)
-    border = desk & (inner == 0)
-    outline = _outline(cloud[border][:, :2])
+    desk = _largest(desk & ~elsewhere, asked(cloud))
+    outline = _outline(desk, cloud)
     return Calibrated(capture, view, depth, cloud, height, desk, top, noise, outline, tilt, shift,
-                      tuple(warnings))  # fmt: skip
+                      tuple(warnings), tuple(aside))  # fmt: skip
 
 
-def _no_desk(capture: Capture, rng: np.random.Generator) -> SpecError:
+def confined(seen: Calibrated, workspace: Workspace) -> Calibrated:
+    """The same with a desk that ends where the workspace does."""
+    desk = seen.desk & workspace.holds(seen.cloud)
+    return replace(seen, desk=desk, outline=_outline(desk, seen.cloud))
+
+
+def _no_desk(
+    capture: Capture,
+    fitted: Callable[[Array], tuple[Array, Array, float] | None],
+    workspace: Workspace | None,
+) -> SpecError:
     """What is wrong with a capture that shows no desk; a wrong unit of depth is recognized."""
+    within = "" if workspace is None else f" and the workspace ({workspace})"
     text = (
-        "no desk is seen within the robot's reach: expected a level plane at z "
+        f"no desk is seen within the robot's reach{within}: expected a level plane at z "
         f"{LEVELS[0]:g} … {LEVELS[1]:g} m of the base frame; "
     )
     planes = {
         factor: plane for factor in OTHER_UNITS
-        if (plane := _desk_plane(capture.view.cloud(factor * capture.depth), rng)) is not None
+        if (plane := fitted(capture.view.cloud(factor * capture.depth))) is not None
     }  # fmt: skip
     if planes:
         # Of several, the desk that is nearest to the level of the robot's base is meant.
@@ -190,14 +222,18 @@ def _levelled(pose: Array, normal: Array, pivot: Array) -> Array:
     return levelled
 
 
-def _largest(mask: Mask) -> Mask:
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
-    if count < 2:
-        return mask
-    return np.asarray(labels == 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA])))
+def _largest(mask: Mask, asked: Mask) -> Mask:
+    """The connected part of a mask of which most pixels are asked for; both (h, w)."""
+    _, labels = cv2.connectedComponents(mask.astype(np.uint8))
+    counts = np.bincount(labels[mask & asked])
+    return np.asarray(labels == int(np.argmax(counts))) if len(counts) else mask
 
 
-def _outline(points: Array) -> Array:
+def _outline(desk: Mask, cloud: Array) -> Array:
+    """Hull (k, 2) of the desk's pixels, base frame [m]."""
+    kernel = np.ones((3, 3), np.uint8)
+    inner = cv2.erode(desk.astype(np.uint8), kernel, borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    points = cloud[desk & (inner == 0)][:, :2]
     hull = cv2.convexHull((points * 1000).astype(np.float32))
     return np.asarray(hull[:, 0, :] / 1000, dtype=np.float64)
 

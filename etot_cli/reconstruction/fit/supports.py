@@ -158,7 +158,9 @@ def _observe(seen: Calibrated, segment: Segment, segments: list[Segment]) -> Obs
         slice(max(0, int(at.min()) - AROUND), int(at.max()) + AROUND) for at in (rows, columns)
     )
     others = [
-        other.mask for other in segments if other.name != segment.name and other.mask[window].any()
+        mask
+        for mask in (*(o.mask for o in segments if o.name != segment.name), *seen.aside)
+        if mask[window].any()
     ]
     exact = exact_depth(seen)
     observation = observe(

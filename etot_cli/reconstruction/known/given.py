@@ -45,7 +45,7 @@ def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> lis
     library = Library(()) if options.library is None else read_library(options.library)
     found = []
     for solid in solids:
-        others = [other.segment.mask for other in solids if other is not solid]
+        others = [*(o.segment.mask for o in solids if o is not solid), *seen.aside]
         entry = library.named(solid.name) if solid.segment.named else None
         if solid.name in options.meshes:
             path = options.meshes[solid.name]
@@ -233,7 +233,7 @@ def _recognized(
         for index, solid in enumerate(done):
             if solid.segment.named or not _size_fits(solid, entry):
                 continue
-            others = [other.segment.mask for other in done if other is not solid]
+            others = [*(o.segment.mask for o in done if o is not solid), *seen.aside]
             known = _matching(seen, solid, others, entry, options)
             if known is None:
                 continue

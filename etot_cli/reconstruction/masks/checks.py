@@ -59,7 +59,7 @@ def unmasked(seen: Calibrated, segments: list[Segment]) -> list[str]:
     """What stands on the desk without a mask, in words."""
     threshold = max(UNMASKED_HEIGHT, 8 * seen.noise)
     raised, above_desk = raised_pixels(seen, threshold, noisy=True)
-    known = np.any([segment.mask for segment in segments], axis=0)
+    known = np.any([*(segment.mask for segment in segments), *seen.aside], axis=0)
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * AROUND + 1,) * 2)
     left = raised & above_desk & (cv2.dilate(known.astype(np.uint8), kernel) == 0)
     labels = label_components(left, UNMASKED_PIXELS)
