@@ -12,8 +12,11 @@ import pytest
 import yaml
 
 from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.instructions import goal_of
+from etot_cli.skills.action import Verb
+from etot_cli.world.state import owner_of
 from tests.reasoning import corpus_scenes
 
 CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
@@ -89,3 +92,28 @@ def test_reading_takes_little_time() -> None:
             taken.append(time.process_time() - start)
     assert statistics.median(taken) < 0.1
     assert max(taken) < 1.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Put the duck in one dresser and the train in the other one.",
+        "Put the duck and the train in different dressers.",
+        "Distribute the duck and the train among the dressers.",
+        "Put the duck in a drawer and the train in another drawer.",
+    ],
+)
+def test_several_pieces_of_furniture_are_told_apart_as_wholes(text: str) -> None:
+    scene = SCENES["nursery"]
+    branches = list(branches_of((goal_of(text, scene),), scene))
+    places = [
+        [
+            owner_of(action.target)
+            for action in branch.actions
+            if action.verb in (Verb.PUT_INTO, Verb.PUT_ON)
+        ]
+        for branch in branches
+    ]
+    apart = [owners for owners in places if len(set(owners)) == 2]
+    assert apart
+    assert (len(places) > len(apart)) == ("drawer" in text)

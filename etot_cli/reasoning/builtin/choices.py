@@ -154,10 +154,20 @@ def _is_ajar(thing: Thing, scene: SceneState) -> bool:
 
 def _distinct(referents: list[Referent], things: tuple[tuple[Thing, ...], ...]) -> bool:
     return all(
-        not set(things[index]) & set(things[other])
+        not _units(referents, index, other, things[index])
+        & _units(referents, index, other, things[other])
         for index, referent in enumerate(referents)
         for other in referent.distinct_from
     )
+
+
+def _units(
+    referents: list[Referent], one: int, other: int, things: tuple[Thing, ...]
+) -> frozenset[Thing]:
+    """What tells two referents apart: of several chests the chest, of one its drawers."""
+    options = (*referents[one].options, *referents[other].options)
+    several = len({thing.name for option in options for thing in option}) > 1
+    return frozenset(Thing(t.name) if several and t.implied else t for t in things)
 
 
 def _placements(
@@ -167,13 +177,13 @@ def _placements(
     names = [thing.name for index in step.what for thing in things[index]]
     if len(set(names)) < len(names):
         return
-    places = [
-        (place.relation, address, where)
+    places = {
+        (place.relation, address, where): unit
         for place in step.places
         for where in _whereabouts(place, things)
-        for address in _addresses(place, things, scene)
-    ]
-    for selected in _distributions(list(dict.fromkeys(places)), len(names), step.grouping):
+        for address, unit in _addresses(place, things, scene).items()
+    }
+    for selected in _distributions(places, len(names), step.grouping):
         placed = tuple(Placement(name, *place) for name, place in zip(names, selected, strict=True))
         yield None if any(item.name == owner_of(item.target) for item in placed) else placed
 
@@ -183,15 +193,18 @@ _Place = tuple[Relation, str, tuple[Whereabouts, ...]]
 
 def _addresses(
     place: Place, things: tuple[tuple[Thing, ...], ...], scene: SceneState
-) -> tuple[str, ...]:
-    """Addresses of a place's surface or container; empty text where its landmark's is meant."""
+) -> dict[str, str]:
+    """Addresses of a place's surface or container; empty text where its landmark's is meant. With
+    each the piece of furniture of several that it is in, where no part of that was named.
+    """
     if place.where is None:
-        return ("",)
-    return tuple(
-        address
+        return {"": ""}
+    several = len({thing.name for thing in things[place.where]}) > 1
+    return {
+        address: thing.name if several and thing.part is None else address
         for thing in things[place.where]
         for address in address_of(thing, place.relation, scene)
-    )
+    }
 
 
 def _whereabouts(
@@ -242,19 +255,20 @@ def _resting(
 
 
 def _distributions(
-    places: list[_Place], count: int, grouping: Grouping
+    places: dict[_Place, str], count: int, grouping: Grouping
 ) -> Iterator[tuple[_Place, ...]]:
-    """A place for each of ``count`` objects."""
+    """A place for each of ``count`` objects; what each place belongs to tells them apart."""
+    apart = min(count, len({*places.values()}))
     match grouping:
         case Grouping.TOGETHER:
             return ((place,) * count for place in places)
         case Grouping.SEPARATELY:
-            return permutations(places, count)
+            ways: Iterator[tuple[_Place, ...]] = permutations(places, count)
         case Grouping.SPREAD:
-            used = min(count, len(places))
-            return (ways for ways in product(places, repeat=count) if len({*ways}) == used)
+            ways = product(places, repeat=count)
         case Grouping.ANY:
             return product(places, repeat=count)
+    return (way for way in ways if len({places[place] for place in way}) == apart)
 
 
 def _consistent(placed: tuple[tuple[Placement, ...], ...]) -> bool:

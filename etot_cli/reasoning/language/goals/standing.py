@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.relations import can_topple
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import ReorientClause
+from etot_cli.reasoning.language.reference.coreference import is_flat
 from etot_cli.world.spatial import Nearby
 
 
@@ -27,6 +28,8 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if context.scene.states[thing.name].toppled:
             place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
             context.steps.append(Put((index,), (place,)))
+        else:
+            context.discourse.notes.append(f"{thing.name} stands upright as it is")
 
 
 def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) -> tuple[Place, ...]:
@@ -49,5 +52,10 @@ def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) ->
 
 
 def _can_stand(context: Context, index: int) -> bool:
+    """Whether things have an upright pose; what lies flat as it is would stand on its edge."""
+    scene = context.scene
     things = context.discourse.things(index)
-    return all(can_topple(context.scene.infos[thing.name]) for thing in things)
+    return all(
+        can_topple(info) and (state.toppled or info.container or not is_flat(info))
+        for info, state in ((scene.infos[t.name], scene.states[t.name]) for t in things)
+    )

@@ -73,6 +73,13 @@ PICK = sequence(
     build=_pick,
 )
 _DESKS = [(noun,) for noun in DESK_NOUNS]
+
+
+def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
+    """What is lifted off the desk is picked up."""
+    return None if source.words[-1:] in _DESKS else RemoveClause(things, source)
+
+
 REMOVE = either(
     sequence(
         silent(phrase(verbs.REMOVE)),
@@ -90,11 +97,15 @@ REMOVE = either(
     sequence(
         silent(phrase(verbs.BRING)),
         THINGS,
+        silent(phrase("out of, off [of]")),
+        noun_phrase,
+        build=_taken,
+    ),
+    sequence(
+        silent(phrase(verbs.TAKE)),
+        THINGS,
         SOURCE,
-        build=lambda things, source: (
-            # What is lifted off the desk is picked up.
-            None if source.words[-1:] in _DESKS else RemoveClause(things, source)
-        ),
+        build=_taken,
     ),
 )
 

@@ -15,13 +15,18 @@ from etot_cli.reasoning.language.reference.antecedents import (
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun, singular
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
+
+
+def is_flat(info: ObjectInfo) -> bool:
+    """Whether a thing is much lower than wide as it rests."""
+    return info.size[2] <= FLAT * min(info.size[:2])
 
 
 @dataclass
@@ -293,10 +298,10 @@ class Discourse:
         if any(thing.name == DESK for thing in things):
             return False
         if role is Role.SURFACE:
-            above = [self.scene.infos[thing.name].size for thing in self.things(theme)]
+            themes = [self.scene.infos[thing.name] for thing in self.things(theme)]
             below = [self.scene.infos[thing.name].size for thing in things]
-            support = all(size[2] <= FLAT * min(size[:2]) for size in above)
-            side = max(min(size[:2]) for size in above)
+            support = all(map(is_flat, themes))
+            side = max(min(info.size[:2]) for info in themes)
             return not support and any(min(size[:2]) >= ROOMY * side for size in below)
         if role is Role.CONTAINER:
             return self.put_into.get(theme) == place

@@ -228,7 +228,9 @@ def _match_in(
     if matches_any(head, THING_NOUNS):
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
-        plural = any(entry.is_plural(head) for entry in entries)
+        # Of several pairs of socks "the socks" are all.
+        packs = len(entries) > 1 and singular(head) != head
+        plural = any(e.is_plural(head) or (packs and head in e.content) for e in entries)
     if best == GENERIC and any(e.only_tells(head) and e.grade(head) is None for e in pool):
         return None  # where there is a glass jar "the glass" is no cup
     loose = best == CONTENT or (

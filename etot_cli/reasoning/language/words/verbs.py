@@ -26,10 +26,9 @@ DISTRIBUTE = """
 """
 PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
-BRING = """
-    tak(e|ing), get[ting], lift[ing], grab[bing], fetch[ing], pull[ing], mov(e|ing), bring[ing],
-    transfer[ring]
-"""
+TAKE = "tak(e|ing), lift[ing], pull[ing], mov(e|ing), bring[ing], transfer[ring]"
+"""What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
+BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
     remov(e|ing), clear[ing] away, unload[ing], extract[ing], tak(e|ing) (out|off|away),
     get[ting] (out|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
