@@ -108,7 +108,8 @@ def match_words(
         uncounted = match_words(rest, vocabulary, phrase, noun, by_name=False, parts_first=True)
         return replace(uncounted, selectors=(*uncounted.selectors, *chosen))
     adjectives, head = tuple(words[:-1]), words[-1]
-    if matches_any(head, ("one",)) and noun is not None:
+    elliptic = matches_any(head, ("one",)) and noun is not None
+    if elliptic and noun is not None:
         single = singular(noun)
         plural = noun if noun != single else f"{noun}es" if noun.endswith("s") else f"{noun}s"
         head = plural if head == "ones" else single
@@ -123,6 +124,10 @@ def match_words(
             parts = [*vocabulary.parts, *vocabulary.boards]
             if is_of_parts(found.entries[0], head, vocabulary):
                 found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
+        if found is not None and elliptic and _are_like(head, found.entries):
+            # "The blue one", after a box that is called so, is no block that is like a box.
+            named = any(e.grade(head) in (EXACT, HEAD) for e in vocabulary.objects)
+            found = None if named else found
         if found is not None:
             return found
     raise nothing_fits(head, adjectives, number, vocabulary, phrase)
@@ -247,6 +252,11 @@ def _match_in(
         loose=best == CONTENT,
         named=tuple(sifted.named),
     )
+
+
+def _are_like(noun: str, entries: Sequence[Entry]) -> bool:
+    """Whether objects are called by a noun for their kind alone."""
+    return all(_is_object(entry) and entry.grade(noun) == GENERIC for entry in entries)
 
 
 def _is_object(entry: Entry) -> bool:
