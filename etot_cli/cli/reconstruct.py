@@ -17,6 +17,8 @@ from etot_cli.cli.session import Session
 
 FARTHEST_M = 5.0
 """No desk of a robot is farther from its base; a larger number is in another unit [m]."""
+LOWEST_M, HIGHEST_M = -0.4, 0.6
+"""Where a desk's top may lie over the base [m]; the search for the desk has these bounds too."""
 
 
 def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
@@ -46,11 +48,27 @@ def _workspace(text: str) -> tuple[float, ...]:
     x0, x1, y0, y1 = found = _numbers(text, "--workspace", "X0,X1,Y0,Y1")
     if x0 >= x1 or y0 >= y1:
         raise typer.BadParameter(f"--workspace {text!r}: expected X0 < X1 and Y0 < Y1")
+    return _metres(found, f"--workspace {text!r}")
+
+
+def _metres(found: tuple[float, ...], what: str) -> tuple[float, ...]:
     if max(map(abs, found)) > FARTHEST_M:
-        raise typer.BadParameter(
-            f"--workspace {text!r}: expected metres, none beyond ±{FARTHEST_M:g}"
-        )
+        raise typer.BadParameter(f"{what}: expected metres, none beyond ±{FARTHEST_M:g}")
     return found
+
+
+def _standpoint(text: str) -> tuple[float, ...]:
+    x, y, yaw, *top = _numbers(text, "--camera-at", "X,Y,YAW,TOP", optional=1)
+    return (*_metres((x, y), f"--camera-at {text!r}"), yaw, *_height(top, f"--camera-at {text!r}"))
+
+
+def _height(top: list[float], what: str) -> list[float]:
+    """The optional height of the desk's top."""
+    if top and not LOWEST_M <= top[0] <= HIGHEST_M:
+        raise typer.BadParameter(
+            f"{what}: expected the desk's top at {LOWEST_M:g} to {HIGHEST_M:g} m"
+        )
+    return top
 
 
 def reconstruct(
@@ -89,6 +107,15 @@ def reconstruct(
         list[str] | None,
         typer.Option("--ignore", metavar="NAME", help="Leave this thing out; repeatable."),
     ] = None,
+    camera_at: Annotated[
+        str | None,
+        typer.Option(
+            "--camera-at",
+            metavar="X,Y,YAW[,TOP]",
+            help="Where the camera stands [m] and looks [deg]; height and tilt come from the desk, "
+            "its top at TOP [m].",
+        ),
+    ] = None,
     masks_url: Annotated[
         str | None, typer.Option("--masks-url", metavar="URL", help="A server that finds masks.")
     ] = None,
@@ -120,7 +147,8 @@ def reconstruct(
     unusable; 3: a server is not there; 130: interrupted.
     """
     area = None if workspace is None else _workspace(workspace)
-    from etot_cli.commands.reconstruct import Options, Workspace, reconstruct_capture
+    place = None if camera_at is None else _standpoint(camera_at)
+    from etot_cli.commands.reconstruct import CameraAt, Options, Workspace, reconstruct_capture
 
     heed()
     from etot_cli.reporting.files import report_text
@@ -136,7 +164,8 @@ def reconstruct(
         meshes={name: Path(file) for name, file in _pairs(mesh, "--mesh").items()},
         library=library, masks_url=masks_url, mesh_url=mesh_url, pose_url=pose_url,
         articulation_url=articulation_url, deadline=server_timeout,
-        workspace=None if area is None else Workspace(*area), ignore=tuple(ignore or ()), seed=seed,
+        workspace=None if area is None else Workspace(*area), ignore=tuple(ignore or ()),
+        camera_at=None if place is None else CameraAt(*place), seed=seed,
     )  # fmt: skip
     reconstruction = reconstruct_capture(options, folder)
     report = reconstruction.report

@@ -11,6 +11,7 @@ import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError, SpecError, WorldError
+from etot_cli.reconstruction.capture.standpoint import CameraAt
 from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.objects import Solid
@@ -23,6 +24,7 @@ from etot_cli.reconstruction.twin.physics import WORLDS
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.provenance import Stopwatch, versions
 from etot_cli.reporting.reconstruct_report import (
+    CameraModel,
     FitModel,
     JointModel,
     KnownModelModel,
@@ -35,7 +37,7 @@ from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
 from etot_cli.world.state import triple
 
-__all__ = ["Options", "Workspace", "reconstruct_capture"]
+__all__ = ["CameraAt", "Options", "Workspace", "reconstruct_capture"]
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
@@ -94,7 +96,8 @@ def _report(
         )
         status = "success" if still and twin.whole else "partial"
     found: dict[str, Any] = {
-        "desk_top": None, "tilt_deg": 0.0, "depth_shift_px": (0, 0), "objects": [], "joints": [],
+        "desk_top": None, "tilt_deg": 0.0, "depth_shift_px": (0, 0),
+        "camera": None, "objects": [], "joints": [],
         "ignored": [], "outside_workspace": 0, "warnings": [], "stages": {},
     }  # fmt: skip
     if twin is not None:
@@ -102,6 +105,10 @@ def _report(
             "desk_top": twin.seen.desk_top,
             "tilt_deg": twin.seen.tilt_deg,
             "depth_shift_px": twin.seen.shift,
+            "camera": CameraModel(
+                source="file" if options.camera_at is None else "standpoint",
+                camera_to_base=twin.seen.view.camera_to_base.tolist(),
+            ),
             "objects": [_object(twin, solid) for solid in twin.solids],
             "joints": [
                 JointModel(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from etot_cli.reconstruction.capture.standpoint import CameraAt
 from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.services import DEADLINE
 
@@ -17,7 +18,7 @@ class Options:
     with another joint state; by default the folder ``second`` in the capture, where there is one.
     ``meshes``: mesh files by object name. ``library``: a file of known things. The URLs let servers
     take stages over. ``workspace``: what stands elsewhere is left out; ``ignore``: so is what has
-    one of these names.
+    one of these names. ``camera_at``: the camera's pose comes from there and the desk.
     """
 
     capture: Path
@@ -34,5 +35,6 @@ class Options:
     deadline: float = DEADLINE
     workspace: Workspace | None = None
     ignore: tuple[str, ...] = ()
+    camera_at: CameraAt | None = None
     seed: int = 0
     settle: bool = True

@@ -16,6 +16,7 @@ from etot_cli.reconstruction.articulation.server import asked_joints
 from etot_cli.reconstruction.articulation.two_frames import Joint, articulate
 from etot_cli.reconstruction.capture.calibration import Calibrated, calibrate
 from etot_cli.reconstruction.capture.folder import disjoint, read_capture, safe_name, unique_name
+from etot_cli.reconstruction.capture.standpoint import stand
 from etot_cli.reconstruction.fit.rejoin import rejoin
 from etot_cli.reconstruction.fit.second_look import look_again
 from etot_cli.reconstruction.fit.supports import fit_all
@@ -117,11 +118,16 @@ def reconstruct(options: Options) -> Twin:
 
 
 def _calibrated(folder: Path, options: Options) -> Calibrated:
-    """A capture in its levelled frame; masks that are ignored are set aside."""
-    capture = read_capture(folder, use_masks=not options.auto)
+    """A capture in its levelled frame, its camera where the options say, ignored masks aside."""
+    at = options.camera_at
+    camera = None if at is None else {"camera_to_base": np.eye(4).tolist()}
+    capture = read_capture(folder, use_masks=not options.auto, camera=camera)
     ignored = {safe_name(name) for name in options.ignore}
     aside = [mask for name, mask in capture.masks.items() if name in ignored]
-    return calibrate(capture, seed=options.seed, workspace=options.workspace, aside=aside)
+    asked: Any = {"seed": options.seed, "workspace": options.workspace, "aside": aside}
+    if at is not None:
+        capture = stand(capture, at, **asked)
+    return calibrate(capture, **asked)
 
 
 def _segments(

@@ -20,6 +20,22 @@ class FitModel(Model):
     """Share of edge and surface points within tolerance."""
 
 
+Pose = tuple[
+    tuple[float, float, float, float], tuple[float, float, float, float],
+    tuple[float, float, float, float], tuple[float, float, float, float],
+]  # fmt: skip
+"""A rigid pose (4, 4), its position in metres."""
+
+
+class CameraModel(Model):
+    """The camera as it was used."""
+
+    source: Literal["file", "standpoint", "board"]
+    """Where its pose comes from: ``camera.json``, ``--camera-at`` or ``--calibrate``."""
+    camera_to_base: Pose
+    """Levelled to the desk: p_base = T · p_camera, OpenCV's optical frame."""
+
+
 class KnownModelModel(Model):
     """A known mesh that an object was registered with."""
 
@@ -27,10 +43,7 @@ class KnownModelModel(Model):
     """Its file, its entry in the library, or the server."""
     metres_per_unit: float = Field(gt=0)
     """Unit of the mesh's file [m]; found from the picture where it was not known."""
-    pose: tuple[
-        tuple[float, float, float, float], tuple[float, float, float, float],
-        tuple[float, float, float, float], tuple[float, float, float, float],
-    ]  # fmt: skip
+    pose: Pose
     """The frame of the mesh's file, scaled to metres, in the base frame."""
     mismatch: float = Field(ge=0)
     """Share of its part of the picture that disagrees with the mesh; 0 is perfect."""
@@ -98,6 +111,8 @@ class ReconstructReport(Model):
     """By how much the camera's pose was levelled."""
     depth_shift_px: tuple[int, int]
     """By how much depth was moved back onto colour (right, down)."""
+    camera: CameraModel | None
+    """Null where the work was interrupted before the desk was found."""
     ignored: list[str]
     """Names of what was left out because ``--ignore`` says so."""
     outside_workspace: int = Field(ge=0)

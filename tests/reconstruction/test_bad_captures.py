@@ -63,7 +63,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "metres as pixels": (lambda f: change(f, fx=0.6, fy=0.6), "fx: found 0.6, expected"),
     "one focal length": (lambda f: change(f, fx=900.0), "differ by more than 25 %"),
     "outside": (lambda f: change(f, cx=2000), "cx: found 2000"),
-    "no pose": (lambda f: change(f, camera_to_base=None), "lacks 'camera_to_base'"),
+    "no pose": (lambda f: change(f, camera_to_base=None), "lacks 'camera_to_base'.*--camera-at"),
     "short pose": (lambda f: change(f, camera_to_base=[[1, 0]]), "4 rows of 4 numbers"),
     "scaled pose": (
         lambda f: change(f, camera_to_base=(2 * np.eye(4)).tolist()), "is no rigid pose"

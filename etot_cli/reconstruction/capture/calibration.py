@@ -177,31 +177,50 @@ def _no_desk(
 
 def _desk_plane(cloud: Array, rng: np.random.Generator) -> tuple[Array, Array, float] | None:
     """Normal (3,) pointing up, a point (3,) in the middle of the desk, and the residual [m]."""
-    points = cloud[::3, ::3].reshape(-1, 3)
-    points = points[np.isfinite(points[:, 2])]
+    points = thinned(cloud)
     near = (np.hypot(points[:, 0], points[:, 1]) < REACH) & (points[:, 2] > LEVELS[0])
     points = points[near & (points[:, 2] < LEVELS[1])]
     if len(points) * 9 < LEAST_DESK * cloud[..., 2].size:
         return None
-    sample = points[rng.choice(len(points), min(4000, len(points)), replace=False)]
-    corners = sample[rng.integers(0, len(sample), (_TRIALS, 3))]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    normals /= np.maximum(lengths, 1e-12)[:, None] * np.where(normals[:, 2:] < 0, -1.0, 1.0)
-    upright = (lengths > 1e-4) & (normals[:, 2] > np.cos(np.radians(MAX_TILT)))
-    offsets = (corners[:, 0] * normals).sum(axis=1)
+    sample, normals, offsets = planes_through(points, rng)
+    upright = np.abs(normals[:, 2]) > np.cos(np.radians(MAX_TILT))
     inliers = (np.abs(sample @ normals.T - offsets) < INLIER).sum(axis=0) * upright
     best = int(np.argmax(inliers))
     if inliers[best] < LEAST_SHARE * len(sample):
         return None
-    normal, offset = normals[best], float(offsets[best])
+    sign = np.sign(normals[best, 2])
+    return refined_plane(points, sign * normals[best], sign * float(offsets[best]))
+
+
+def thinned(cloud: Array) -> Array:
+    """Every ninth of a cloud's points (h, w, 3), (n, 3); those without a reading are left out."""
+    points = cloud[::3, ::3].reshape(-1, 3)
+    return points[np.isfinite(points[:, 2])]
+
+
+def planes_through(points: Array, rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Planes through three of the points (n, 3) each: a sample of the points (m, 3), normals (k, 3)
+    of either direction and offsets (k,) along them.
+    """
+    sample = points[rng.choice(len(points), min(4000, len(points)), replace=False)]
+    corners = sample[rng.integers(0, len(sample), (_TRIALS, 3))]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    found = lengths > 1e-4  # [m²]: three points in a row span nothing
+    normals = normals[found] / lengths[found, None]
+    return sample, normals, (corners[found, 0] * normals).sum(axis=1)
+
+
+def refined_plane(points: Array, normal: Array, offset: float) -> tuple[Array, Array, float]:
+    """A plane fitted to those of the points (n, 3) that lie near it: normal (3,), which keeps its
+    side, a point (3,) in the middle, and the residual [m].
+    """
     limit = 0.008
     for _ in range(6):
-        distance = points @ normal - offset
-        chosen = points[np.abs(distance) < limit]
+        chosen = points[np.abs(points @ normal - offset) < limit]
         center = chosen.mean(axis=0)
-        normal = np.linalg.svd((chosen - center).T @ (chosen - center))[0][:, 2]
-        normal = normal * np.sign(normal[2])
+        found = np.linalg.svd((chosen - center).T @ (chosen - center))[0][:, 2]
+        normal = found * np.sign(found @ normal)
         offset = float(center @ normal)
         residual = np.abs(chosen @ normal - offset)
         limit = max(0.0005, min(limit, 3.5 * 1.48 * float(np.median(residual))))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,9 @@ MAX_JSON_BYTES = 1024 * 1024
 
 @dataclass(frozen=True)
 class Capture:
-    """One RGB-D frame. ``color`` (h, w, 3) uint8 RGB; ``depth`` (h, w) z depth [m], 0 = none."""
+    """One RGB-D frame. ``color`` (h, w, 3) uint8 RGB; ``depth`` (h, w) z depth [m], 0 = none;
+    ``stated``: the pose of ``camera.json`` where another one is used.
+    """
 
     folder: Path
     view: View
@@ -47,21 +50,30 @@ class Capture:
     depth: Array
     masks: dict[str, Mask] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    stated: Array | None = None
 
 
-def read_capture(folder: Path, *, use_masks: bool = True) -> Capture:
+def read_capture(
+    folder: Path, *, use_masks: bool = True, camera: dict[str, Any] | None = None
+) -> Capture:
     """Reads a capture folder.
 
     Args:
         folder: holds ``color.png``, ``depth.png``, ``camera.json`` and perhaps ``masks``.
         use_masks: read the masks too.
+        camera: entries that count instead of those of ``camera.json``.
 
     Raises:
         SpecError: something is missing, contradicts itself or cannot be meant.
     """
     if not folder.is_dir():
         raise SpecError("no such folder; expected a capture", file=str(folder))
-    info = _read_camera(folder / "camera.json")
+    info = read_camera(folder / "camera.json")
+    stated = None
+    if camera is not None and "camera_to_base" in camera:
+        with suppress(SpecError):
+            stated = _pose(info, folder / "camera.json")
+    info |= camera or {}
     color = read_png(folder / "color.png")
     depth = read_png(folder / "depth.png")
     if color.ndim != 3 or color.dtype != np.uint8:
@@ -77,10 +89,15 @@ def read_capture(folder: Path, *, use_masks: bool = True) -> Capture:
     if use_masks and (folder / "masks").exists():
         masks, warnings = read_masks(folder / "masks", color.shape[:2])
     rgb = np.ascontiguousarray(color[:, :, 2::-1])
-    return Capture(folder, view, rgb, metres, masks, tuple(warnings))
+    return Capture(folder, view, rgb, metres, masks, tuple(warnings), stated)
 
 
-def _read_camera(path: Path) -> dict[str, Any]:
+def read_camera(path: Path) -> dict[str, Any]:
+    """What ``camera.json`` says, unchecked.
+
+    Raises:
+        SpecError: there is none, or it is no JSON object.
+    """
     if not path.exists():
         raise SpecError(
             "no such file; expected width, height, fx, fy, cx, cy, depth_scale, depth_kind and "
@@ -134,7 +151,10 @@ def _view(info: dict[str, Any], shape: tuple[int, ...], folder: Path) -> View:
 def _pose(info: dict[str, Any], path: Path) -> Array:
     rows = info.get("camera_to_base")
     if rows is None:
-        raise SpecError("lacks 'camera_to_base', the camera's pose (4 × 4)", file=str(path))
+        raise SpecError(
+            "lacks 'camera_to_base', the camera's pose (4 × 4); see --camera-at and --calibrate",
+            file=str(path),
+        )
     try:
         pose = np.array(rows, dtype=np.float64)
     except (TypeError, ValueError):
