@@ -116,6 +116,15 @@ def reconstruct(
             "its top at TOP [m].",
         ),
     ] = None,
+    calibrate: Annotated[
+        str | None,
+        typer.Option(
+            "--calibrate",
+            metavar="BOARD",
+            help="The camera from a chessboard or ChArUco board in the picture: inner corners, "
+            "side of a square, first corner [m] and yaw [deg], as in 9x6,25mm@0.35,-0.1,0.",
+        ),
+    ] = None,
     masks_url: Annotated[
         str | None, typer.Option("--masks-url", metavar="URL", help="A server that finds masks.")
     ] = None,
@@ -148,11 +157,22 @@ def reconstruct(
     """
     area = None if workspace is None else _workspace(workspace)
     place = None if camera_at is None else _standpoint(camera_at)
-    from etot_cli.commands.reconstruct import CameraAt, Options, Workspace, reconstruct_capture
+    if place is not None and calibrate is not None:
+        raise typer.BadParameter(
+            "--camera-at and --calibrate both say where the camera stands; expected one of them"
+        )
+    from etot_cli.commands.reconstruct import (
+        CameraAt,
+        Options,
+        Workspace,
+        read_board,
+        reconstruct_capture,
+    )
 
     heed()
     from etot_cli.reporting.files import report_text
 
+    board = None if calibrate is None else read_board(calibrate)
     session = Session(
         "reconstruct", Path(os.path.abspath(capture)), out=out, json=json, quiet=quiet,  # noqa: PTH100
         verbose=verbose, force=force,
@@ -167,7 +187,7 @@ def reconstruct(
         workspace=None if area is None else Workspace(*area), ignore=tuple(ignore or ()),
         camera_at=None if place is None else CameraAt(*place), seed=seed,
     )  # fmt: skip
-    reconstruction = reconstruct_capture(options, folder)
+    reconstruction = reconstruct_capture(options, folder, board)
     report = reconstruction.report
     session.save(report)
     if html and not report.interrupted:

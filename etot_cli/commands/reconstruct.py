@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import cv2
 import numpy as np
 import yaml
 
 from etot_cli.errors import EtotError, SpecError, WorldError
+from etot_cli.reconstruction.capture.board import Board, find_camera, read_board
 from etot_cli.reconstruction.capture.standpoint import CameraAt
 from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.masks.naming import color_of
@@ -37,7 +39,8 @@ from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
 from etot_cli.world.state import triple
 
-__all__ = ["CameraAt", "Options", "Workspace", "reconstruct_capture"]
+__all__ = ["CameraAt", "Options", "Workspace", "read_board", "reconstruct_capture"]
+CAMERA, CALIBRATION = "camera.json", "calibration.json"
 SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "scene.xml", "meshes"
 
 
@@ -49,8 +52,12 @@ class Reconstruction:
     twin: Twin | None
 
 
-def reconstruct_capture(options: Options, folder: Path) -> Reconstruction:
+def reconstruct_capture(
+    options: Options, folder: Path, board: Board | None = None
+) -> Reconstruction:
     """Reconstructs a capture and writes everything but the report into ``folder``.
+
+    With a board in the picture the camera that it gives is written first, and used.
 
     Ctrl-C (KeyboardInterrupt) does not escape: the report says ``interrupted``.
 
@@ -63,18 +70,57 @@ def reconstruct_capture(options: Options, folder: Path) -> Reconstruction:
     pieces: list[PiecesModel] = []
     interrupted = False
     try:
+        if board is not None:
+            with watch.phase("calibrate"):
+                options, files = _with_board(options, board, folder)
         with watch.phase("reconstruct"):
-            twin = reconstruct(options)
+            twin = _reconstruct(options, folder)
         with watch.phase("write"):
             try:
                 folder.mkdir(parents=True, exist_ok=True)
-                files, pieces = _write(twin, options, folder)
+                written, pieces = _write(twin, options, folder)
+                files |= written
             except OSError as error:
                 raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
     except KeyboardInterrupt:
         interrupted = True
     report = _report(options, twin, files, pieces, watch, interrupted=interrupted)
     return Reconstruction(report, twin)
+
+
+def _with_board(options: Options, board: Board, folder: Path) -> tuple[Options, dict[str, str]]:
+    """The options with the camera that the board gives, and the files that keep it."""
+    found = find_camera(options.capture, board)
+    if folder.exists() and folder.samefile(options.capture):
+        raise SpecError("is the capture's own folder, whose camera.json stays as it is; expected "
+                        "another --out", file=str(folder))  # fmt: skip
+    intrinsics = ("width", "height", "fx", "fy", "cx", "cy")
+    calibration = {
+        "schema": "etot.calibration/1",
+        "camera_to_base": found.entries["camera_to_base"],
+        "intrinsics": {key: found.document[key] for key in intrinsics},
+        "reprojection_px": found.reprojection_px,
+    }
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
+    write_atomically(folder / CAMERA, json.dumps(found.document, indent=1) + "\n")
+    write_atomically(folder / CALIBRATION, json.dumps(calibration, indent=1) + "\n")
+    return replace(options, camera=found), {"camera": CAMERA, "calibration": CALIBRATION}
+
+
+def _reconstruct(options: Options, folder: Path) -> Twin:
+    """The twin; where there is none, the error says where the camera is kept."""
+    try:
+        return reconstruct(options)
+    except SpecError as error:
+        if options.camera is None:
+            raise
+        raise SpecError(
+            f"{error.message}; the camera that the board gives is in {folder / CAMERA}",
+            file=error.file, line=error.line, path=error.path,
+        ) from None  # fmt: skip
 
 
 def _report(
@@ -106,7 +152,7 @@ def _report(
             "tilt_deg": twin.seen.tilt_deg,
             "depth_shift_px": twin.seen.shift,
             "camera": CameraModel(
-                source="file" if options.camera_at is None else "standpoint",
+                source=_source(options),
                 camera_to_base=twin.seen.view.camera_to_base.tolist(),
             ),
             "objects": [_object(twin, solid) for solid in twin.solids],
@@ -138,6 +184,12 @@ def _report(
             **found,
         }
     )
+
+
+def _source(options: Options) -> Literal["file", "standpoint", "board"]:
+    if options.camera is not None:
+        return "board"
+    return "file" if options.camera_at is None else "standpoint"
 
 
 def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:

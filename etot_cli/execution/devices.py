@@ -11,7 +11,6 @@ import numpy as np
 
 from etot_cli.errors import EtotError, ServiceError
 from etot_cli.execution.cameras.azure_kinect import AzureKinect
-from etot_cli.execution.cameras.calibration import read_calibration
 from etot_cli.execution.cameras.files import FileCamera
 from etot_cli.execution.cameras.realsense import RealSense
 from etot_cli.execution.cameras.rendered import RenderedCamera
@@ -28,6 +27,7 @@ from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.services.endpoint import check_address
+from etot_cli.specs.calibration import read_calibration
 from etot_cli.specs.task import Task
 from etot_cli.world.robot import RobotSpec, load_robot
 

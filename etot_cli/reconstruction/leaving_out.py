@@ -9,14 +9,18 @@ from collections.abc import Collection, Iterable
 from dataclasses import replace
 from difflib import get_close_matches
 
+import cv2
 import numpy as np
 
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.calibration import Calibrated, confined
 from etot_cli.reconstruction.capture.folder import safe_name
-from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
+
+BOARD_HEIGHT = 0.03
+"""A calibration board on its plate is no thicker than this [m]."""
 
 
 def checked_names(ignore: Collection[str], known: Collection[str], file: str) -> set[str]:
@@ -61,6 +65,20 @@ def outside(
 def set_aside(seen: Calibrated, masks: Iterable[Mask]) -> Calibrated:
     """The same with more pixels (h, w) of what is left out."""
     return replace(seen, aside=(*seen.aside, *masks))
+
+
+def without_board(seen: Calibrated, segments: list[Segment], outline: Array) -> list[Segment]:
+    """The segments without the calibration board; ``outline`` (4, 2) of its corners [px]."""
+    shown = np.zeros(seen.depth.shape, np.uint8)
+    cv2.fillConvexPoly(shown, np.round(outline).astype(np.int32), 1)
+    kept = []
+    for segment in segments:
+        heights = seen.height[segment.mask]
+        low = np.nanmax(heights, initial=0.0) < BOARD_HEIGHT
+        covered = (segment.mask & (shown > 0)).sum() > 0.5 * shown.sum()
+        if not (low and covered):
+            kept.append(segment)
+    return kept
 
 
 def without_ignored(solids: list[Solid], ignored: Collection[str]) -> tuple[list[Solid], list[str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from etot_cli.reconstruction.capture.board import FoundCamera
 from etot_cli.reconstruction.capture.standpoint import CameraAt
 from etot_cli.reconstruction.capture.workspace import Workspace
 from etot_cli.reconstruction.services import DEADLINE
@@ -18,7 +19,8 @@ class Options:
     with another joint state; by default the folder ``second`` in the capture, where there is one.
     ``meshes``: mesh files by object name. ``library``: a file of known things. The URLs let servers
     take stages over. ``workspace``: what stands elsewhere is left out; ``ignore``: so is what has
-    one of these names. ``camera_at``: the camera's pose comes from there and the desk.
+    one of these names. ``camera_at``: the camera's pose comes from there and the desk;
+    ``camera``: one that counts instead of ``camera.json``.
     """
 
     capture: Path
@@ -36,5 +38,6 @@ class Options:
     workspace: Workspace | None = None
     ignore: tuple[str, ...] = ()
     camera_at: CameraAt | None = None
+    camera: FoundCamera | None = None
     seed: int = 0
     settle: bool = True

@@ -27,6 +27,7 @@ from etot_cli.reconstruction.leaving_out import (
     checked_names,
     outside,
     set_aside,
+    without_board,
     without_ignored,
 )
 from etot_cli.reconstruction.masks.automatic import find_segments
@@ -119,9 +120,13 @@ def reconstruct(options: Options) -> Twin:
 
 def _calibrated(folder: Path, options: Options) -> Calibrated:
     """A capture in its levelled frame, its camera where the options say, ignored masks aside."""
-    at = options.camera_at
+    at, found = options.camera_at, options.camera
     camera = None if at is None else {"camera_to_base": np.eye(4).tolist()}
+    if found is not None:
+        camera = found.entries
     capture = read_capture(folder, use_masks=not options.auto, camera=camera)
+    if found is not None:
+        capture = replace(capture, warnings=(*capture.warnings, *found.notes))
     ignored = {safe_name(name) for name in options.ignore}
     aside = [mask for name, mask in capture.masks.items() if name in ignored]
     asked: Any = {"seed": options.seed, "workspace": options.workspace, "aside": aside}
@@ -158,6 +163,8 @@ def _segments(
         ]  # fmt: skip
     else:
         segments = find_segments(seen)
+        if options.camera is not None:
+            segments = without_board(seen, segments, options.camera.outline)
     left: list[Segment] = []
     if options.workspace is not None:
         seen, segments, left = outside(seen, segments, options.workspace)

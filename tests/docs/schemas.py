@@ -13,7 +13,6 @@ from typing import Any
 from pydantic import BaseModel
 
 from etot_cli.benchmark.suite import Suite
-from etot_cli.execution.cameras.calibration import Calibration
 from etot_cli.reporting.bench_report import BenchReport, CompareReport
 from etot_cli.reporting.execute_report import ExecuteReport
 from etot_cli.reporting.files import write_atomically
@@ -23,6 +22,7 @@ from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.reporting.simulate_report import SimulateReport
 from etot_cli.reporting.trial_report import TrialReport
+from etot_cli.specs.calibration import Calibration
 from tests.docs.formats import field_docstrings
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"

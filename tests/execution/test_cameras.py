@@ -13,12 +13,12 @@ import pytest
 
 from etot_cli.errors import ServiceError, SpecError
 from etot_cli.execution.cameras.azure_kinect import AzureKinect
-from etot_cli.execution.cameras.calibration import read_calibration
 from etot_cli.execution.cameras.files import FileCamera
 from etot_cli.execution.cameras.realsense import RealSense
 from etot_cli.execution.cameras.rendered import RenderedCamera, camera_of
 from etot_cli.execution.cameras.watched import ATTEMPTS, WatchedCamera
 from etot_cli.execution.protocols import Frame
+from etot_cli.specs.calibration import read_calibration
 from etot_cli.specs.scene import Camera
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects

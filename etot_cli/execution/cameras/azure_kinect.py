@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from etot_cli.errors import ServiceError
-from etot_cli.execution.cameras.calibration import Calibration
 from etot_cli.execution.protocols import Frame
+from etot_cli.specs.calibration import Calibration
 
 WITHIN_MS = 1000
 """Longest wait for a picture [ms]; thirty frames of the camera."""

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from etot_cli.errors import ServiceError
-from etot_cli.execution.cameras.calibration import Calibration
 from etot_cli.execution.protocols import Frame
+from etot_cli.specs.calibration import Calibration
 
 SIZE, RATE = (640, 480), 30
 """A mode that all D400 cameras have, for colour and for depth [px, Hz]."""
