@@ -237,6 +237,13 @@ def _charuco(gray: NDArray[np.uint8], board: Board) -> tuple[Array, Array] | Non
     i, j = numbers % board.columns, board.rows - 1 - numbers // board.columns
     if len(numbers) < LEAST_CORNERS or min(np.ptp(i), np.ptp(j)) < 1:
         return None
+    # The detector's windows reach into the markers where these are seen small.
+    apart = np.linalg.norm(found[:, None] - found[None], axis=2)
+    nearest = float(np.min(apart + np.diag(np.full(len(found), np.inf))))
+    gap = max(2, round((1 - float(board.marker or 0) / board.square) / 2 * nearest))
+    corners = found.astype(np.float32)
+    ends = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-3)
+    found = np.asarray(cv2.cornerSubPix(gray, corners, (gap, gap), (-1, -1), ends), float)
     return found, board.square * np.column_stack([i, j]).astype(np.float64)
 
 
