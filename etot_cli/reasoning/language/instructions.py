@@ -61,6 +61,12 @@ def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
 
 def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene: SceneState) -> str:
     """Which words, why, and one way to say it that is read in this scene."""
+    joined = set(re.findall(r"\w+_\w+", Vocabulary(scene).joined(normalized(instruction))))
+
+    def plain(text: str) -> str:
+        """With labels of several words as they were written."""
+        return re.sub("|".join(joined) or "$", lambda found: found[0].replace("_", " "), text)
+
     language = other_language(instruction, scene)
     foreign = f"it seems to be in {language}; only English is read" if language else ""
     if isinstance(error, UnreadableError):
@@ -72,9 +78,10 @@ def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene:
         )
     else:
         why = foreign or error.why
-        head = f"cannot tell what {error.phrase!r} means in the instruction: {why}"
+        phrase = plain(error.phrase)
+        head = f"cannot tell what {phrase!r} means in the instruction: {plain(why)}"
         second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
-        refused = Refused(instruction, error.phrase, word=error.word, candidates=error.candidates)
+        refused = Refused(instruction, phrase, word=error.word, candidates=error.candidates)
     lines = [head, second]
     example = next(rewordings(refused, scene, _reads), None)
     if example is not None:

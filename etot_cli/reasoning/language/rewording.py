@@ -33,6 +33,8 @@ _UNMADE = re.compile(
 )
 """Words that turn a meaning round: what they are about is no part of a rewording, nor are they
 left out of one."""
+_BARE = re.compile(r"(?:the|a|an)\b", re.IGNORECASE)
+"""What begins so has lost its verb."""
 _ATTRIBUTES = ("color", "colour", "size", "shape", "side", "same")
 _BESIDE = ("near", "nearest", "beside", "next", "left", "right", "behind", "between", "where")
 _PICKING = words_of((verbs.PICK,)) - {"of", "me", "and", "place", "up"}
@@ -73,13 +75,16 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     names = _Names(scene)
     mentions = _mentions(_UNMADE.split(normalized(text), maxsplit=1)[0], scene, names)
     said = [mention.info.name for mention in mentions]
-    for name in refused.candidates[:3]:
+    part = re.search(rf"\bof\s+{re.escape(refused.phrase)}", normalized(text))
+    for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
         yield _replaced(text, refused.phrase, names.of(name))
     unmade = _UNMADE.findall(normalized(text))
     if refused.without and not refused.understood:
         yield f"Put {refused.without}"  # in place of a verb that is not known
+        if _BARE.match(refused.without):
+            yield f"Pick up {refused.without}"
     for shorter in (refused.word and _replaced(text, refused.word, ""), refused.without):
-        if shorter and _UNMADE.findall(normalized(shorter)) == unmade:
+        if shorter and not _BARE.match(shorter) and _UNMADE.findall(normalized(shorter)) == unmade:
             yield shorter
     if refused.understood:
         yield refused.understood
@@ -210,7 +215,8 @@ class _Names:
             return self.part(found)
         alike = [other for other in self._scene.infos.values() if other.label == info.label]
         if len(alike) == 1:
-            return info.label if info.label[-1:].isdigit() else f"the {info.label}"
+            last = info.label.split()[-1]  # "bin 2", "bin B"
+            return info.label if last.isdigit() or len(last) == 1 else f"the {info.label}"
         if info.color and sum(other.color == info.color for other in alike) == 1:
             return f"the {info.color} {info.label}"
         return info.name.replace("_", " ")

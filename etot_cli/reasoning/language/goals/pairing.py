@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations, islice
 
-from etot_cli.reasoning.builtin.goal import Grouping, Put, Thing
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
+from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -79,6 +80,25 @@ def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str)
     if not found:
         raise ReferenceProblem(text, f"none of them has the colour of {thing.name}", 3)
     return found
+
+
+def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+    """Whether there are as many places as things that are each to have one of their own.
+
+    Raises:
+        ReferenceProblem: there are fewer.
+    """
+    referents = context.discourse.referents
+    count = sum(len(referents[index].options[0]) for index in themes)
+    where = [place.where for place in places if place.where is not None]
+    units = list(dict.fromkeys(t for index in where for t in context.discourse.things(index)))
+    if len(units) == 1 and units[0].part is None and units[0].name in context.scene.infos:
+        info = context.scene.infos[units[0].name]
+        units = [Thing(info.name, part.name) for part in container_parts(info)] or units
+    if len(where) == len(places) and len(units) < count:
+        names = " and ".join(thing.part or thing.board or thing.name for thing in units)
+        why = f"{count} things cannot each have one of their own: there are only {names}"
+        raise ReferenceProblem(referents[where[0]].text, why, 3)
 
 
 def is_one_each(group: PutGroup) -> bool:

@@ -15,9 +15,16 @@ from etot_cli.reasoning.builtin.goal import (
     Relation,
     Step,
 )
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.pairing import by_color, is_by_color, is_one_each, one_each
+from etot_cli.reasoning.language.goals.pairing import (
+    by_color,
+    check_enough,
+    is_by_color,
+    is_one_each,
+    one_each,
+)
 from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
 from etot_cli.reasoning.language.goals.standing import upright
 from etot_cli.reasoning.language.goals.turns import in_turns
@@ -36,7 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
-from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
+from etot_cli.reasoning.language.reference.distribution import distributed, is_different
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
@@ -68,7 +75,8 @@ def put(context: Context, clause: PutClause) -> None:
         group, grouping = _shared(context, group, themes, clause.grouping)
         options = [context.discourse.referents[index].options[0] for index in themes]
         if is_different(group) and sum(map(len, options)) == 1:
-            group = elsewhere(group)
+            text = group.destinations[0].targets[0].text
+            raise ReferenceProblem(text, "say which one", 3, word="different")
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
         if group.upright:
@@ -77,6 +85,8 @@ def put(context: Context, clause: PutClause) -> None:
             places = tuple(_spread(context, place) for place in places)
         for index in themes:
             _choose_from_elsewhere(context, index, places)
+        if grouping is Grouping.SEPARATELY:
+            check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)
         for condition in clause.conditions:
             _condition(context, condition, themes, places_of)
@@ -235,7 +245,33 @@ def remove(context: Context, clause: RemoveClause) -> None:
             ),
         )
     themes = context.phrases.things(things, Role.THEME)
+    for index in themes if clause.source is None else ():
+        _choose_from_somewhere(context, index)
     _add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _choose_from_somewhere(context: Context, theme: int) -> None:
+    """Of several things that may be meant those are taken out or off that are in or on something,
+    rather in or on what was spoken of.
+    """
+    discourse = context.discourse
+    referent = discourse.referents[theme]
+    if theme in discourse.put or len(referent.options) < 2:
+        return
+    spoken = {
+        thing.name for item in discourse.mentions for thing in discourse.things(item.referent)
+    }
+    under = {
+        option: [bearers(context.scene, thing.name) for thing in option]
+        for option in referent.options
+    }
+    held = tuple(option for option, names in under.items() if all(names))
+    named = tuple(option for option in held if all({*names} & spoken for names in under[option]))
+    options = named or held
+    if options and options != referent.options:
+        discourse.referents[theme] = replace(referent, options=options)
+        names = ", ".join(dict.fromkeys(thing.name for option in options for thing in option))
+        discourse.notes.append(f"{referent.text!r} is one that is in or on something ({names})")
 
 
 def _shared(
@@ -291,6 +327,10 @@ def _condition(
     if condition.word:
         ensure(context, condition)
         return
+    for phrase in condition.subjects:
+        if phrase.words == ("everything",):
+            why = "name what is to be there; what is there already comes along"
+            raise ReferenceProblem(phrase.text, why, 3)
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     vessels = [theme for theme in themes if theme not in subjects]
     if not set(subjects) & set(themes):

@@ -25,6 +25,8 @@ from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, Noun
 from etot_cli.reasoning.language.words import places
 from etot_cli.world.spatial import Nearby
 
+TOP = "top"
+"""The word of a destination on top of something: of a shelf, its top board."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -91,7 +93,11 @@ BESIDES = valued(
     lambda found: tuple(item for several in found for item in several),
 )
 INTO = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
-ONTO = sequence(silent(phrase(places.ONTO)), TARGETS, build=_toward(Toward.ON))
+ONTO = sequence(
+    phrase(places.ONTO),
+    TARGETS,
+    build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
+)
 OVER = sequence(
     silent(phrase(places.OVER)),
     TARGETS,
@@ -103,7 +109,7 @@ _top_of = sequence(
     noun_phrase,
     silent(phrase("'s")),
     silent(phrase("top, surface")),
-    build=lambda np: Destination(Toward.ON, (np,)),
+    build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
 destination = Rule(
     either(

@@ -60,6 +60,12 @@ BETWEEN = sequence(
 )
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
+    sequence(
+        EXACTLY,
+        silent(phrase(places.ON_TOP_OF)),
+        noun_phrase,
+        build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
+    ),
     valued(BETWEEN, lambda pair: Modifier(Prep.BETWEEN, pair)),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
     sequence(
@@ -226,7 +232,9 @@ _modifier = either(
         silent(optional(phrase("~comma"), None)),
         silent(phrase(nouns.CONTRAST)),
         noun_phrase,
-        build=lambda np: Modifier(Prep.CONTRAST, (np,)) if np.determiner and np.words else None,
+        build=lambda np: (
+            Modifier(Prep.CONTRAST, (_one_of_them(np),)) if np.determiner and np.words else None
+        ),
     ),
     sequence(
         silent(optional(phrase("~comma"), None)),

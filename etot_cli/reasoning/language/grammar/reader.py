@@ -176,6 +176,8 @@ def _stopped(given: Input, before: str) -> UnreadableError:
         words = words[:-1]
     for index, word in enumerate(words):
         why = "" if word in given.nouns else known.REASONS.get(word, "")
+        if why and index == 0 and word in ("is", "are"):
+            why = known.REASONS["what"]
         if not why and word not in given.nouns and known.is_adverb(word):
             why = "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
         if not why and word not in given.nouns and word in known.OTHER_VERBS:
@@ -193,8 +195,11 @@ def _stopped(given: Input, before: str) -> UnreadableError:
     if stop >= len(words):
         why = "something is missing, such as into or onto what"
         return UnreadableError(_last(words), understood, why)
-    without = spaced((*words[:stop], *words[stop + 1 :]))
-    return UnreadableError(_some(words[stop:]), understood, "", without)
+    small = words[stop] in known.GRAMMAR_WORDS  # it joins others, which need it
+    without = "" if small else spaced((*words[:stop], *words[stop + 1 :]))
+    before_it = spaced(words[:stop]).rstrip(",").split()[-1:]
+    why = f"it is not understood after {before_it[0]!r}" if before_it else ""
+    return UnreadableError(_some(words[stop:]), understood, why, without)
 
 
 def _some(words: tuple[str, ...]) -> str:

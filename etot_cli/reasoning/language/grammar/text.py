@@ -89,6 +89,7 @@ def spaced(words: Sequence[str]) -> str:
     return (
         " ".join(words)
         .replace(f" {COMMA}", ",")
+        .removeprefix(f"{COMMA} ")
         .replace(f" {QUESTION}", "")
         .replace(" 's", "'s")
         .replace("_", " ")

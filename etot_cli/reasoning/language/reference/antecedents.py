@@ -33,5 +33,7 @@ class Mention:
     noun: str
     several: bool = False
     """It speaks of all that fit, even where that is one."""
+    adjectives: tuple[str, ...] = ()
+    """The words before the noun."""
     whatever: bool = False
     """It speaks of whatever is somewhere, which nothing is put into or onto."""

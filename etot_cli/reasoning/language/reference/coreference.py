@@ -88,19 +88,20 @@ class Discourse:
         """
         self.notes += [note for note in resolved.notes if note not in self.notes]
         index = len(self.referents)
+        mention = Mention(
+            index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever
+        )
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
-                    self.mentions.append(
-                        Mention(earlier, role, self.clause, resolved.noun, several, whatever)
-                    )
+                    self.mentions.append(replace(mention, referent=earlier))
                     return earlier
         distinct = self._told_from(resolved, role)
         if resolved.definite and not resolved.other and len(resolved.options) > 1:
             self._check_among_spoken(resolved, text)
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
-        self.mentions.append(Mention(index, role, self.clause, resolved.noun, several, whatever))
+        self.mentions.append(mention)
         return index
 
     def _told_from(self, resolved: Resolved, role: Role) -> tuple[int, ...]:

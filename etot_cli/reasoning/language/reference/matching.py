@@ -113,7 +113,7 @@ def match_words(
         single = singular(noun)
         plural = noun if noun != single else f"{noun}es" if noun.endswith("s") else f"{noun}s"
         head = plural if head == "ones" else single
-    if basic_color(head) and not any(entry.grade(head) == HEAD for entry in everything):
+    if basic_color(head) and not any(entry.grade(head) in (EXACT, HEAD) for entry in everything):
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found

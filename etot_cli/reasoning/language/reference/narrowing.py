@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
-from etot_cli.reasoning.language.words.lexicon import same_noun
+from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, same_noun
+
+_CONTRASTED = (SIZES, SIDES, LEVELS)
+"""Words of which one thing of a pair has one and the other thing another."""
 
 
 def spoken_part(resolved: Resolved, discourse: Discourse) -> Resolved:
@@ -53,3 +58,70 @@ def others(resolved: Resolved, discourse: Discourse) -> Resolved:
             left = (tuple(t for t in things if t not in option) for option in chosen)
             return replace(resolved, options=tuple(option for option in left if option))
     return resolved
+
+
+def check_count(phrase: NounPhrase, noun: str, discourse: Discourse) -> None:
+    """After "two cups … the third" is the one that is left, not the third from the left."""
+    if not any(word in ORDINALS for word in phrase.words):
+        return
+    for mention in discourse.mentions:
+        referent = discourse.referents[mention.referent]
+        if same_noun(mention.noun, noun) and len(referent.options) > 1:
+            raise AmbiguousReference(phrase.text, [f"what {referent.text} leave", "a number"])
+
+
+def check_one_left(phrase: NounPhrase, resolved: Resolved, discourse: Discourse) -> None:
+    """Whether "the other one" is one: as many are left as have not been chosen before."""
+    if any(len(option) != 1 for option in resolved.options):
+        return
+    things = {thing for option in resolved.options for thing in option}
+    chosen = sum(
+        len(referent.options[0])
+        for referent in discourse.referents
+        if len(referent.options) > 1
+        and {t for option in referent.options for t in option} <= things
+    )
+    if len(things) - chosen > 1:
+        raise AmbiguousReference(phrase.text, sorted(thing.name for thing in things))
+
+
+def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> NounPhrase | None:
+    """After "the larger clay pot" "the smaller one" may be one of clay, too: the phrase with the
+    words that the earlier one has besides those that are contrasted.
+    """
+    own = phrase.words[:-1]
+    if noun is None or not own:
+        return None
+    for mention in reversed(discourse.mentions):
+        if not same_noun(mention.noun, noun):
+            continue
+        before = mention.adjectives
+        contrasted = any(
+            any(word in table for word in own) and any(word in table for word in before)
+            for table in _CONTRASTED
+        )
+        kept = [w for w in before if w not in own and not any(w in t for t in _CONTRASTED)]
+        return (
+            replace(phrase, words=(*own, *kept, phrase.words[-1])) if contrasted and kept else None
+        )
+    return None
+
+
+def narrowed_to(
+    narrower: Resolved, plain: Resolved, phrase: NounPhrase, discourse: Discourse
+) -> Resolved:
+    """Of two meanings the narrower one, unless that was spoken of before.
+
+    Raises:
+        AmbiguousReference: neither is part of the other.
+    """
+    if narrower.options == plain.options or any(
+        referent.options == narrower.options for referent in discourse.referents
+    ):
+        return plain
+    if {*narrower.options} <= {*plain.options}:
+        return narrower
+    named = [
+        thing.name for item in (plain, narrower) for option in item.options for thing in option
+    ]
+    raise AmbiguousReference(phrase.text, named)

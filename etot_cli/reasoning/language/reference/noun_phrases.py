@@ -7,11 +7,12 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
@@ -36,6 +37,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     THING_NOUNS,
     basic_color,
     matches_any,
+    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -66,6 +68,7 @@ class Resolved:
         every: it stands for all that fit.
         notes: what words were taken for, where that was a choice.
         again: it is some of what was spoken of before ("one of them").
+        adjectives: the phrase's words before its noun.
     """
 
     options: tuple[tuple[Thing, ...], ...]
@@ -75,6 +78,7 @@ class Resolved:
     every: bool = False
     notes: tuple[str, ...] = ()
     again: bool = False
+    adjectives: tuple[str, ...] = ()
 
 
 def _names(things: Sequence[Thing]) -> str:
@@ -148,7 +152,8 @@ class Resolver:
         match = matched(
             phrase, words, noun, self._vocabulary, parts_first=parts, upon=role is Role.SURFACE
         )
-        if (quantity.every or phrase.determiner == "one") and not match.plural:
+        bare = not phrase.determiner and singular(words[-1]) != words[-1]
+        if (quantity.every or phrase.determiner == "one" or bare) and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
         unnamed = noun is None or matches_any(noun, THING_NOUNS)
         nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
@@ -176,7 +181,7 @@ class Resolver:
             count = quantity.count
         notes = list(match.notes)
         things = self._modified(things, modifiers, quantity, count, phrase, pronoun, notes)
-        things = self._without(things, phrase, words, noun, pronoun)
+        things = self._without(things, phrase, words, noun, pronoun, role)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
             raise ReferenceProblem(phrase.text, f"not {among}, but {_names(things)} fit", 2)
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
@@ -209,7 +214,10 @@ class Resolver:
         named = next((word for word in reversed(unnumbered) if word), words[-1])
         head = noun if matches_any(named, THING_NOUNS) and noun else named
         every = quantity.every or (count is None and match.plural)
-        return Resolved(options, quantity.definite, quantity.other, head, every, tuple(notes))
+        return Resolved(
+            options, quantity.definite, quantity.other, head, every, tuple(notes),
+            adjectives=words[:-1],
+        )  # fmt: skip
 
     def _without(
         self,
@@ -218,6 +226,7 @@ class Resolver:
         words: tuple[str, ...],
         noun: str | None,
         pronoun: Pronoun,
+        role: Role,
     ) -> list[Thing]:
         """The things but for those that the phrase takes out."""
         out: set[Thing] = set()
@@ -239,13 +248,25 @@ class Resolver:
                     if said.split()[0] in _SO_MANY:
                         why = "say which are left out of"
                         raise AmbiguousReference(phrase.text, [t.name for t in things], why)
-                    out |= set(self._landmarks(item, pronoun, words[-1] if words else noun))
+                    named = set(self._landmarks(item, pronoun, words[-1] if words else noun))
+                    # "Everything" may have the place among it that it is to go to.
+                    if role is Role.THEME and not matches_any(words[-1], THING_NOUNS):
+                        self._check_left(item.text, named, [t for t in things if t not in named])
+                    out |= named
         if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
             raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
         left = [thing for thing in things if thing not in out]
         if not left:
             raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
         return left
+
+    def _check_left(self, text: str, out: Iterable[Thing], moved: Sequence[Thing]) -> None:
+        """Whether what is left out would come along in or on what is moved."""
+        names = {thing.name for thing in moved}
+        for thing in (thing for thing in out if thing.name in self._scene.states):
+            for below in names.intersection(carriers(self._scene, thing.name)):
+                why = f"{below} would take it along; say first where it is to go"
+                raise ReferenceProblem(text, why, 4)
 
     # -- modifiers ---------------------------------------------------------------------------------
 
@@ -324,6 +345,8 @@ class Resolver:
             self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
             for item in modifier.phrases
         ]
+        if modifier.prep is Prep.ON and modifier.words:
+            each = [[space.top_of(thing, self._scene) for thing in things] for things in each]
         # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear;
         # "everything in a box" is what one box holds.
         ways = (

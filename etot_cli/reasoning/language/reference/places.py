@@ -9,7 +9,9 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.destinations import TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -88,6 +90,8 @@ class Places:
                 if inside and destination.word == OVER:
                     text = destination.targets[0].text
                     raise ReferenceProblem(text, "it is no lid; say into or onto it", 3)
+                if destination.word == TOP:
+                    found = [self._uppermost(place) for place in found]
                 if destination.beside:
                     found = self._narrowed(found, destination, themes)
             places.update(dict.fromkeys(found))
@@ -115,6 +119,19 @@ class Places:
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
+
+    def _uppermost(self, place: Place) -> Place:
+        """On top of a shelf is on its top board."""
+        assert place.where is not None  # what has a target
+        referent = self.discourse.referents[place.where]
+        options = tuple(
+            tuple(space.top_of(thing, self._scene) for thing in option)
+            for option in referent.options
+        )
+        if place.relation is not Relation.ON or options == referent.options:
+            return place
+        self.discourse.referents.append(replace(referent, options=options))
+        return replace(place, where=len(self.discourse.referents) - 1)
 
     def _check_carried(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
         """Nothing goes in or on what it carries itself, unless that has gone elsewhere before; but

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -14,6 +15,10 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.narrowing import (
+    as_contrasted,
+    check_count,
+    check_one_left,
+    narrowed_to,
     of_last_choice,
     of_spoken_owner,
     others,
@@ -27,7 +32,6 @@ from etot_cli.reasoning.language.reference.usual_form import (
     usual_form,
 )
 from etot_cli.reasoning.language.words.lexicon import (
-    ORDINALS,
     THING_NOUNS,
     is_descriptive,
     matches_any,
@@ -146,8 +150,6 @@ class Phrases:
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
-        if quantity_of(phrase.determiner).other and excluded:
-            self._note_where_they_are(phrase, role, excluded)
         holder = self._where_it_went(phrase, role, excluded)
         if holder is not None:
             self.discourse.mention_again(holder, role)
@@ -166,15 +168,9 @@ class Phrases:
                 found = self.discourse.openable()
             else:
                 found = self.discourse.antecedents("them", role, text, excluded)
-            said = {thing for index in found for thing in self.discourse.things(index)}
-            named = said - {Thing(thing.name) for thing in said if thing.part}
-            found = tuple(i for i in found if named & {*self.discourse.things(i)})
-            ways = {index: self.discourse.referents[index].options for index in found}
-            pairs = [i for i, o in ways.items() if [{*x} for x in o] == [named]]
-            single = all(len(option) == 1 for options in ways.values() for option in options)
-            if len(named) == 2 and pairs:  # "both drawers … the top one … both"
-                found = (pairs[0],)
-            if len(named) == 2 and (pairs or (len(found) == 2 and single)):
+            if len(found) == 2 and all(
+                len(option) == 1 for i in found for option in self.discourse.referents[i].options
+            ):
                 for index in found:
                     self.discourse.mention_again(index, role)
                 return found
@@ -184,32 +180,6 @@ class Phrases:
             len(option) == 1 and can_be(option[0], role, self._scene) for option in things
         )
         return spoken if both and not set(spoken) & set(excluded) else ()
-
-    def _note_where_they_are(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> None:
-        """What things stand on or lie in is none of the others that they go to ("the other plate"),
-        unless something else was spoken of by that noun.
-        """
-        discourse = self.discourse
-        unmoved = not discourse.put & {*themes} and all(
-            len(discourse.referents[index].options) == 1 for index in themes
-        )
-        if not unmoved or not phrase.words or self.spoken_of(phrase, role, themes) is not None:
-            return
-        moved = [thing for index in themes for thing in discourse.things(index)]
-        for parts_first in (True, False):
-            here: list[Thing] = []
-            with suppress(ReferenceProblem):
-                plain = replace(phrase, determiner="all")
-                fitting = self._resolved_as(plain, role, None, parts_first=parts_first)
-                here = [
-                    place
-                    for place in fitting.options[0]
-                    if all(space.touches(thing, place, self._scene) for thing in moved)
-                ]
-            if len(here) == 1:
-                now = Resolved(((here[0],),), definite=False, other=False, noun=fitting.noun)
-                discourse.add(now, phrase.text, Role.ANY)
-                return
 
     def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
         """The latest referent that "the same …" may mean."""
@@ -331,7 +301,7 @@ class Phrases:
         if resolved.other and resolved.definite and quantity.count in (None, 1):
             if phrase.words[-1:] in ((), ("one",)):
                 resolved = of_last_choice(resolved, discourse)
-            self._check_one_left(phrase, resolved)
+            check_one_left(phrase, resolved, discourse)
         return of_spoken_owner(spoken_part(resolved, discourse), discourse)
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
@@ -362,47 +332,30 @@ class Phrases:
     ) -> Resolved:
         elliptic = phrase.words[-1:] in (("one",), ("ones",))
         if noun is not None and elliptic:
-            self._check_count(phrase, noun)
+            check_count(phrase, noun, self.discourse)
         own_name = phrase.words and self._resolver.is_called(phrase.words[-1])
         leaves_out = leaves_noun_out(phrase) and not own_name
         if noun is not None and not is_descriptive(noun) and leaves_out:
-            self._check_count(phrase, noun)
+            check_count(phrase, noun, self.discourse)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
         other = quantity_of(phrase.determiner).other
         named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
         own = named[0] if named else noun
         elliptic = other or elliptic
-        return self._resolver.resolve(
-            phrase,
-            role,
+        resolve = partial(
+            self._resolver.resolve,
+            role=role,
             noun=noun,
             excluded=self.discourse.mentioned_like(own),
             parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
             pronoun=self._pronoun_things,
         )
-
-    def _check_count(self, phrase: NounPhrase, noun: str) -> None:
-        """After "two cups … the third" is the one that is left, not the third from the left."""
-        if not any(word in ORDINALS for word in phrase.words):
-            return
-        for mention in self.discourse.mentions:
-            referent = self.discourse.referents[mention.referent]
-            if same_noun(mention.noun, noun) and len(referent.options) > 1:
-                raise AmbiguousReference(phrase.text, [f"what {referent.text} leave", "a number"])
-
-    def _check_one_left(self, phrase: NounPhrase, resolved: Resolved) -> None:
-        """Whether "the other one" is one: as many are left as have not been chosen before."""
-        if any(len(option) != 1 for option in resolved.options):
-            return
-        things = {thing for option in resolved.options for thing in option}
-        free = [set(self.discourse.things(i)) for i in range(len(self.discourse.referents))]
-        chosen = sum(
-            len(referent.options[0])
-            for referent, may_be in zip(self.discourse.referents, free, strict=True)
-            if len(referent.options) > 1 and may_be <= things
-        )
-        if len(things) - chosen > 1:
-            raise AmbiguousReference(phrase.text, sorted(thing.name for thing in things))
+        resolved = resolve(phrase)
+        alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
+        narrower = resolved
+        with suppress(ReferenceProblem):
+            narrower = resolve(alike) if alike is not None else resolved
+        return narrowed_to(narrower, resolved, phrase, self.discourse)
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""

@@ -130,8 +130,11 @@ REASONS = {
         "how fast something is done cannot be asked for",
     ),
     **dict.fromkeys(
-        ("what", "why", "how", "who", "whose", "is", "are", "does", "did", "do"),
+        ("what", "why", "how", "who", "whose", "does", "did", "do"),
         "questions are not answered; say what is to be done",
+    ),
+    **dict.fromkeys(
+        ("is", "are"), "how things are is seen and not said; say what is to be done"
     ),
     **dict.fromkeys(
         ("hands", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"

@@ -64,7 +64,7 @@ NEARBY: dict[Nearby, str] = {
     Nearby.AWAY: "[far] away from, far from",
 }
 PREPOSITIONS: dict[Prep, str] = {
-    Prep.ON: "on [top of], upon, atop, on the top of, (standing|lying|sitting) on",
+    Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",
     Prep.OF: "of, belonging to",
@@ -80,7 +80,8 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from, away from",
 }
 INTO = "in to, into, inside [of], in, within"
-ONTO = "onto, on to, on [the] top of, on, upon, atop"
+ON_TOP_OF = "on [the] top of, atop"
+ONTO = f"onto, on to, on, upon, {ON_TOP_OF}"
 OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
 ONTO_DIRECTED = "onto, on to, on top of, over"
