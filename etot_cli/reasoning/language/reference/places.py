@@ -197,7 +197,8 @@ class Places:
     def _goes_in(self, laid: Sequence[Thing], around: Sequence[Thing]) -> bool:
         """Whether things go into one that can be moved as they lie, or are meant for it."""
         infos = self._scene.infos
-        room = [min(infos[t.name].size[:2]) for t in around if infos[t.name].movable]
+        moved = [infos[t.name] for t in around if t.name != DESK and infos[t.name].movable]
+        room = [min(info.size[:2]) for info in moved]
         return all(
             infos[thing.name].elongated or max(infos[thing.name].size[:2]) <= min(room)
             for thing in laid
