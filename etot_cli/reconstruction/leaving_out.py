@@ -68,15 +68,18 @@ def set_aside(seen: Calibrated, masks: Iterable[Mask]) -> Calibrated:
 
 
 def without_board(seen: Calibrated, segments: list[Segment], outline: Array) -> list[Segment]:
-    """The segments without the calibration board; ``outline`` (4, 2) of its corners [px]."""
+    """The segments without those of the calibration board, which may be parted by its colours;
+    ``outline`` (4, 2): its corners [px].
+    """
     shown = np.zeros(seen.depth.shape, np.uint8)
     cv2.fillConvexPoly(shown, np.round(outline).astype(np.int32), 1)
     kept = []
     for segment in segments:
         heights = seen.height[segment.mask]
-        low = np.nanmax(heights, initial=0.0) < BOARD_HEIGHT
-        covered = (segment.mask & (shown > 0)).sum() > 0.5 * shown.sum()
-        if not (low and covered):
+        heights = heights[np.isfinite(heights)]
+        low = not len(heights) or float(np.percentile(heights, 95)) < BOARD_HEIGHT
+        within = (segment.mask & (shown > 0)).sum() > 0.5 * segment.mask.sum()
+        if not (low and within):
             kept.append(segment)
     return kept
 

@@ -13,7 +13,11 @@ import pytest
 from etot_cli.cli.app import run
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.board import Board, find_camera, read_board
+from etot_cli.reconstruction.capture.calibration import calibrate
+from etot_cli.reconstruction.capture.folder import read_capture
 from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.reconstruction.leaving_out import without_board
+from etot_cli.reconstruction.objects import Segment
 from etot_cli.specs.calibration import read_calibration
 
 FINER = 3
@@ -101,6 +105,10 @@ def test_the_pose_is_found(text: str, tmp_path: Path) -> None:
     assert moved < 0.002
     assert turned < 0.2
     assert found.reprojection_px < 0.3
+    board_pixels = drawn(view, board, np.full((view.height, view.width, 3), -1.0))[..., 0] >= 0
+    low, high = (edge(np.argwhere(board_pixels)[:, ::-1], axis=0) for edge in (np.min, np.max))
+    assert np.abs(found.outline.min(axis=0) - low).max() < 1.5
+    assert np.abs(found.outline.max(axis=0) - high).max() < 1.5
 
 
 def test_a_focal_length_that_is_missing_comes_from_the_board(tmp_path: Path) -> None:
@@ -162,6 +170,17 @@ def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
 def test_boards_that_are_none(text: str, words: str) -> None:
     with pytest.raises(SpecError, match=words):
         read_board(text)
+
+
+def test_the_board_is_no_object_but_what_stands_before_it_is(folder: Path) -> None:
+    seen = calibrate(read_capture(folder))
+    crate = seen.capture.masks["crate"]
+    sheet = np.zeros_like(crate)
+    sheet[380:440, 100:300] = True
+    whole = np.array([[0, 0], [639, 0], [639, 479], [0, 479]], dtype=float)
+    segments = [Segment("crate", crate), Segment("sheet", sheet)]
+    assert [item.name for item in without_board(seen, segments, whole)] == ["crate"]
+    assert len(without_board(seen, segments, whole / 100)) == 2
 
 
 def test_the_command_uses_and_keeps_the_camera(

@@ -76,7 +76,8 @@ class Board:
 @dataclass(frozen=True)
 class FoundCamera:
     """``entries`` of ``camera.json`` that count instead of its own; ``document``: the whole of it;
-    ``outline`` (4, 2) of the board [px]; root mean square ``reprojection_px``; what is to be said.
+    ``outline`` (4, 2) of the board with its margin [px]; root mean square ``reprojection_px``;
+    ``notes``: what is to be said.
     """
 
     entries: dict[str, Any]
@@ -193,8 +194,12 @@ def find_camera(folder: Path, board: Board) -> FoundCamera:
         f"the camera's pose is from {len(pixels)} corners of the board, missed by {missed:.2f} px: "
         f"({x:.3f}, {y:.3f}, {z:.3f}) m. To keep it, copy camera.json from here into the capture",
     )
-    hull = np.asarray(cv2.boxPoints(cv2.minAreaRect(pixels.astype(np.float32))), dtype=np.float64)
-    return FoundCamera(entries, {**info, **entries}, hull, missed, tuple(notes))
+    # The outer squares, and a margin as wide.
+    ends = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    corners = ends * [board.columns + 3, board.rows + 3] - 2
+    placed = np.column_stack([board.square * corners, np.zeros(4), np.ones(4)])
+    outline = view.moved(camera).project((placed @ board.to_base().T)[:, :3])
+    return FoundCamera(entries, {**info, **entries}, outline, missed, tuple(notes))
 
 
 def _chessboard(gray: NDArray[np.uint8], board: Board) -> tuple[Array, Array] | None:

@@ -43,7 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
-from etot_cli.reasoning.language.reference.distribution import distributed, is_different
+from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
@@ -75,8 +75,7 @@ def put(context: Context, clause: PutClause) -> None:
         group, grouping = _shared(context, group, themes, clause.grouping)
         options = [context.discourse.referents[index].options[0] for index in themes]
         if is_different(group) and sum(map(len, options)) == 1:
-            text = group.destinations[0].targets[0].text
-            raise ReferenceProblem(text, "say which one", 3, word="different")
+            group = elsewhere(group)
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
         if group.upright:

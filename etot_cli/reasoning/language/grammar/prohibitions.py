@@ -72,10 +72,17 @@ KEEP_STILL = either(
         build=lambda things: AvoidClause(Avoid.MOVE, things),
     ),
     sequence(
-        silent(phrase(verbs.KEEP)),
-        THINGS,
-        silent(phrase(manner.AS_IT_IS)),
-        build=lambda things: AvoidClause(Avoid.MOVE, things),
+        # After "the cups" rather one of them that is left out.
+        either(
+            sequence(
+                silent(phrase(verbs.KEEP)),
+                THINGS,
+                silent(phrase(manner.AS_IT_IS)),
+                build=lambda things: things,
+            ),
+            sequence(silent(phrase("leav(e|ing)")), THINGS, build=lambda things: things),
+        ),
+        build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
     ),
     sequence(
         silent(phrase("leav(e|ing), keep[ing]")),

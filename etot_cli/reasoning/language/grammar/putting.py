@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
     destination,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, noun_phrase, quality_alone
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -42,6 +42,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
+    Modifier,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -76,6 +77,14 @@ EXTRA = sequence(
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
+        sequence(
+            either(
+                phrase("(that|which) is [currently]", False),
+                phrase("(that|which) are [currently]", True),
+            ),
+            either(PLAIN_MODIFIER, quality_alone),
+            build=lambda several, modifier: ("that", (several, modifier)),
+        ),
         silent(phrase(f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)")),
     ),
     build=lambda *found: found[0] if found else (),
@@ -98,6 +107,12 @@ def _put(
     if len(groupings) > 1 or turns is None:
         return None
     grouping = groupings[0] if groupings else grouping
+    described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
+    if described:
+        (only, *more) = described
+        if more or only is None:
+            return None
+        groups = only
     if "upright" in named:
         groups = tuple(replace(group, upright=True) for group in groups)
     return PutClause(
@@ -107,8 +122,22 @@ def _put(
         turns,
         ruled_out,
         by_color="color" in named,
+        far_fetched=2 * len(described),
         one_each="each" in named,
     )
+
+
+def _that_are(
+    groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
+) -> tuple[PutGroup, ...] | None:
+    """Things that are described behind the place ("everything on the rack that is black")."""
+    (np, *more), (group, *others) = groups[0].things.phrases, groups
+    bare = np.words[-1:] in (("everything",), ("anything",), ("something",))
+    plural = not bare and np.determiner in ("those", "these", "all", "all the", "all those")
+    if more or others or np.modifiers or plural != several or not (bare or plural):
+        return None
+    things = Things((replace(np, modifiers=(modifier,), text=f"{np.text} that"),))
+    return (replace(group, things=things),)
 
 
 _ASIDE = silent(
@@ -185,9 +214,19 @@ BACK = (Destination(Toward.HOME),)
 _BY_COLOR = sequence(
     THINGS, silent(phrase(manner.BY_COLOR)), OPTIONAL_COMMA, DESTINATIONS, build=PutGroup
 )
+
+
+def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[NounPhrase, ...]) -> Any:
+    """Things one after the other; what stands before "then" with a place was rather put there."""
+    before = (first, *more[:-1])
+    placed = any(item.phrases for np in before for item in np.modifiers)
+    return None if placed and not first_said else Things((first, *more))
+
+
 _FIRST_THEN = sequence(
-    silent(phrase("first")),
+    optional(phrase("first", True), False),
     noun_phrase,
+    silent(optional(phrase("first"), None)),
     some(
         sequence(
             OPTIONAL_COMMA,
@@ -198,9 +237,9 @@ _FIRST_THEN = sequence(
         least=1,
         most=4,
     ),
-    build=lambda first, more: Things((first, *more)),
+    build=_in_this_order,
 )
-_ONE_BY_ONE = sequence(_FIRST_THEN, DESTINATIONS, build=PutGroup)
+_ONE_BY_ONE = sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=PutGroup)
 _ONES_THAT_GO = sequence(_FIRST_THEN, silent(phrase(verbs.MODAL)), DESTINATIONS, build=PutGroup)
 _SO_THAT_IT_IS = sequence(
     THINGS,

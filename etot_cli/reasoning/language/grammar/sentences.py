@@ -51,13 +51,17 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
-from etot_cli.reasoning.language.words import nouns, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
-LEFT_OUT = sequence(
-    silent(phrase(f"{nouns.EXCEPT}, [but|and] leav(e|ing) [out]")),
-    exceptions,
-    build=lambda nps: nps,
+LEFT_OUT = either(
+    sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps),
+    sequence(
+        silent(phrase("[but|and] leav(e|ing) [out], [but|and] keep[ing]")),
+        exceptions,
+        silent(optional(phrase(manner.AS_IT_IS), None)),
+        build=lambda nps: nps,
+    ),
 )
 _ASKED = Rule(
     either(
@@ -192,6 +196,7 @@ _JOINED = either(
         OPTIONAL_COMMA,
         silent(phrase(small_words.THEN_JOINTS)),
         OPTIONAL_COMMA,
+        EMPTY_WORDS,
         either(
             located(THINGS, lambda at, things: (Spoken(AgainClause(things), at),)),
             located(VERBLESS, lambda at, put: (Spoken(put, at),)),
@@ -310,8 +315,9 @@ SENTENCE = either(
     ),
     sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
-        silent(phrase(small_words.LEADING_THEN)),
+        silent(phrase(f"{small_words.LEADING_THEN}, [and] now")),
         OPTIONAL_COMMA,
+        EMPTY_WORDS,
         located(THINGS, lambda at, things: Spoken(AgainClause(things), at, Order.THEN)),
         build=lambda again: (again,),
     ),

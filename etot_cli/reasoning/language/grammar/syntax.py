@@ -252,6 +252,7 @@ class AvoidClause:
     destinations: tuple[Destination, ...] = ()
     negated: bool = False
     """It is said with "do not"."""
+    far_fetched: int = 0
     goes_on: bool = False
     """Another clause follows by a mere "and", of which "do not" may be said as well."""
 

@@ -30,6 +30,25 @@ def is_different(group: PutGroup) -> bool:
     return any(target.words[:1] == ("different",) for target in targets)
 
 
+def elsewhere(group: PutGroup) -> PutGroup:
+    """Of one thing "a different shelf" is another one than that on which it stands."""
+    return replace(
+        group,
+        destinations=tuple(
+            replace(
+                item,
+                targets=tuple(
+                    replace(np, determiner="another", words=np.words[1:])
+                    if np.words[:1] == ("different",)
+                    else np
+                    for np in item.targets
+                ),
+            )
+            for item in group.destinations
+        ),
+    )
+
+
 def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination, ...], Grouping]:
     """The destinations without such words, and what they say.
 

@@ -150,6 +150,8 @@ class Phrases:
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
+        if quantity_of(phrase.determiner).other and excluded:
+            self._note_where_they_are(phrase, role, excluded)
         holder = self._where_it_went(phrase, role, excluded)
         if holder is not None:
             self.discourse.mention_again(holder, role)
@@ -168,9 +170,15 @@ class Phrases:
                 found = self.discourse.openable()
             else:
                 found = self.discourse.antecedents("them", role, text, excluded)
-            if len(found) == 2 and all(
-                len(option) == 1 for i in found for option in self.discourse.referents[i].options
-            ):
+            said = {thing for index in found for thing in self.discourse.things(index)}
+            named = said - {Thing(thing.name) for thing in said if thing.part}
+            found = tuple(i for i in found if named & {*self.discourse.things(i)})
+            ways = {index: self.discourse.referents[index].options for index in found}
+            pairs = [i for i, o in ways.items() if [{*x} for x in o] == [named]]
+            single = all(len(option) == 1 for options in ways.values() for option in options)
+            if len(named) == 2 and pairs:  # "both drawers … the top one … both"
+                found = (pairs[0],)
+            if len(named) == 2 and (pairs or (len(found) == 2 and single)):
                 for index in found:
                     self.discourse.mention_again(index, role)
                 return found
@@ -180,6 +188,32 @@ class Phrases:
             len(option) == 1 and can_be(option[0], role, self._scene) for option in things
         )
         return spoken if both and not set(spoken) & set(excluded) else ()
+
+    def _note_where_they_are(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> None:
+        """What things stand on or lie in is none of the others that they go to ("the other plate"),
+        unless something else was spoken of by that noun.
+        """
+        discourse = self.discourse
+        unmoved = not discourse.put & {*themes} and all(
+            len(discourse.referents[index].options) == 1 for index in themes
+        )
+        if not unmoved or not phrase.words or self.spoken_of(phrase, role, themes) is not None:
+            return
+        moved = [thing for index in themes for thing in discourse.things(index)]
+        for parts_first in (True, False):
+            here: list[Thing] = []
+            with suppress(ReferenceProblem):
+                plain = replace(phrase, determiner="all")
+                fitting = self._resolved_as(plain, role, None, parts_first=parts_first)
+                here = [
+                    place
+                    for place in fitting.options[0]
+                    if all(space.touches(thing, place, self._scene) for thing in moved)
+                ]
+            if len(here) == 1:
+                now = Resolved(((here[0],),), definite=False, other=False, noun=fitting.noun)
+                discourse.add(now, phrase.text, Role.ANY)
+                return
 
     def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
         """The latest referent that "the same …" may mean."""

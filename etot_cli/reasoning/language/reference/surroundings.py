@@ -111,8 +111,8 @@ class Surroundings:
             if is_robot(phrase) or phrase.text in ("each other", "one another"):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
             landmarks += self._landmark(phrase, themes, beside.relation)
-        each = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR, Nearby.AWAY)
-        if each and len(landmarks) == 2:
+        near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
+        if near_both or (beside.relation in (*_OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
         if len(landmarks) != beside.relation.landmarks:
             text = " and ".join(phrase.text for phrase in beside.phrases)

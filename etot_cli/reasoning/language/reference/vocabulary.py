@@ -162,7 +162,7 @@ class Vocabulary:
             spelled = [re.escape(word) + plural * (i == cut - 1) for i, word in enumerate(words)]
             pattern = r"(?<!\w)" + r"[ ,]*\s".join(spelled) + r"(?!\w)"
             text = re.sub(pattern, lambda found: re.sub(r"[ ,]+", "_", found[0]), text)
-        return text
+        return _lettered(text, [words for words in odd if re.fullmatch(r"\D", words[-1])])
 
     def is_known(self, word: str) -> bool:
         """Whether some object of the scene is called so, at least in part."""
@@ -185,6 +185,25 @@ class Vocabulary:
         return ", ".join(
             entry.info.label if entry.info is not None else DESK for entry in self.objects
         )
+
+
+def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
+    """Text with the nouns that letters leave out ("vials A and C", "vial A in the top drawer and B
+    in the lower"); a letter that names two things, or might be a word, is left alone.
+    """
+    for words in names:
+        text = re.sub(rf"\b{' '.join(words[:-1])}e?s {words[-1]}\b", "_".join(words), text)
+    for letter in {words[-1] for words in names}:
+        spoken = [
+            words
+            for words in names
+            if words[-1] == letter
+            and re.search(rf"\b(?:{'_'.join(words[:-1])}_|{' '.join(words[:-1])}e?s\b)", text)
+        ]
+        if len(spoken) == 1:
+            end = r"(?=,|[.;]|$| (?:and|or|in|into|on|onto|to)\b)" if letter in "adist" else ""
+            text = re.sub(rf"(?<![\w'-]){letter}(?![\w'-]){end}", "_".join(spoken[0]), text)
+    return text
 
 
 def is_general_noun(word: str) -> bool:

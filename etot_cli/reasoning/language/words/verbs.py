@@ -47,10 +47,10 @@ NOTHING_IS = """
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 MODAL = """
-    (should|must|shall) (be|end up|stay|remain|get|finally be|then be|go|be put|be
-    placed|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|stay|remain|go|be
-    put|be placed),
+    (should|must|shall) (be|end up|stay|remain|get|finally be|then be|go|stand|sit|lie),
+    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|stay|remain|go),
+    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
+    (put|placed|moved|brought|stored|dropped|transferred),
     (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed),
     (should|must) be (standing|lying|sitting|located|stored)
 """
