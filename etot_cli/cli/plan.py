@@ -155,7 +155,6 @@ def plan(
             check_place(file)
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
-    from etot_cli.world.workers import cores
 
     heed()
 
@@ -165,7 +164,7 @@ def plan(
         reasoner=reasoner.value,
         vary=vary,
         record=html,
-        jobs=jobs or min(MAX_JOBS, cores()),
+        jobs=jobs,
         worlds=worlds,
         look=look,
         without=frozenset(without or ()),

@@ -113,7 +113,6 @@ def simulate(
     from etot_cli.commands.pages import write_simulate_page
     from etot_cli.commands.render import render_files
     from etot_cli.commands.simulate import SimulateOptions, run_simulate
-    from etot_cli.world.workers import cores
 
     heed()
 
@@ -139,7 +138,6 @@ def simulate(
                     session.folder,
                     video=video,
                     frames=frames,
-                    jobs=cores(),
                     progress=told,
                 )
         except KeyboardInterrupt:

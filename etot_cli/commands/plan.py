@@ -39,6 +39,7 @@ from etot_cli.specs.look import Look
 from etot_cli.specs.reading import printable
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
+from etot_cli.world.workers import cores
 
 if TYPE_CHECKING:  # few plan with a model
     from etot_cli.reasoning.vlm.session import VlmSession
@@ -55,7 +56,8 @@ class PlanOptions:
     seed: int = 0
     reasoner: str = "builtin"
     vary: bool = False
-    jobs: int = 1
+    jobs: int | None = 1
+    """One per processor core when None."""
     worlds: int | None = None
     """As the task says when None."""
     look: Look = Look.EACH
@@ -119,7 +121,7 @@ def plan_task(
             simulator = rooms.open_simulator(
                 scene,
                 seed=options.seed,
-                jobs=options.jobs,
+                jobs=options.jobs or cores(),
                 worlds=min(options.worlds or task.worlds, CHOOSING_WORLDS),
                 look=options.look,
                 record=options.record or (session is not None and session.needs_trajectories),
@@ -172,7 +174,7 @@ def _tried(
     trials = rooms.open_trials(
         scene,
         seed=options.seed,
-        jobs=options.jobs,
+        jobs=options.jobs or cores(),
         worlds=options.worlds or task.worlds,
         look=options.look,
     )

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from etot_cli.commands.simulate import Simulation
 from etot_cli.errors import ServiceError
 from etot_cli.reporting.provenance import add_phase
+from etot_cli.world.workers import cores
 
 if TYPE_CHECKING:
     from etot_cli.world.film import Take
@@ -45,7 +46,6 @@ def render_files(
     *,
     video: bool,
     frames: bool,
-    jobs: int = 1,
     progress: Progress | None = None,
 ) -> None:
     """Renders what was asked for into ``folder``; files and time go into the report.
@@ -61,10 +61,12 @@ def render_files(
     begun = time.monotonic()
     film = takes(simulation)
     if frames:
-        write_frames(simulation.scene, film, folder / FRAMES_FOLDER, jobs=jobs, progress=progress)
+        write_frames(
+            simulation.scene, film, folder / FRAMES_FOLDER, jobs=cores(), progress=progress
+        )
         report.files["frames"] = FRAMES_FOLDER
     if video:
-        write_video(simulation.scene, film, folder / VIDEO_NAME, jobs=jobs, progress=progress)
+        write_video(simulation.scene, film, folder / VIDEO_NAME, jobs=cores(), progress=progress)
         report.files["video"] = VIDEO_NAME
     add_phase(report.timing, "render", time.monotonic() - begun)
 
