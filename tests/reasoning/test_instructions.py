@@ -188,6 +188,13 @@ REWORDED: dict[str, dict[str, list[str]]] = {
         "Pick up the object between the box and the plate": ["[PICK UP, mug_b]"],
         "Pick up the smaller of the bowls": ["[PICK UP, bowl_2]"],
         "Pick up mug a": ["[PICK UP, mug_a]"],
+        "Put mugs B and C in the left bowl": [
+            "[PICK UP, mug_b] [PUT INTO, bowl_1] [PICK UP, mug_c] [PUT INTO, bowl_1]"
+        ],
+        "Put mug C in a lower and B in the upper drawer": [
+            "[PICK UP, mug_c] [PUT INTO, chest.lower] [OPEN, chest.upper] "
+            "[PICK UP, mug_b] [PUT INTO, chest.upper] [CLOSE, chest.upper]"
+        ],
         "Place the red apple in the left bowl and the green apple in the right bowl": [
             "[PICK UP, apple_1] [PUT INTO, bowl_1] [PICK UP, apple_2] [PUT INTO, bowl_2]"
         ],

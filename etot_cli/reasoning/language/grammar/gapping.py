@@ -38,6 +38,10 @@ def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]
     if len(set(nouns)) != 1 or matches_any(nouns[0], THING_NOUNS):
         return (groups,)
     lent = (*(_with_noun(group, nouns[0]) for group in groups[:-1]), groups[-1])
+    bare = [item.relation for group in groups for where in group.destinations
+            for item in where.beside if not item.phrases]  # fmt: skip
+    if lent != groups and Nearby.AT_CENTRE in bare:
+        return ()  # "A in the top, B in the middle and C in the bottom drawer": the middle one
     return (groups,) if lent == groups else (groups, lent)
 
 

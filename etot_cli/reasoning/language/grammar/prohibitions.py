@@ -86,7 +86,7 @@ KEEP_STILL = either(
     ),
     sequence(
         silent(phrase("leav(e|ing), keep[ing]")),
-        silent(phrase("everything else, all else, the (rest|others) [of (it|them)]")),
+        silent(phrase("everything else, all else, the (rest|others) [of it|of them]")),
         silent(phrase(manner.AS_IT_IS)),
         build=lambda: AvoidClause(Avoid.MOVE, None),
     ),

@@ -8,7 +8,14 @@ from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
-from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, same_noun
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    ORDINALS,
+    SIDES,
+    SIZES,
+    same_noun,
+    singular,
+)
 
 _CONTRASTED = (SIZES, SIDES, LEVELS)
 """Words of which one thing of a pair has one and the other thing another."""
@@ -125,3 +132,17 @@ def narrowed_to(
         thing.name for item in (plain, narrower) for option in item.options for thing in option
     ]
     raise AmbiguousReference(phrase.text, named)
+
+
+def as_rest(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> NounPhrase:
+    """After "two of the cups" of three "the third" is the other one."""
+    alone = phrase.words[1:] in ((), ("one",), (noun,)) and not phrase.modifiers
+    said = phrase.words[0] if alone and phrase.words and phrase.determiner == "the" else ""
+    number = ORDINALS.get(said, -1)
+    for mention in discourse.mentions:
+        options = discourse.referents[mention.referent].options
+        so_many = len(options) > 1 and {len(option) for option in options} == {number}
+        every = len(set(discourse.things(mention.referent))) == number + 1
+        if noun and same_noun(mention.noun, noun) and so_many and every:
+            return replace(phrase, determiner="the other", words=(singular(noun),))
+    return phrase

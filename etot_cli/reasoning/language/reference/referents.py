@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS, D
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.narrowing import (
     as_contrasted,
+    as_rest,
     check_count,
     check_one_left,
     narrowed_to,
@@ -321,6 +322,7 @@ class Phrases:
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
+        phrase = as_rest(phrase, noun_before, self.discourse)
         quantity = quantity_of(phrase.determiner)
         if quantity.other and quantity.definite and (quantity.count or 1) > 1:
             # "One cup … the other two": which they are depends on the one.
