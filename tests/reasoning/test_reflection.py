@@ -476,3 +476,14 @@ def test_a_vessel_under_a_roof_is_brought_out_before_it_is_filled_or_emptied() -
     )
     step = failed(on_top, empty, 0, cause(CauseKind.NO_GRASP, "chest", "egg"))
     assert f"{out} {empty}" not in revisions(step), "there is no roof over it"
+
+
+def test_what_is_asked_to_be_open_never_stays_closed() -> None:
+    """A door that stands ajar is closed and the ball before it moved; opening it is still asked."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.11}), scenes.ball("nut", (0.4, 0.0))
+    )
+    cleared = "[CLOSE, chest] [PICK UP, nut] [PUT ON, desk] (safe place)"
+    step = failed(start, f"{cleared} [OPEN, chest]", 3, cause(CauseKind.NO_GRASP, "chest"))
+    for branch in revisions(step):
+        assert "[OPEN, chest]" in branch

@@ -69,7 +69,7 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if cause is None or not 0 <= failed.index < len(failed.branch.actions):
         return
     case = _Case(failed, cause)
-    aim = case.purpose_of(case.actions)
+    aim = purpose(case.actions, failed.start)
     opened = left_open(case.actions, failed.start)
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
@@ -78,7 +78,7 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
         if actions in seen:
             continue
         seen.add(actions)
-        if case.purpose_of(actions) == aim and not check_plan(actions, failed.start, opened):
+        if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
             yield Branch(actions, f"{change}, because {cause.text}")
 
 
@@ -104,12 +104,14 @@ class _Case:
             return self.failed.record.before.holding
         return owner_of(self.action.target)
 
-    def purpose_of(self, actions: Actions) -> Purpose:
-        """What a branch is for; not that a part is left as it was which cannot be opened again."""
-        aim = purpose(actions, self.failed.start)
-        if self.action.verb is not Verb.OPEN:
-            return aim
-        return replace(aim, parts=frozenset(p for p in aim.parts if p[0] != self.action.target))
+    def serves(self, actions: Actions, aim: Purpose) -> bool:
+        """Whether a branch is for the same; a part that was only to stand as at first, and cannot
+        be opened again, may stay closed.
+        """
+        new, target = purpose(actions, self.failed.start), self.action.target
+        if self.action.verb is Verb.OPEN and target not in dict(aim.parts):
+            new = replace(new, parts=new.parts - {(target, Verb.CLOSE)})
+        return new == aim
 
     def corrections(self) -> Iterator[Correction]:
         """Possible corrections, the most promising first."""
