@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import suppress
+
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.referents import Phrases
+from etot_cli.reasoning.language.reference.surroundings import is_support
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -61,6 +65,24 @@ class Context:
             return Place(Relation.ON, self._referent(surface))
         point = (round(state.position[0], 3), round(state.position[1], 3))
         return Place(Relation.ON, self._referent(surface), (Near(Nearby.AT_POINT, point=point),))
+
+    def source(self, themes: Sequence[int]) -> tuple[Place, ...]:
+        """The one place that things are at before they are moved, for "there"; else none."""
+        things = {thing for index in themes for thing in self.discourse.things(index)}
+        places = set()
+        with suppress(ReferenceProblem):
+            places = {self.home(thing) for thing in things}
+        at = {
+            (place, self.discourse.things(place.where))
+            for place in places
+            if place.where is not None
+        }
+        outer = [(place, on[0]) for place, on in at if on[0] not in things]
+        if len(outer) != 1 or self.discourse.put & {*themes}:
+            return ()
+        ((place, below),) = outer
+        fits = place.relation is Relation.INSIDE or is_support(below, self.scene)
+        return (place,) if fits and below.name != DESK else ()
 
     def _referent(self, thing: Thing) -> int:
         referent = Referent(((thing,),), thing.name)

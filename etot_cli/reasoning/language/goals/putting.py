@@ -78,6 +78,7 @@ def put(context: Context, clause: PutClause) -> None:
             group = elsewhere(group)
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
+        _check_taken(context, group, themes, places)
         if group.upright:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
@@ -93,6 +94,24 @@ def put(context: Context, clause: PutClause) -> None:
         context.discourse.last_places = places
         if clause.ruled_out:
             rule_out(context, themes, clause.ruled_out)
+
+
+def _check_taken(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "the red one", where something goes, is what it is taken from: another may be."""
+    taken = any(
+        isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
+        for step in context.done[-1:]
+    ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
+    for phrase in (np for item in group.destinations for np in item.targets):
+        if not taken or phrase.words[-1:] not in (("one",), ("ones",)):
+            continue
+        for place in (place.where for place in places if place.where is not None):
+            below = context.discourse.things(place)
+            above = [thing for index in themes for thing in context.discourse.things(index)]
+            if all(touches(one, other, context.scene) for one in above for other in below):
+                raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
 
 def _choose_from_elsewhere(context: Context, theme: int, places: Sequence[Place]) -> None:
@@ -246,6 +265,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     themes = context.phrases.things(things, Role.THEME)
     for index in themes if clause.source is None else ():
         _choose_from_somewhere(context, index)
+    context.discourse.last_places = context.source(themes)
     _add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 

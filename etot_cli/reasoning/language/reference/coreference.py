@@ -170,10 +170,18 @@ class Discourse:
         return tuple(dict.fromkeys(thing for option in options for thing in option))
 
     def last_noun(self, role: Role) -> str | None:
-        """The noun that "one" or "the other" stands for in a role."""
-        alike = [mention for mention in self.mentions if _alike(mention.role, role)]
-        mentions = alike or self.mentions
+        """The noun that "one" or "the other" stands for in a role; never the desk, which is one."""
+        said = [mention for mention in self.mentions if not self._is_desk(mention.referent)]
+        mentions = [mention for mention in said if _alike(mention.role, role)] or said
         return mentions[-1].noun if mentions else None
+
+    def nouns(self) -> tuple[str, ...]:
+        """All nouns that "one" may stand for."""
+        said = (item.noun for item in self.mentions if not self._is_desk(item.referent))
+        return tuple(dict.fromkeys(said))
+
+    def _is_desk(self, referent: int) -> bool:
+        return all(thing.name == DESK for thing in self.things(referent))
 
     def mentioned_like(self, noun: str | None) -> tuple[Thing, ...]:
         """Single things spoken of by a noun; "the other" is none of them."""
@@ -296,7 +304,7 @@ class Discourse:
     def _rivals(self, place: int, theme: int, role: Role) -> bool:
         """Whether "it" may as well mean the place that a thing was put at."""
         things = self.things(place)
-        if any(thing.name == DESK for thing in things):
+        if self._is_desk(place):
             return False
         if role is Role.SURFACE:
             themes = [self.scene.infos[thing.name] for thing in self.things(theme)]
@@ -336,6 +344,12 @@ class Discourse:
                 if mention.role in (Role.THEME, Role.PART) and self._fits(mention.referent, role)
             )
         )
+
+    def places_spoken_of(self) -> frozenset[int]:
+        """What the latest clause named but for what it moved."""
+        last = [mention for mention in self.mentions if mention.clause == self._clauses()[0]]
+        moved = {mention.referent for mention in last if mention.role is Role.THEME}
+        return frozenset({mention.referent for mention in last} - moved)
 
     def latest_place(self, relation: Relation, excluded: Sequence[int], text: str) -> Place:
         """What "inside" or "on top" without an object means.

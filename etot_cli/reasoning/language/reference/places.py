@@ -253,6 +253,9 @@ class Places:
         for index in prefer:
             if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
                 return (Place(relation, index),)
+        if word == "there":  # nowhere else than where something was or is, so not in what moved
+            referents = range(len(discourse.referents))
+            themes = [*themes, *({*referents} - discourse.places_spoken_of())]
         return (discourse.latest_place(relation, themes, word),)
 
 

@@ -354,7 +354,7 @@ class Phrases:
             if phrase.words[-1:] not in (("one",), ("ones",)) and (phrase.words or not others):
                 raise
             found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
-            for other in dict.fromkeys(mention.noun for mention in self.discourse.mentions):
+            for other in self.discourse.nouns():
                 if noun is not None and not same_noun(other, noun):
                     with suppress(ReferenceProblem):
                         resolved = self._resolved_as(phrase, role, other)
