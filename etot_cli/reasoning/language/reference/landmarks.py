@@ -37,6 +37,8 @@ def related(
     ``notes`` gets what was chosen where several would do, or none by the relation's definition.
     """
     prep = modifier.prep
+    if prep is Prep.OF and all(map(is_one, modifier.phrases)):
+        things = [thing for thing in things if _has_owner(thing, scene)]
     by_robot = any(space.ROBOT in several for several in landmarks)
     if by_robot and not (prep is Prep.NEAR and len(things) > 1) and prep not in _DISTANCES:
         raise ReferenceProblem(modifier.phrases[0].text, "say beside which object", 2)
@@ -104,6 +106,12 @@ def related(
         roughly = "" if plainly else ", though only roughly"
         notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
     return chosen
+
+
+def _has_owner(thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing may be said to be of another one; no cup is one "of the red cup"."""
+    info = scene.infos.get(thing.name)
+    return info is None or bool(info.parts or info.boards)
 
 
 def _is_fixed_beside(prep: Prep, thing: Thing, scene: SceneState) -> bool:

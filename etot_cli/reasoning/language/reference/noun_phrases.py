@@ -185,7 +185,7 @@ class Resolver:
         if (among := phrase.among or quantity.among) not in (0, len(things)):
             raise ReferenceProblem(phrase.text, f"not {among}, but {_names(things)} fit", 2)
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
-        if len(things) == 1 and any(item.words[0] == "to" for item in asides):
+        if len(things) == 1 and any(item.words[0] in ("to", "from") for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
         if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
             why = f"say 'the' one of {_names(things)}, or to which side of what"
