@@ -954,6 +954,37 @@ def garage() -> SceneState:
     )
 
 
+def hallway() -> SceneState:
+    """A unit called "drawer" with three, the bottom one open, and furniture of everyday names."""
+    return scene(
+        drawers("drawer", (0.60, 0.40), {"top": 0.0, "middle": 0.0, "bottom": 0.9}, color="brown"),
+        item("block", "box", (0.47, 0.38), size=CUBE, on="drawer", inside="drawer.bottom",
+             color="yellow"),
+        item("tin", "cylinder", (0.30, 0.00), size=(0.06, 0.06, 0.08), color="blue"),
+        item("novel", "box", (0.30, -0.20), size=(0.15, 0.10, 0.02), color="green"),
+        item("cubby", "shelf", (0.68, -0.05), size=(0.25, 0.30, 0.4), boards=("low", "high")),
+        cabinet("cooler", (0.65, -0.42), 0.0, label="refrigerator", color="white"),
+        item("waste", "bowl", (0.35, -0.45), size=(0.18, 0.18, 0.14), label="trash can"),
+    )  # fmt: skip
+
+
+def cottage() -> SceneState:
+    """Silverware drawers, both open, with a spoon and a fork, and a nightstand with a lamp on."""
+    return scene(
+        drawers("hutch", (0.60, 0.40), {"top": 0.9, "bottom": 0.9}, label="silverware drawers"),
+        item("spoon", "pen", (0.47, 0.38), size=(0.15, 0.02, 0.01), on="hutch",
+             inside="hutch.top"),
+        item("knife", "pen", (0.47, 0.42), size=(0.15, 0.02, 0.01), on="hutch",
+             inside="hutch.top"),
+        item("fork", "pen", (0.47, 0.36), size=(0.15, 0.02, 0.01), on="hutch",
+             inside="hutch.bottom"),
+        drawers("night_stand", (0.60, -0.40), {"top": 0.0, "bottom": 0.0}, label="nightstand"),
+        item("lamp", "cylinder", (0.60, -0.40), size=(0.08, 0.08, 0.15), on="night_stand", z=0.355),
+        item("clock", "box", (0.35, -0.10), size=(0.08, 0.04, 0.08), label="alarm clock"),
+        cabinet("closet", (0.68, 0.0), 0.0, size=(0.2, 0.3, 0.4), color="brown"),
+    )  # fmt: skip
+
+
 def archive() -> SceneState:
     """Books upon each other and one apart, a can that lies, rods, two cups alike, a shelf."""
     info, lying = item("can", "cylinder", (0.30, -0.20), size=(0.06, 0.06, 0.12), color="red")

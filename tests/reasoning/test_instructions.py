@@ -183,6 +183,11 @@ REWORDED: dict[str, dict[str, list[str]]] = {
         ],
         "Close the drawer": ["[CLOSE, chest.lower]"],
         "Close all drawers": ["[CLOSE, chest.lower]"],
+        "Open a drawer": ["[OPEN, chest.upper]"],
+        "Open the drawer and put the red apple in it": [
+            "[OPEN, chest.upper] [PICK UP, apple_1] [PUT INTO, chest.upper]"
+        ],
+        "Make sure a drawer is closed and a drawer is open": [],
         "Open the closed drawer": ["[OPEN, chest.upper]"],
         "Pick up the mug in front of the box": ["[PICK UP, mug_c]"],
         "Pick up the object between the box and the plate": ["[PICK UP, mug_b]"],

@@ -20,7 +20,7 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import container_parts, is_closed
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
+from etot_cli.world.state import DESK, OPEN_AT, PartInfo, SceneState, owner_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,10 +122,12 @@ def _with_parts(goal: Goal, index: int, scene: SceneState) -> Referent:
     for option in referent.options:
         parts = _implied_parts(option, inserted, scene)
         options += [(part,) for part in parts] or [option]
-    if moved and not inserted and all(isinstance(step, Close) for step in moved):
+    opened_first = moved and isinstance(moved[0], Open) and not moved[0].final
+    if moved and (opened_first or not inserted):
         # Whoever says "close the drawer" means one that is not closed.
-        ajar = [option for option in options if any(_is_ajar(thing, scene) for thing in option)]
-        options = ajar or options
+        test = _is_ajar if isinstance(moved[0], Close) else _is_not_open
+        needed = [sum(test(thing, scene) for thing in option) for option in options]
+        options = [o for o, count in zip(options, needed, strict=True) if count == max(needed)]
     return replace(referent, options=tuple(dict.fromkeys(options)))
 
 
@@ -147,6 +149,14 @@ def _is_ajar(thing: Thing, scene: SceneState) -> bool:
         return False
     return any(
         not is_closed(scene, part)
+        for part in scene.infos[thing.name].parts
+        if thing.part in (None, part.name)
+    )
+
+
+def _is_not_open(thing: Thing, scene: SceneState) -> bool:
+    return any(
+        scene.openness(part) < OPEN_AT
         for part in scene.infos[thing.name].parts
         if thing.part in (None, part.name)
     )

@@ -151,6 +151,8 @@ def ensure(context: Context, state: State) -> None:
     """Adds the steps after which something is as it is said to be."""
     if state.word:
         for phrase in state.subjects:
+            if phrase.determiner in ("a", "an"):
+                phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
             for index in context.phrases.refer(phrase, Role.PART):
                 if state.kept:
                     keep_as_it_is(context, index, state.word)

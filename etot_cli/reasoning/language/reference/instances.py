@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from itertools import combinations, islice
 
@@ -34,19 +35,25 @@ def usable_ones(
         # "On the bowl" is said of what goes into it; on a drawer is not in it.
         vessels = [thing for thing in things if thing.part is None]
         usable = [thing for thing in vessels if can_be(thing, Role.CONTAINER, scene)]
-        parts = [thing for thing in things if thing.part is not None]
-        if not usable and parts:
-            owner = parts[0].name
-            raise ReferenceProblem(
-                phrase.text,
-                f"nothing can stand on a drawer or door; say 'into' it, or 'on {owner}'",
-                3,
-            )
+        if not usable:
+            check_not_part(phrase.text, things)
     if not usable:
         names = ", ".join(dict.fromkeys(thing.name for thing in things))
         raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
     at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]
     return at_hand or usable
+
+
+def check_not_part(text: str, below: Sequence[Thing]) -> None:
+    """Whether something is to stand on what moves.
+
+    Raises:
+        ReferenceProblem: it is, for "on the drawer" is neither in it nor surely on its chest.
+    """
+    for thing in below:
+        if thing.part is not None:
+            why = f"nothing can stand on a drawer or door; say 'into' it, or 'on {thing.name}'"
+            raise ReferenceProblem(text, why, 3)
 
 
 def called_exactly(

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import is_inside
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
     LEVELS,
     ORDINALS,
     SIDES,
     SIZES,
+    matches_any,
     same_noun,
     singular,
 )
+from etot_cli.world.state import SceneState
 
 _CONTRASTED = (SIZES, SIDES, LEVELS)
 """Words of which one thing of a pair has one and the other thing another."""
 
 
-def spoken_part(resolved: Resolved, discourse: Discourse) -> Resolved:
-    """After "the lower drawer" "the drawer" is that one, not the whole chest."""
+def spoken_part(resolved: Resolved, discourse: Discourse, *, own_name: bool) -> Resolved:
+    """After "the lower drawer" "the drawer" is that one, not the whole chest; ``own_name``: unless
+    the whole is what is called so.
+    """
     named = {(thing.name, thing.part) for option in resolved.options for thing in option}
-    if not resolved.definite or resolved.other or len(named) != 1:
+    if own_name or not resolved.definite or resolved.other or len(named) != 1:
         return resolved
     ((owner, part),) = named
     for mention in reversed(discourse.mentions):
@@ -32,6 +40,22 @@ def spoken_part(resolved: Resolved, discourse: Discourse) -> Resolved:
         parts = things and all(thing.name == owner and thing.part for thing in things)
         if part is None and parts and same_noun(mention.noun, resolved.noun):
             return replace(resolved, options=discourse.referents[mention.referent].options)
+    return resolved
+
+
+def part_around(resolved: Resolved, inner: Sequence[Thing], scene: SceneState) -> Resolved:
+    """Of a chest's drawers "the drawer" that things are taken out of is the one they all lie in."""
+    things = {thing for option in resolved.options for thing in option}
+    infos = [scene.infos[t.name] for t in things if t.part is None and t.name in scene.infos]
+    for info in infos if len(things) == 1 else ():
+        around = [
+            part
+            for part in info.parts
+            if matches_any(resolved.noun, JOINT_NOUNS.get(part.joint_type, ()))
+            and all(is_inside(scene, thing.name, part.address) for thing in inner)
+        ]
+        if len(around) == 1 and len(info.parts) > 1:
+            return replace(resolved, options=((Thing(info.name, around[0].name),),))
     return resolved
 
 

@@ -153,7 +153,8 @@ class Resolver:
             phrase, words, noun, self._vocabulary, parts_first=parts, upon=role is Role.SURFACE
         )
         bare = not phrase.determiner and singular(words[-1]) != words[-1]
-        if (quantity.every or phrase.determiner == "one" or bare) and not match.plural:
+        plural = role is Role.PART and singular(words[-1]) != words[-1]
+        if (quantity.every or phrase.determiner == "one" or bare or plural) and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
         unnamed = noun is None or matches_any(noun, THING_NOUNS)
         nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
@@ -89,10 +90,16 @@ def matched(
 def parts_of(
     match: Match, words: tuple[str, ...], phrase: NounPhrase, vocabulary: Vocabulary
 ) -> Match:
-    """Of "every drawer" of the only chest the drawers, not the chest."""
-    if len(match.entries) > 1 or not is_of_parts(match.entries[0], words[-1], vocabulary):
+    """Of "every drawer" of the only chest the drawers, not the chest, be it called "drawers"."""
+    (whole, *more), noun = match.entries, words[-1]
+    if more or not is_of_parts(whole, noun, vocabulary):
         return match
-    return match_words(words, vocabulary, phrase.text, by_name=False, parts_first=True)
+    found = match_words(words, vocabulary, phrase.text, by_name=False, parts_first=True)
+    if found.entries != match.entries:
+        return found
+    everything = (*vocabulary.parts, *vocabulary.boards)
+    own = [item for item in everything if item.thing.name == whole.thing.name]
+    return replace(match, entries=tuple(e for e in own if e.grade(noun) is not None), plural=True)
 
 
 def with_quality(

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import Discourse
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.instances import check_not_part
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings, is_support
@@ -190,6 +191,7 @@ class Places:
                 names = " or ".join(dict.fromkeys(thing.name for thing in things))
                 self.discourse.notes.append(f"read 'in' as onto {names}")
         if toward is Toward.ON and fits_in and not fits_on:
+            check_not_part(self.discourse.referents[index].text, things)
             names = " or ".join(dict.fromkeys(thing.name for thing in things))
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
     of_last_choice,
     of_spoken_owner,
     others,
+    part_around,
     spoken_part,
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
@@ -275,7 +276,7 @@ class Phrases:
         named = [(item.prep, landmark) for item in phrase.modifiers for landmark in item.phrases]
         noun = usual_form(phrase).words[-1:]
         for prep, landmark in (*owner, *named):
-            if landmark.determiner == "one":
+            if "one" in (landmark.determiner, *landmark.words[:-1]):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
                 if quantity_of(landmark.determiner).other:
@@ -287,13 +288,14 @@ class Phrases:
                     noun=noun[0] if elliptic and noun else None,
                     pronoun=self._pronoun_things,
                 )
-                if prep in (Prep.ON, Prep.IN, Prep.FROM) and len(told) == len(told[0]) == 1:
+                if prep in (Prep.ON, Prep.IN, Prep.FROM) and len(told) == 1:
                     options = tuple(
                         option
                         for option in resolved.options
-                        if space.holds_at(prep, told[0][0], option, self._scene)
+                        if all(space.holds_at(prep, t, option, self._scene) for t in told[0])
                     )
                     resolved = replace(resolved, options=options or resolved.options)
+                    resolved = part_around(resolved, told[0], self._scene)
                 self.discourse.add(resolved, landmark.text, Role.ANY)
 
     def _resolved(self, phrase: NounPhrase, role: Role) -> Resolved:
@@ -338,7 +340,9 @@ class Phrases:
             if phrase.words[-1:] in ((), ("one",)):
                 resolved = of_last_choice(resolved, discourse)
             check_one_left(phrase, resolved, discourse)
-        return of_spoken_owner(spoken_part(resolved, discourse), discourse)
+        # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
+        upon = role is Role.SURFACE and self._resolver.is_called(resolved.noun)
+        return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
         """A phrase that may leave its noun to an earlier one: to the latest, else to the only
