@@ -1009,3 +1009,33 @@ def archive() -> SceneState:
         item("clock", "box", (0.68, -0.05), size=(0.06, 0.06, 0.1), on="shelf.mid"),
         item("basket", "bowl", (0.45, 0.45), size=(0.24, 0.24, 0.10)),
     )  # fmt: skip
+
+
+def lounge() -> SceneState:
+    """Things with a word before their noun: two remote controls, a paper clip, a trash can, ..."""
+    return scene(
+        item(
+            "remote_1", "box", (0.30, 0.36), size=(0.14, 0.04, 0.02), label="remote control",
+            color="black",
+        ),
+        item(
+            "remote_2", "box", (0.30, 0.28), size=(0.14, 0.04, 0.02), label="remote control",
+            color="white",
+        ),
+        item("pills_1", "cylinder", (0.30, 0.20), size=(0.05, 0.05, 0.09), label="pill bottle"),
+        item("pills_2", "cylinder", (0.30, 0.12), size=(0.05, 0.05, 0.07), label="pill bottle"),
+        item("bear", "capsule", (0.30, 0.02), size=(0.14, 0.06, 0.06), label="teddy bear"),
+        item("clip", "box", (0.30, -0.08), size=(0.04, 0.02, 0.01), label="paper clip"),
+        item("pudding", "box", (0.30, -0.16), size=(0.08, 0.05, 0.03), label="chocolate pudding"),
+        item("key", "box", (0.30, -0.24), size=(0.06, 0.03, 0.01), label="car key"),
+        item("sq", "box", (0.48, 0.30), size=(0.14, 0.14, 0.01), label="target square"),
+        item("tray", "box", (0.48, 0.02), size=(0.20, 0.26, 0.02), color="gray"),
+        item(
+            "bandage", "cylinder", (0.48, 0.06), size=(0.06, 0.06, 0.04), on="tray", color="white",
+            z=0.2,
+        ),
+        item("mask", "box", (0.48, -0.04), size=(0.10, 0.07, 0.01), on="tray", z=0.2),
+        item("bin", "bowl", (0.50, -0.32), size=(0.18, 0.18, 0.14), label="trash can"),
+        cup("mug", (0.32, -0.40), label="tea mug", color="green"),
+        drawers("dresser", (0.66, 0.40), {"top": 0.9, "bottom": 0.0}, color="brown"),
+    )  # fmt: skip

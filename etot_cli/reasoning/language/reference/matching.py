@@ -72,6 +72,7 @@ def match_words(
     parts_first: bool = False,
     upon: bool = False,
     counted: bool = False,
+    place: bool = False,
 ) -> Match:
     """Finds what a noun phrase's words fit; every word of them counts.
 
@@ -86,6 +87,7 @@ def match_words(
             ("the drawer with the pen in it").
         upon: something is to go on it, so that a level is rather a board than a drawer.
         counted: ordinals among the words count from a side that is said, and are no names.
+        place: something is to go into it.
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
@@ -117,7 +119,10 @@ def match_words(
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found
-    for pool in _pools(vocabulary, head, adjectives, parts_first, upon):
+    pools = _pools(vocabulary, head, adjectives, parts_first, upon)
+    if not any(entry.grade(head) is not None for entry in everything):
+        pools.append(vocabulary.short_names(head, place=place))
+    for pool in pools:
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
             # "The drawers" of the only chest, "the shelves" of the only shelf.

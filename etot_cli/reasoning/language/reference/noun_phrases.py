@@ -150,7 +150,13 @@ class Resolver:
             raise ReferenceProblem(phrase.text, why, 1, word="same")
         parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
         match = matched(
-            phrase, words, noun, self._vocabulary, parts_first=parts, upon=role is Role.SURFACE
+            phrase,
+            words,
+            noun,
+            self._vocabulary,
+            parts_first=parts,
+            upon=role is Role.SURFACE,
+            place=role is Role.CONTAINER,
         )
         bare = not phrase.determiner and singular(words[-1]) != words[-1]
         plural = role is Role.PART and singular(words[-1]) != words[-1]

@@ -36,6 +36,7 @@ def matched(
     *,
     parts_first: bool = False,
     upon: bool = False,
+    place: bool = False,
 ) -> Match:
     """What a phrase's words fit, with the qualities that stand behind the noun.
 
@@ -46,6 +47,7 @@ def matched(
         vocabulary: the scene's.
         parts_first: drawers come before their chest, as for :func:`match_words`.
         upon: something is to go on it.
+        place: something is to go into it.
 
     Raises:
         ReferenceProblem: nothing fits, or a word is not understood.
@@ -68,6 +70,7 @@ def matched(
             by_name=plain and quantity.definite and not quantity.other,
             parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
             upon=upon,
+            place=place,
             counted=any(
                 item.prep is Prep.SIDE and item.words[0] == "from" for item in phrase.modifiers
             ),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import lru_cache
 from itertools import pairwise
@@ -17,12 +17,18 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
+    HELPING_NOUNS,
     JOINT_NOUNS,
     KIND_GROUPS,
     KIND_NOUNS,
+    MATERIALS,
     NUMBERS,
+    PURPOSES,
+    RUBBISH,
+    STATES,
     THING_NOUNS,
     basic_color,
+    is_descriptive,
     is_plural_of,
     matches_any,
     singular,
@@ -32,7 +38,18 @@ from etot_cli.world.state import DESK, ObjectInfo, SceneState
 EXACT, HEAD, GENERIC, CONTENT = range(4)
 """How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
 its kind; what it is a pack or box of. A word before the noun (the "paper" of a paper clip) tells
-what is called so from others, but names nothing."""
+what is called so from others, but names nothing where the noun is for it."""
+
+
+_SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
+_VESSELS = frozenset(
+    noun
+    for kind, groups in KIND_GROUPS.items()
+    for group in groups
+    for noun in group
+    if kind not in ("sphere", "capsule", "pen") and not {*group} & {*_SHAPES}
+)
+"""Nouns for what things are kept in or on, be it solid in this scene."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +108,18 @@ class Entry:
         """Whether a word stands in its name before the noun and does not name it."""
         return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
 
+    def is_short_for(self, word: str) -> bool:
+        """Whether the word before its noun is a usual short name for it ("the remote"): it is no
+        vessel, holder or tool for that, and the word no adjective.
+        """
+        if self.info is None or self.info.container or self.info.parts or self.info.boards:
+            return False
+        heads = {*map(singular, self.heads)}
+        holds = heads & (HELPING_NOUNS | _VESSELS)
+        # A key of a car is no car; a cube of sponge is a sponge.
+        other = heads & (COMMON_NOUNS - _SHAPES) and singular(word) in COMMON_NOUNS
+        return not holds and not other
+
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""
         return matches_any(word, self.own)
@@ -140,6 +169,26 @@ class Vocabulary:
         return {
             entry.thing: entry for entry in (*self.objects, *self.parts, *self.boards, self.desk)
         }
+
+    def short_names(self, noun: str, *, place: bool) -> list[Entry]:
+        """Entries of one label that a noun is short for, with it as a noun of theirs.
+
+        Args:
+            noun: what nothing else is called by.
+            place: something is to go there, so that rubbish is what is for it.
+        """
+        word = singular(noun)
+        told = [entry for entry in self.objects if entry.only_tells(noun)]
+        if is_descriptive(word) or word in PURPOSES | MATERIALS or word in STATES:
+            return []
+        if is_general_noun(word) or len({entry.called[:1] for entry in told}) > 1:
+            return []
+        for_it = place and word in RUBBISH
+        fitting = all(
+            entry.info is not None and entry.info.container if for_it else entry.is_short_for(word)
+            for entry in told
+        )
+        return [replace(e, content=(*e.content, word)) for e in told] if fitting else []
 
     def words(self) -> frozenset[str]:
         """Every word of the scene's names and labels."""

@@ -75,6 +75,18 @@ COMMON_NOUNS = word_set(
 )
 """Things that people have: such a word is no slip of the pen for another, and what is called by one
 is not also called by a noun for its mere shape (an apple is no ball)."""
+HELPING_NOUNS = word_set(
+    """
+    holder stand rack caddy organizer tray plate basket bag bucket bin pouch purse sack tub tank
+    tube pack set kit bundle roll dispenser machine clip case cover cap lid stopper plug hook peg
+    hanger strap cord lace charger cable key ring bell end stop board mat rest shade stick stump
+    brush knife fork spoon scoop ladle spatula whisk tongs scissors press mill grinder grater
+    opener peeler slicer cutter corer sharpener punch roller timer remover cleaner shaker
+    """
+)
+"""What holds, covers, cleans, cuts or serves what stands before it ("paper clip")."""
+RUBBISH = word_set("trash rubbish garbage waste litter recycling")
+"""What is put where it belongs, called by the same word."""
 JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "slide": ("drawer", "tray", "layer", "compartment", "level", "rack", "shelf"),
     "hinge": ("door", "lid", "flap", "cover"),
