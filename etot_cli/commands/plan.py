@@ -97,6 +97,7 @@ def plan_task(
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
     """
+    options = replace(options, jobs=options.jobs or cores())
     watch = Stopwatch()
     begun_s = time.monotonic()
     task: Task | None = None
@@ -121,7 +122,7 @@ def plan_task(
             simulator = rooms.open_simulator(
                 scene,
                 seed=options.seed,
-                jobs=options.jobs or cores(),
+                jobs=options.jobs,
                 worlds=min(options.worlds or task.worlds, CHOOSING_WORLDS),
                 look=options.look,
                 record=options.record or (session is not None and session.needs_trajectories),
@@ -174,7 +175,7 @@ def _tried(
     trials = rooms.open_trials(
         scene,
         seed=options.seed,
-        jobs=options.jobs or cores(),
+        jobs=options.jobs,
         worlds=options.worlds or task.worlds,
         look=options.look,
     )
