@@ -30,7 +30,11 @@ def usable_ones(
         # "In the tray" is said of what lies on it.
         flat = [thing for thing in things if can_be(thing, Role.SURFACE, scene)]
         named = phrase.words and matches_any(phrase.words[-1], OPEN_SURFACES)
-        usable = [thing for thing in flat if thing.board is not None or named]
+        usable = [
+            thing
+            for thing in flat
+            if named or thing.board or matches_any(_kind(thing, scene), OPEN_SURFACES)
+        ]
     if not usable and role is Role.SURFACE:
         # "On the bowl" is said of what goes into it; on a drawer is not in it.
         vessels = [thing for thing in things if thing.part is None]
@@ -42,6 +46,10 @@ def usable_ones(
         raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
     at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]
     return at_hand or usable
+
+
+def _kind(thing: Thing, scene: SceneState) -> str:
+    return "" if thing.name == DESK else scene.infos[thing.name].kind
 
 
 def check_not_part(text: str, below: Sequence[Thing]) -> None:

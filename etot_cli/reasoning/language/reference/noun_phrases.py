@@ -29,10 +29,11 @@ from etot_cli.reasoning.language.reference.landmarks import (
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.reference.vocabulary import EXACT, HEAD, Vocabulary
+from etot_cli.reasoning.language.reference.vocabulary import EXACT, GENERIC, HEAD, Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     NUMBERS,
+    REFUSE,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -159,6 +160,11 @@ class Resolver:
             place=role is Role.CONTAINER,
         )
         bare = not phrase.determiner and singular(words[-1]) != words[-1]
+        generic = all(entry.grade(words[-1]) == GENERIC for entry in match.entries)
+        if role is Role.THEME and words[-1] in REFUSE and generic:
+            nearest = ", ".join(entry.exact[0] for entry in match.entries)
+            why = f"nothing in the scene is called {words[-1]!r}; nearest: {nearest}"
+            raise ReferenceProblem(phrase.text, why, 2)
         plural = role is Role.PART and singular(words[-1]) != words[-1]
         if (quantity.every or phrase.determiner == "one" or bare or plural) and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)

@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings, is_support
 from etot_cli.reasoning.language.reference.usual_form import usual_form
-from etot_cli.reasoning.language.words.lexicon import SIDES
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, SIDES, matches_any
 from etot_cli.reasoning.language.words.places import OVER
 from etot_cli.world.state import DESK, SceneState
 
@@ -116,10 +116,26 @@ class Places:
             if phrase.pronoun and toward is Toward.ON:
                 self._check_upon_it(phrase, index, themes)
             self._check_carried(phrase, index, themes)
-            found += self.relations_to(toward, index, themes)
+            found += self._on_first(phrase, self.relations_to(toward, index, themes))
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
+
+    def _on_first(self, phrase: NounPhrase, places: list[Place]) -> list[Place]:
+        """What is brought to a chest of drawers goes on top of it rather than into a drawer, unless
+        it is called by what it has drawers for.
+        """
+        relations = [place.relation for place in places]
+        if relations != [Relation.INSIDE, Relation.ON] or places[0].where is None:
+            return places
+        things = self.discourse.things(places[0].where)
+        infos = [self._scene.infos[thing.name] for thing in things if thing.name != DESK]
+        slides = all(part.joint_type == "slide" for info in infos for part in info.parts)
+        noun = usual_form(phrase).words[-1:]
+        if not slides or (noun and matches_any(noun[0], JOINT_NOUNS["slide"])):
+            return places
+        self.discourse.notes.append(f"'to {phrase.text}': on it, or else into it")
+        return places[::-1]
 
     def _uppermost(self, place: Place) -> Place:
         """On top of a shelf is on its top board."""

@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     RUBBISH,
     STATES,
     THING_NOUNS,
+    TWINS,
     basic_color,
     is_descriptive,
     is_plural_of,
@@ -50,6 +51,10 @@ _VESSELS = frozenset(
     if kind not in ("sphere", "capsule", "pen") and not {*group} & {*_SHAPES}
 )
 """Nouns for what things are kept in or on, be it solid in this scene."""
+
+
+_SHORTEST = 3
+"""Letters of the shortest word that a longer one is put together of ("cup board")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +101,7 @@ class Entry:
         """How well a noun fits, None where it does not."""
         if noun in self.exact:
             return EXACT
-        if matches_any(noun, self.heads):
+        if matches_any(noun, self.heads) or matches_any(noun.replace("_", ""), self.heads):
             return HEAD
         if matches_any(noun, self.generic):
             return GENERIC
@@ -204,6 +209,11 @@ class Vocabulary:
             number = rf"\b({re.escape(before)}) ({'|'.join(NUMBERS)})\b"
             no_count = r"(?! (?:by|at|after|of|per|(?:in )?each)\b)"
             text = re.sub(number + no_count, lambda said: f"{said[1]} {NUMBERS[said[2]]}", text)
+        for head in {head for entry in self.objects for head in entry.heads if "_" not in head}:
+            # "Cup board" for what is called a cupboard
+            for cut in range(_SHORTEST, len(head) - _SHORTEST + 1):
+                if f"{head[:cut]} {head[cut:]}" in text:
+                    text = re.sub(rf"\b({head[:cut]}) ({head[cut:]}(?:e?s)?)\b", r"\1_\2", text)
         odd = {words for entry in self.objects for words in entry.called if _is_odd(words)}
         for words in sorted(odd, key=lambda words: (-len(words), words)):
             cut = _cut_of(words) or len(words)
@@ -314,6 +324,15 @@ def _words_of(text: str) -> tuple[str, ...]:
     return tuple(re.findall(r"\w+", normalized(spaced)))
 
 
+def _twins_of(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Other names of what is called so, one that is written as one word among them."""
+    nouns = tuple(word for word in words if not word.isdigit())
+    groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
+    own = [name for group in groups if any(nouns[-len(t) :] == t for t in group) for name in group]
+    written = [("".join(nouns),)] if len(nouns) == 2 else []
+    return [name for name in (*own, *written) if name != nouns[-len(name) :]]
+
+
 def _object_entry(info: ObjectInfo) -> Entry:
     called = [_words_of(info.label), _words_of(info.name)]
     own: dict[str, None] = {}
@@ -328,7 +347,8 @@ def _object_entry(info: ObjectInfo) -> Entry:
         heads.update({} if head is None or short else {head: None})
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
     whole = dict.fromkeys("_".join(words) for words in called if _is_odd(words))
-    generic = _kind_nouns(info.kind, heads)
+    twins = [twin for words in called for twin in _twins_of(words)]
+    generic = (*_kind_nouns(info.kind, heads), *dict.fromkeys(words[-1] for words in twins))
     if info.container or any(part.container for part in info.parts):
         generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
     return Entry(
@@ -336,6 +356,7 @@ def _object_entry(info: ObjectInfo) -> Entry:
         own=(*own, *whole),
         heads=(*heads, *whole),
         generic=generic,
+        context=tuple(word for words in twins for word in words[:-1]),
         numbers=tuple(numbers),
         exact=(info.name.casefold(),),
         color=info.color,

@@ -38,6 +38,17 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
 KIND_NOUNS = {
     kind: tuple(noun for group in groups for noun in group) for kind, groups in KIND_GROUPS.items()
 }
+TWINS: tuple[tuple[str, ...], ...] = (
+    ("fridge", "refrigerator"), ("closet", "wardrobe"), ("couch", "sofa", "settee"),
+    ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),
+    ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),
+    ("eggplant", "aubergine"), ("zucchini", "courgette"), ("diaper", "nappy"),
+    ("trash can", "trash bin", "garbage can", "garbage bin", "rubbish bin", "waste bin",
+     "dustbin", "wastebasket", "trash", "garbage"),
+)  # fmt: skip
+"""Everyday names of one and the same thing, in whichever English."""
+REFUSE = ("trash", "garbage")
+"""Names of a bin and of what goes there."""
 PURPOSES = word_set(
     """
     coffee tea water milk beer wine juice soup salad fruit cereal sugar salt pepper flower
