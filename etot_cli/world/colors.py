@@ -29,6 +29,12 @@ def rgb(color: Color) -> tuple[float, float, float]:
     return found
 
 
+def is_basic(color: Color) -> bool:
+    """Whether of all colours with a name it is nearest to a basic one: blue is, cyan is not."""
+    value = rgb(color)
+    return min(NAMED_COLORS, key=lambda word: _distance(NAMED_COLORS[word], value)) in BASIC_COLORS
+
+
 def nearest_basic(color: Color) -> str:
     """The basic colour word for a colour: by name where it has one, else the nearest in RGB."""
     if isinstance(color, str):
@@ -38,8 +44,8 @@ def nearest_basic(color: Color) -> str:
         if word in _ALIASES:
             return _ALIASES[word]
     value = rgb(color)
+    return min(BASIC_COLORS, key=lambda word: _distance(BASIC_COLORS[word], value))
 
-    def distance(word: str) -> float:
-        return sum((a - b) ** 2 for a, b in zip(BASIC_COLORS[word], value, strict=True))
 
-    return min(BASIC_COLORS, key=distance)
+def _distance(one: tuple[float, float, float], other: tuple[float, float, float]) -> float:
+    return sum((a - b) ** 2 for a, b in zip(one, other, strict=True))

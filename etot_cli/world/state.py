@@ -73,6 +73,8 @@ class ObjectInfo:
     boards: tuple[str, ...] = ()
     """Names of further surfaces below its top (a shelf's boards), from bottom to top; an action
     calls one ``object.board``."""
+    plain_color: bool = True
+    """``color`` is its colour itself, not that of a neighbour (cyan, which has no word here)."""
 
     @property
     def bears(self) -> bool:

@@ -64,6 +64,27 @@ def blocks() -> SceneState:
     )
 
 
+def near_colors() -> SceneState:
+    """A blue dish and a cyan jar, a brown and a beech box, a silver ball, a tray."""
+    near = {"plain_color": False}
+    return scene(
+        item("dish", "box", (0.30, 0.20), size=FLAT, color="blue"),
+        item("jar", "cup", (0.40, 0.10), size=(0.08, 0.08, 0.10), color="blue", **near),
+        item("box_1", "bowl", (0.45, 0.35), size=(0.20, 0.20, 0.08), label="box", color="brown"),
+        item(
+            "box_2",
+            "bowl",
+            (0.45, -0.35),
+            size=(0.20, 0.20, 0.08),
+            label="box",
+            color="brown",
+            **near,
+        ),
+        item("ball", "sphere", (0.30, -0.10), size=(0.04, 0.04, 0.04), color="gray", **near),
+        item("tray", "box", (0.60, 0.00), size=(0.25, 0.18, 0.02), color="white"),
+    )
+
+
 def cups_and_balls() -> SceneState:
     """Three cups side by side, balls in three colours, an orange ball, no orange."""
     return scene(

@@ -32,6 +32,7 @@ def item(
     parts: tuple[PartInfo, ...] = (),
     openness: Mapping[str, float] | None = None,
     boards: tuple[str, ...] = (),
+    plain_color: bool = True,
 ) -> Item:
     """An object of a kind, with what follows from the kind."""
     furniture = kind in ("drawer_unit", "cabinet", "shelf")
@@ -48,6 +49,7 @@ def item(
         elongated=kind == "pen",
         parts=parts,
         boards=boards,
+        plain_color=plain_color,
     )
     opening = dict(openness or {})
     state = ObjectState(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from etot_cli.errors import WorldError
-from etot_cli.world.colors import BASIC_COLORS, nearest_basic, rgb
+from etot_cli.world.colors import BASIC_COLORS, is_basic, nearest_basic, rgb
 
 
 def test_forms_agree() -> None:
@@ -18,6 +18,7 @@ def test_forms_agree() -> None:
 def test_a_basic_word_is_its_own_nearest(word: str) -> None:
     assert nearest_basic(word) == word
     assert nearest_basic(BASIC_COLORS[word]) == word
+    assert is_basic(word) and is_basic(BASIC_COLORS[word])
 
 
 @pytest.mark.parametrize(
@@ -29,6 +30,13 @@ def test_a_basic_word_is_its_own_nearest(word: str) -> None:
 )  # fmt: skip
 def test_nearest_word(color: str | tuple[float, float, float], word: str) -> None:
     assert nearest_basic(color) == word
+
+
+@pytest.mark.parametrize(
+    "color", ["cyan", "beech", "lime", "silver", "wheat", (0.22, 0.68, 0.74), "#cdad80"]
+)
+def test_a_neighbour_of_a_basic_colour_is_none(color: str | tuple[float, float, float]) -> None:
+    assert not is_basic(color)
 
 
 def test_unknown_name_lists_the_known_ones() -> None:

@@ -12,7 +12,7 @@ from etot_cli.specs import scene as specs
 from etot_cli.specs.objects import ROLLING_DEFAULT
 from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
 from etot_cli.world.build.material import Look
-from etot_cli.world.colors import nearest_basic, rgb
+from etot_cli.world.colors import is_basic, nearest_basic, rgb
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.state import DESK, ObjectInfo
 
@@ -145,6 +145,7 @@ def entry_of(
         elongated=axis is not None and size[0] > 3 * size[1],
         parts=tuple(part.info for part in parts),
         boards=tuple(board for board in boards if board),
+        plain_color=spec.color is None or is_basic(spec.color),
     )
     upright = not isinstance(spec, specs.Sphere | specs.Pen | specs.Capsule)
     return ObjectEntry(info, name, not fixed, parts, regions, surfaces, upright, axis)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.matching import Match, match_words
 from etot_cli.reasoning.language.reference.selection import select, state_holds
@@ -122,7 +123,13 @@ def with_quality(
     color = basic_color(word)
     entries = vocabulary.entries()
     if color is not None:
-        return {thing for thing in things if entries[thing].has_color(color)}
+        found = {thing for thing in things if entries[thing].has_color(color)}
+        plain = {thing for thing in found if entries[thing].is_plainly(color)}
+        if plain and plain != found:
+            doubtful = [thing.name for thing in things if thing in found - plain]
+            why = f"say whether {word!r} is said of"
+            raise AmbiguousReference(phrase.text, doubtful, why)
+        return found
     if any(entry.has_word(word) for entry in entries.values()):
         return {thing for thing in things if entries[thing].has_word(word)}
     if word in SIDES or word in SIZES:

@@ -138,7 +138,8 @@ class Entry:
         by how it looks when it is called by no colour.
         """
         named = {word for word in self.own if basic_color(word)}
-        return color in named or (not named and self.color == color)
+        plain = self.color == color and (self.info is None or self.info.plain_color)
+        return color in named or (not named and plain)
 
     def colors(self) -> frozenset[str]:
         """The basic colours that it is called by, or else the one that it has."""
