@@ -1043,7 +1043,10 @@ def lounge() -> SceneState:
             "remote_2", "box", (0.30, 0.28), size=(0.14, 0.04, 0.02), label="remote control",
             color="white",
         ),
-        item("pills_1", "cylinder", (0.30, 0.20), size=(0.05, 0.05, 0.09), label="pill bottle"),
+        item(
+            "pills_1", "cylinder", (0.42, 0.02), size=(0.05, 0.05, 0.09), label="pill bottle",
+            on="tray", z=0.2,
+        ),
         item("pills_2", "cylinder", (0.30, 0.12), size=(0.05, 0.05, 0.07), label="pill bottle"),
         item("bear", "capsule", (0.30, 0.02), size=(0.14, 0.06, 0.06), label="teddy bear"),
         item("clip", "box", (0.30, -0.08), size=(0.04, 0.02, 0.01), label="paper clip"),

@@ -84,7 +84,7 @@ def put(context: Context, clause: PutClause) -> None:
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(_spread(context, place) for place in places)
         for index in themes:
-            _choose_from_elsewhere(context, index, places)
+            _choose_by_place(context, index, places, stays=clause.stays)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)
@@ -114,8 +114,10 @@ def _check_taken(
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
 
-def _choose_from_elsewhere(context: Context, theme: int, places: Sequence[Place]) -> None:
-    """Of several things that may be meant those are put somewhere that are not there yet."""
+def _choose_by_place(context: Context, theme: int, places: Sequence[Place], *, stays: bool) -> None:
+    """Of several things that may be meant those are put somewhere that are not there yet, and
+    those left there that are.
+    """
     discourse = context.discourse
     referent = discourse.referents[theme]
     fixed = [place.where for place in places if place.where is not None and not place.beside]
@@ -127,11 +129,16 @@ def _choose_from_elsewhere(context: Context, theme: int, places: Sequence[Place]
         for thing in discourse.things(theme)
         if any(touches(thing, target, context.scene) for target in targets)
     ]
-    options = tuple(option for option in referent.options if not {*option} & {*there})
-    if there and options and len(referent.options) > 1:
+    options = tuple(
+        option
+        for option in referent.options
+        if ({*option} <= {*there} if stays else not {*option} & {*there})
+    )
+    if there and options and len(options) < len(referent.options):
         discourse.referents[theme] = replace(referent, options=options)
         names = ", ".join(thing.name for thing in there)
-        discourse.notes.append(f"{referent.text!r} is none that is there already ({names})")
+        which = "one" if stays else "none"
+        discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
 
 
 def _without_riders(context: Context, themes: list[int]) -> list[int]:

@@ -127,6 +127,11 @@ def _put(
     )
 
 
+def _left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    found = _put(groups, extras)
+    return None if found is None else replace(found, stays=True)
+
+
 def _that_are(
     groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
 ) -> tuple[PutGroup, ...] | None:
@@ -308,7 +313,8 @@ PUT = either(
         PUT_GROUPS,
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
-    sequence(silent(phrase(verbs.PUT)), PUT_GROUPS, EXTRAS, build=_put),
+    sequence(silent(phrase(verbs.PLACE)), PUT_GROUPS, EXTRAS, build=_put),
+    sequence(silent(phrase(verbs.KEEP)), PUT_GROUPS, EXTRAS, build=_left),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         silent(phrase("get[ting]")),

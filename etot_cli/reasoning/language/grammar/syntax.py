@@ -147,6 +147,8 @@ class PutClause:
     """Each goes to a place of its own colour."""
     one_each: bool = False
     """Every place gets one."""
+    stays: bool = False
+    """They are left or kept there, which is rather said of what is there already."""
     far_fetched: int = 0
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
 

@@ -153,7 +153,9 @@ class Entry:
     def is_plural(self, noun: str) -> bool:
         """Whether a noun is the plural of one of its nouns."""
         singulars = (*self.heads, *self.generic, *self.own)
-        return noun not in singulars and is_plural_of(noun, singulars)
+        # The name "pills_1" of a pill bottle is the plural of its label's word.
+        by_name = any(singular(noun) in words for words in self.called[:1])
+        return (by_name or noun not in singulars) and is_plural_of(noun, singulars)
 
 
 class Vocabulary:

@@ -10,15 +10,16 @@ PICK = """
 """
 TO_SOMEBODY = "(hand|handing|bring|bringing|give|giving|pass|passing) me"
 """They ask for more than picking up, which is all that is done."""
-PUT = """
+PLACE = """
     put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
     stow[ing] [away],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
-    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], leav(e|ing), slid(e|ing), shift[ing],
+    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing), shift[ing],
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
     add[ing], stash[ing], plop[ping]
 """
+PUT = f"{PLACE}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
 DISTRIBUTE = """
