@@ -313,7 +313,7 @@ PUT = either(
         PUT_GROUPS,
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
-    sequence(silent(phrase(verbs.PLACE)), PUT_GROUPS, EXTRAS, build=_put),
+    sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=_put),
     sequence(silent(phrase(verbs.KEEP)), PUT_GROUPS, EXTRAS, build=_left),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.

@@ -247,11 +247,24 @@ class Discourse:
             else:
                 # One of several things that were acted on together is not "it".
                 found = places or acted_on or landmarks
+                if role is Role.THEME and found == landmarks:
+                    # "Take everything off the tray and put it away": what stood there, or that.
+                    found = (*self._whatever(clause), *found)
             if len(found) > 1:
                 raise AmbiguousReference(text, [self.referents[index].text for index in found])
             if found:
                 return found[0]
         raise ReferenceProblem(text, UNCLEAR, 2)
+
+    def _whatever(self, clause: int) -> tuple[int, ...]:
+        """What a clause moved from somewhere, whatever it is, where it is several things."""
+        return tuple(
+            mention.referent
+            for mention in self.mentions
+            if mention.clause == clause
+            and mention.whatever
+            and any(len(option) > 1 for option in self.referents[mention.referent].options)
+        )
 
     def openable(self) -> tuple[int, ...]:
         """All drawers and doors that were spoken of, in whatever role."""

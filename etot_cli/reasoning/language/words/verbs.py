@@ -10,7 +10,7 @@ PICK = """
 """
 TO_SOMEBODY = "(hand|handing|bring|bringing|give|giving|pass|passing) me"
 """They ask for more than picking up, which is all that is done."""
-PLACE = """
+SET_DOWN = """
     put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
     stow[ing] [away],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
@@ -19,7 +19,7 @@ PLACE = """
     sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
     add[ing], stash[ing], plop[ping]
 """
-PUT = f"{PLACE}, leav(e|ing)"
+PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
 DISTRIBUTE = """
