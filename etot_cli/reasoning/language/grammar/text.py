@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -100,7 +100,8 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     """The one known word that differs from a word by a slip of the pen; None when there is none.
 
     A slip is a letter too many, missing, wrong, or two exchanged; two of them in words of eight
-    letters or more. Words of up to three letters and first letters are taken as they are.
+    letters or more. Words of up to three letters and first letters are taken as they are, though
+    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural.
     """
     if len(word) < 4 or not word.isalpha():
         return None
@@ -108,11 +109,13 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     near = {
         item: slips(word, item)
         for item in known
-        if item[:1] == word[:1] and len(item) >= 4 and abs(len(item) - len(word)) <= allowed
+        if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
+        if word.endswith("s") or singular(item) == item
     }
     least = min(near.values(), default=allowed + 1)
     close = [item for item, count in near.items() if count == least]
-    return close[0] if len(close) == 1 and least <= allowed else None
+    only = close[0] if len(close) == 1 and least <= allowed else ""
+    return only if len(only) >= 4 else None
 
 
 def exchanged(word: str, known: Iterable[str]) -> str | None:
