@@ -53,6 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 GROUPING = either(
@@ -130,6 +131,13 @@ def _put(
 def _left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     found = _put(groups, extras)
     return None if found is None else replace(found, stays=True)
+
+
+def _kept(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Some of several are kept where they are; to keep "the cup" there says nothing to do."""
+    said = [phrase.determiner for group in groups for phrase in group.things.phrases]
+    some = all(determiner in ("a", "an", *NUMBERS) for determiner in said)
+    return _left(groups, extras) if some else None
 
 
 def _that_are(
@@ -314,7 +322,8 @@ PUT = either(
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
     sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=_put),
-    sequence(silent(phrase(verbs.KEEP)), PUT_GROUPS, EXTRAS, build=_left),
+    sequence(silent(phrase("leav(e|ing)")), PUT_GROUPS, EXTRAS, build=_left),
+    sequence(silent(phrase("keep[ing]")), PUT_GROUPS, EXTRAS, build=_kept),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         silent(phrase("get[ting]")),
