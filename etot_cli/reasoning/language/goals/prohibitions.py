@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Relation, Thing
 from etot_cli.reasoning.builtin.relations import is_closed, is_open
@@ -94,8 +95,19 @@ def rule_out(
 
 
 def keep_as_it_is(context: Context, index: int, word: str) -> None:
-    """What is open or closed by now, and is to stay so, must not be moved in between."""
+    """What is open or closed by now, and is to stay so, must not be moved in between.
+
+    Of a chest of drawers that was spoken of as "the drawer", only what is so by now is meant.
+    """
     opened = word == "open"
+    referent = context.discourse.referents[index]
+    match referent.options:
+        case ((Thing(owner, None),),):
+            parts = context.scene.infos[owner].parts
+            standing = [p for p in parts if (is_open if opened else is_closed)(context.scene, p)]
+            if 0 < len(standing) < len(parts):
+                options = tuple((Thing(owner, part.name),) for part in standing)
+                context.discourse.referents[index] = replace(referent, options=options)
     for thing in context.discourse.things(index):
         for part in context.scene.infos[thing.name].parts:
             if thing.part not in (None, part.name):
