@@ -30,7 +30,7 @@ PLANS = {
     ],
     "rack": ["[PICK UP, vase] (horizontal)", "[PUT ON, rack.middle]"],
     "seven_joints": [
-        "[PICK UP, carton]", "[PUT ON, rack]", "[PICK UP, ball]", "[PUT INTO, bowl]",
+        "[PICK UP, carton]", "[PUT ON, rack.high]", "[PICK UP, ball]", "[PUT INTO, bowl]",
     ],
     "take_out": ["[OPEN, oven]", "[PICK UP, mug] (horizontal)", "[PUT ON, desk]"],
     "three_drawers": [
