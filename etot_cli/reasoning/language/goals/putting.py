@@ -5,18 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Grouping,
-    Open,
-    Pick,
-    Place,
-    Put,
-    Relation,
-    Step,
-)
-from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.choosing import (
+    check_taken,
+    choose_by_place,
+    choose_from_somewhere,
+    without_riders,
+)
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import (
     by_color,
@@ -25,13 +21,13 @@ from etot_cli.reasoning.language.goals.pairing import (
     is_one_each,
     one_each,
 )
+from etot_cli.reasoning.language.goals.placing import add_put, add_puts, put_back, spread
 from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
 from etot_cli.reasoning.language.goals.standing import upright
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     CoverClause,
-    Destination,
     Modifier,
     NounPhrase,
     PutClause,
@@ -44,7 +40,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive
 from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
-from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -64,13 +59,13 @@ def put(context: Context, clause: PutClause) -> None:
             continue
         away = context.places.no_themes(group.destinations)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
-        themes = _without_riders(context, themes)
+        themes = without_riders(context, themes)
         if twice := placed & {*themes}:
             text = context.discourse.referents[min(twice)].text
             raise ReferenceProblem(text, "it cannot go to two places at once", 1)
         placed |= {*themes}
         if any(item.toward is Toward.HOME for item in group.destinations):
-            _put_back(context, themes, group, clause.ruled_out)
+            put_back(context, themes, group, clause.ruled_out)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         options = [context.discourse.referents[index].options[0] for index in themes]
@@ -78,80 +73,22 @@ def put(context: Context, clause: PutClause) -> None:
             group = elsewhere(group)
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
-        _check_taken(context, group, themes, places)
+        check_taken(context, group, themes, places)
         if group.upright:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
-            places = tuple(_spread(context, place) for place in places)
+            places = tuple(spread(context, place) for place in places)
         for index in themes:
-            _choose_by_place(context, index, places, stays=clause.stays)
+            choose_by_place(context, index, places, stays=clause.stays)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)
         for condition in clause.conditions:
             _condition(context, condition, themes, places_of)
-        _add_puts(context, places_of, grouping)
+        add_puts(context, places_of, grouping)
         context.discourse.last_places = places
         if clause.ruled_out:
             rule_out(context, themes, clause.ruled_out)
-
-
-def _check_taken(
-    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
-) -> None:
-    """Whether "the red one", where something goes, is what it is taken from: another may be."""
-    taken = any(
-        isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
-        for step in context.done[-1:]
-    ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
-    for phrase in (np for item in group.destinations for np in item.targets):
-        if not taken or phrase.words[-1:] not in (("one",), ("ones",)):
-            continue
-        for place in (place.where for place in places if place.where is not None):
-            below = context.discourse.things(place)
-            above = [thing for index in themes for thing in context.discourse.things(index)]
-            if all(touches(one, other, context.scene) for one in above for other in below):
-                raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
-
-
-def _choose_by_place(context: Context, theme: int, places: Sequence[Place], *, stays: bool) -> None:
-    """Of several things that may be meant those are put somewhere that are not there yet, and
-    those left there that are.
-    """
-    discourse = context.discourse
-    referent = discourse.referents[theme]
-    fixed = [place.where for place in places if place.where is not None and not place.beside]
-    if theme in discourse.put or any(len(discourse.referents[i].options) > 1 for i in fixed):
-        return
-    targets = [target for index in fixed for target in discourse.things(index)]
-    there = [
-        thing
-        for thing in discourse.things(theme)
-        if any(touches(thing, target, context.scene) for target in targets)
-    ]
-    options = tuple(
-        option
-        for option in referent.options
-        if ({*option} <= {*there} if stays else not {*option} & {*there})
-    )
-    if there and options and len(options) < len(referent.options):
-        discourse.referents[theme] = replace(referent, options=options)
-        names = ", ".join(thing.name for thing in there)
-        which = "one" if stays else "none"
-        discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
-
-
-def _without_riders(context: Context, themes: list[int]) -> list[int]:
-    """Things to be put somewhere, but for what was just put in or on another of them: it comes
-    along ("put the pear on the plate and both on the tray").
-    """
-    riders = {
-        index
-        for step in (*context.done, *context.steps)
-        if isinstance(step, Put) and len(step.places) == 1 and step.places[0].where in themes
-        for index in step.what
-    }
-    return [index for index in themes if index not in riders]
 
 
 def ensure(context: Context, state: State) -> None:
@@ -180,7 +117,7 @@ def ensure(context: Context, state: State) -> None:
         return
     themes = context.phrases.things(group.things, Role.THEME)
     if any(item.toward is Toward.HOME for item in state.destinations):
-        _put_back(context, themes, group)
+        put_back(context, themes, group)
         return
     shared, grouping = _shared(context, group, themes, Grouping.ANY)
     places = context.places.of(shared.destinations, themes)
@@ -189,7 +126,7 @@ def ensure(context: Context, state: State) -> None:
         text = context.discourse.referents[again[0]].text
         why = "say where it goes in one: 'on the tray, next to the cup'"
         raise ReferenceProblem(text, why, 3)
-    _add_put(context, themes, places, grouping)
+    add_put(context, themes, places, grouping)
     context.discourse.last_places = places
 
 
@@ -210,7 +147,7 @@ def cover(context: Context, clause: CoverClause) -> None:
         for index in context.phrases.refer(phrase, Role.PLACE, themes)
         for place in context.places.relations_to(Toward.ON, index, themes)
     )
-    _add_put(context, themes, places, Grouping.ANY)
+    add_put(context, themes, places, Grouping.ANY)
 
 
 def again(context: Context, clause: AgainClause) -> None:
@@ -232,7 +169,7 @@ def again(context: Context, clause: AgainClause) -> None:
         if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
             why = "say whether it goes there, too, or is one more place to go to"
             raise ReferenceProblem(text, why, 4)
-        _add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
+        add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
         return
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):
@@ -246,7 +183,7 @@ def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> No
         raise ReferenceProblem(text, "say what goes there", 2)
     themes = before[0].what
     places = context.places.of(clause.destinations, themes)
-    _add_put(context, themes, places, Grouping.ANY)
+    add_put(context, themes, places, Grouping.ANY)
     context.discourse.last_places = places
 
 
@@ -273,33 +210,9 @@ def remove(context: Context, clause: RemoveClause) -> None:
         )
     themes = context.phrases.things(things, Role.THEME)
     for index in themes if clause.source is None else ():
-        _choose_from_somewhere(context, index)
+        choose_from_somewhere(context, index)
     context.discourse.last_places = context.source(themes)
-    _add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
-
-
-def _choose_from_somewhere(context: Context, theme: int) -> None:
-    """Of several things that may be meant those are taken out or off that are in or on something,
-    rather in or on what was spoken of.
-    """
-    discourse = context.discourse
-    referent = discourse.referents[theme]
-    if theme in discourse.put or len(referent.options) < 2:
-        return
-    spoken = {
-        thing.name for item in discourse.mentions for thing in discourse.things(item.referent)
-    }
-    under = {
-        option: [bearers(context.scene, thing.name) for thing in option]
-        for option in referent.options
-    }
-    held = tuple(option for option, names in under.items() if all(names))
-    named = tuple(option for option in held if all({*names} & spoken for names in under[option]))
-    options = named or held
-    if options and options != referent.options:
-        discourse.referents[theme] = replace(referent, options=options)
-        names = ", ".join(dict.fromkeys(thing.name for option in options for thing in option))
-        discourse.notes.append(f"{referent.text!r} is one that is in or on something ({names})")
+    add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 
 def _shared(
@@ -319,30 +232,6 @@ def _shared(
             targets.append(target)
         destinations.append(replace(item, targets=tuple(targets)))
     return replace(group, destinations=tuple(destinations)), grouping
-
-
-def _put_back(
-    context: Context, themes: Sequence[int], group: PutGroup, ruled_out: Sequence[Destination] = ()
-) -> None:
-    """Puts things back to where they are at the start."""
-    if len(group.destinations) > 1 or ruled_out:
-        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
-    for index in themes:
-        for thing in context.only(index, "say which one goes back"):
-            place = context.home(thing)
-            context.steps.append(Put((context.single(thing, thing.name),), (place,)))
-
-
-def _spread(context: Context, place: Place) -> Place:
-    """A place whose choice is free for each object ("each pear in a mug")."""
-    if place.where is None:
-        return place
-    referent = context.discourse.referents[place.where]
-    things = context.discourse.things(place.where)
-    if len(referent.options) == 1:
-        return place
-    context.discourse.referents.append(replace(referent, options=(things,)))
-    return replace(place, where=len(context.discourse.referents) - 1)
 
 
 def _condition(
@@ -370,60 +259,3 @@ def _condition(
     places = context.places.of(condition.destinations, subjects, prefer=vessels)
     for subject in subjects:
         places_of[subject] = places
-
-
-def _add_puts(
-    context: Context, places_of: dict[int, tuple[Place, ...]], grouping: Grouping
-) -> None:
-    """One step for each run of things with the same places, in the order of the things."""
-    run: list[int] = []
-    for index, places in places_of.items():
-        if run and places_of[run[-1]] != places:
-            _add_put(context, run, places_of[run[-1]], grouping)
-            run = []
-        run.append(index)
-    if run:
-        _add_put(context, run, places_of[run[-1]], grouping)
-
-
-def _add_put(
-    context: Context,
-    themes: Sequence[int],
-    places: tuple[Place, ...],
-    grouping: Grouping,
-    *,
-    removal: bool = False,
-) -> None:
-    discourse = context.discourse
-    targets = {
-        thing.name
-        for place in places
-        for index in place.referents()
-        for thing in discourse.things(index)
-    }
-    fixed = {
-        thing
-        for place in places
-        if place.where is not None and len(discourse.referents[place.where].options) == 1
-        for thing in discourse.things(place.where)
-    }
-    for theme in themes:
-        referent = discourse.referents[theme]
-        # "Put everything into the box": the box itself is not meant.
-        options = tuple(
-            tuple(thing for thing in option if thing.name not in targets)
-            if len(option) > 1
-            else option
-            for option in referent.options
-            if len(option) < 2 or len(referent.options) == 1 or not fixed & {*option}
-        )
-        if not options or not all(options):
-            raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
-        discourse.referents[theme] = replace(referent, options=options)
-        where = places[0].where if len(places) == 1 else None
-        if where is not None and places[0].relation is Relation.INSIDE:
-            discourse.put_into[theme] = where
-        else:
-            discourse.put_into.pop(theme, None)
-    context.discourse.put |= {*themes}
-    context.steps.append(Put(tuple(themes), places, grouping, removal=removal))

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import (
-    BE,
-    COMMA,
-    LIST,
-    OPTIONAL_COMMA,
-    OR,
-    WITH,
+from etot_cli.reasoning.language.grammar.additions import (
+    CONDITION,
+    EXTRAS,
+    GROUPING,
+    kept,
+    left,
+    put_of,
 )
-from etot_cli.reasoning.language.grammar.destinations import (
-    DESTINATIONS,
-    DIRECTED,
-    INTO,
-    ONTO,
-    destination,
-)
+from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, INTO, ONTO
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
-from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, noun_phrase, quality_alone
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -39,118 +33,19 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
     variants,
 )
-from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
-    Modifier,
     NounPhrase,
     PutClause,
     PutGroup,
-    State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
-from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
-GROUPING = either(
-    phrase(manner.ANYHOW, Grouping.ANY),
-    phrase(manner.TOGETHER, Grouping.TOGETHER),
-    phrase(manner.SEPARATELY, Grouping.SEPARATELY),
-)
-CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
-EXTRA = sequence(
-    OPTIONAL_COMMA,
-    either(
-        GROUPING,
-        CONDITION,
-        phrase(manner.STANDING, ("upright", ())),
-        silent(phrase(manner.FITTING)),
-        sequence(
-            silent(phrase(places.BUT_NOT)),
-            separated(destination, OR, most=3),
-            build=lambda found: ("not", found),
-        ),
-        sequence(silent(optional(phrase("but"), None)), TURN, build=lambda turn: turn),
-        phrase(manner.BY_COLOR, ("color", ())),
-        phrase(manner.ONE_EACH, ("each", ())),
-        phrase("each, apiece", ("apart", ())),
-        sequence(
-            either(
-                phrase("(that|which) is [currently]", False),
-                phrase("(that|which) are [currently]", True),
-            ),
-            either(PLAIN_MODIFIER, quality_alone),
-            build=lambda several, modifier: ("that", (several, modifier)),
-        ),
-        silent(phrase(f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)")),
-    ),
-    build=lambda *found: found[0] if found else (),
-)
-
-
-def _put(
-    groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
-) -> PutClause | None:
-    groupings = [item for item in extras if isinstance(item, Grouping)]
-    conditions = tuple(item for item in extras if isinstance(item, State))
-    said = [item for item in extras if isinstance(item, tuple) and item]
-    turns = turns_of(said)
-    named = {item[0] for item in said}
-    ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
-    if "apart" in named and not groupings and len(groups) == 1:
-        groupings = [Grouping.SEPARATELY]
-    elif "apart" in named:
-        return None
-    if len(groupings) > 1 or turns is None:
-        return None
-    grouping = groupings[0] if groupings else grouping
-    described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
-    if described:
-        (only, *more) = described
-        if more or only is None:
-            return None
-        groups = only
-    if "upright" in named:
-        groups = tuple(replace(group, upright=True) for group in groups)
-    return PutClause(
-        groups,
-        grouping,
-        conditions,
-        turns,
-        ruled_out,
-        by_color="color" in named,
-        far_fetched=2 * len(described),
-        one_each="each" in named,
-    )
-
-
-def _left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
-    found = _put(groups, extras)
-    return None if found is None else replace(found, stays=True)
-
-
-def _kept(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
-    """Some of several are kept where they are; to keep "the cup" there says nothing to do."""
-    said = [phrase.determiner for group in groups for phrase in group.things.phrases]
-    some = all(determiner in ("a", "an", *NUMBERS) for determiner in said)
-    return _left(groups, extras) if some else None
-
-
-def _that_are(
-    groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
-) -> tuple[PutGroup, ...] | None:
-    """Things that are described behind the place ("everything on the rack that is black")."""
-    (np, *more), (group, *others) = groups[0].things.phrases, groups
-    bare = np.words[-1:] in (("everything",), ("anything",), ("something",))
-    plural = not bare and np.determiner in ("those", "these", "all", "all the", "all those")
-    if more or others or np.modifiers or plural != several or not (bare or plural):
-        return None
-    things = Things((replace(np, modifiers=(modifier,), text=f"{np.text} that"),))
-    return (replace(group, things=things),)
 
 
 _ASIDE = silent(
@@ -187,7 +82,7 @@ _IN_TURNS = sequence(
     TURN,
     COMMA,
     DESTINATIONS,
-    build=lambda things, turn, where: _put((PutGroup(things, where),), (turn,)),
+    build=lambda things, turn, where: put_of((PutGroup(things, where),), (turn,)),
 )
 _WITH_WHAT_IT_HOLDS = sequence(
     silent(phrase(verbs.PUT)),
@@ -199,7 +94,6 @@ _WITH_WHAT_IT_HOLDS = sequence(
     build=lambda things, held, where: PutClause((PutGroup(things, where),), conditions=(held,)),
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
-EXTRAS = some(EXTRA, most=3)
 _FRONTED = quiet(
     sequence(
         either(
@@ -314,16 +208,16 @@ PUT = either(
             build=lambda things, nps: PutGroup(things, (Destination(Toward.TO, nps),)),
         ),
         EXTRAS,
-        build=lambda group, extras: _put((group,), extras, Grouping.SPREAD),
+        build=lambda group, extras: put_of((group,), extras, Grouping.SPREAD),
     ),
     sequence(
         silent(phrase(verbs.STACK)),
         PUT_GROUPS,
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
-    sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=_put),
-    sequence(silent(phrase("leav(e|ing)")), PUT_GROUPS, EXTRAS, build=_left),
-    sequence(silent(phrase("keep[ing]")), PUT_GROUPS, EXTRAS, build=_kept),
+    sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=put_of),
+    sequence(silent(phrase("leav(e|ing)")), PUT_GROUPS, EXTRAS, build=left),
+    sequence(silent(phrase("keep[ing]")), PUT_GROUPS, EXTRAS, build=kept),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         silent(phrase("get[ting]")),
@@ -361,7 +255,7 @@ PUT = either(
             most=5,
         ),
         EXTRAS,
-        build=_put,
+        build=put_of,
     ),
     *(
         sequence(
@@ -378,5 +272,5 @@ PUT = either(
         )
     ),
 )
-VERBLESS = sequence(PUT_GROUPS, EXTRAS, build=_put)
+VERBLESS = sequence(PUT_GROUPS, EXTRAS, build=put_of)
 """Places for things without a word for doing; only whole sentences are so."""

@@ -5,33 +5,24 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
+from etot_cli.reasoning.language.grammar.clauses import GONE, LEAD, LED_CLAUSE, LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.modifiers import exceptions
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
-    Rule,
     complete,
     either,
     located,
-    one_of,
     optional,
     phrase,
     sequence,
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
-from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
-from etot_cli.reasoning.language.grammar.states import (
-    ENSURE,
-    IF_NOT_SO,
-    MOVE,
-    OPEN_OR_CLOSED,
-    states,
-)
+from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -41,86 +32,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     Order,
     PutClause,
-    PutGroup,
     ReorientClause,
     Spoken,
     State,
-    Things,
     pronouns,
 )
-from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.text import QUESTION
-from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-
-Reading = tuple[Spoken, ...]
-LEFT_OUT = either(
-    sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps),
-    sequence(
-        silent(phrase("[but|and] leav(e|ing) [out], [but|and] keep[ing]")),
-        exceptions,
-        silent(optional(phrase(manner.AS_IT_IS), None)),
-        build=lambda nps: nps,
-    ),
-)
-_ASKED = Rule(
-    either(
-        *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, AGAIN),
-    )
-)
-CLAUSE = located(
-    sequence(
-        EMPTY_WORDS,
-        either(
-            _ASKED,
-            sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
-        ),
-        EMPTY_WORDS,
-        optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),
-        optional(phrase(small_words.TRAILING_LAST, Order.LAST), None),
-        optional(phrase(small_words.TRAILING_THEN, Order.THEN), None),
-        EMPTY_WORDS,
-        some(WITHOUT, most=3),
-        build=lambda clause, first, last, then, avoided: (
-            None
-            if sum(item is not None for item in (first, last, then)) > 1
-            else (clause, first or last or then, avoided)
-        ),
-    ),
-    lambda at, found: (at, *found),
-)
-ORDER_WORDS = one_of(
-    {
-        Order.FIRST: small_words.LEADING_FIRST,
-        Order.BEFORE_THAT: small_words.LEADING_BEFORE,
-        Order.LAST: small_words.LEADING_LAST,
-        Order.THEN: small_words.LEADING_THEN,
-    }
-)
-LEAD = sequence(
-    some(
-        either(
-            silent(phrase(small_words.FRAMES)),
-            silent(phrase(small_words.WITHOUT_MEANING)),
-            sequence(ORDER_WORDS, OPTIONAL_COMMA, build=lambda order: order),
-            COMMA,
-        ),
-        most=6,
-    ),
-    build=lambda orders: orders,
-)
-
-
-def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
-    """A clause with what must not be done on the way."""
-    at, clause, order, avoided = found
-    said = [item for item in dict.fromkeys((*orders, order)) if item is not None]
-    strong = [item for item in said if item is not Order.THEN]
-    if len(strong) > 1:
-        return None
-    when = strong[0] if strong else (said[0] if said else Order.SAID)
-    return (Spoken(clause, at, when), *(Spoken(item, at) for item in avoided))
+from etot_cli.reasoning.language.grammar.wishes import excluding
+from etot_cli.reasoning.language.words import small_words
 
 
 def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
@@ -129,35 +48,6 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
     return AgainClause(None, destinations=where) if named else None
 
 
-LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
-_GONE = located(
-    either(
-        sequence(
-            NP_LIST,
-            silent(phrase(small_words.GONE)),
-            DESTINATIONS,
-            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-        ),
-        sequence(
-            NP_LIST,
-            either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
-            build=lambda nps, opens: MoveClause(Things(nps), opens),
-        ),
-        sequence(
-            silent(phrase(verbs.DONE)),
-            NP_LIST,
-            DESTINATIONS,
-            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-        ),
-        sequence(
-            either(phrase("opened", True), phrase("closed", False)),
-            THINGS,
-            build=lambda opens, things: MoveClause(things, opens),
-        ),
-    ),
-    lambda at, clause: (Spoken(clause, at),),
-)
-"""What has been done by then ("once the pear has been put into the bowl")."""
 _JOINED = either(
     sequence(silent(phrase("and")), LED_CLAUSE, build=lambda clause: ("mere and", clause)),
     sequence(silent(phrase(small_words.JOINTS)), LED_CLAUSE, build=lambda clause: ("and", clause)),
@@ -178,7 +68,7 @@ _JOINED = either(
     sequence(
         OPTIONAL_COMMA,
         silent(phrase(small_words.AFTER)),
-        either(LED_CLAUSE, _GONE),
+        either(LED_CLAUSE, GONE),
         build=lambda clause: ("after", clause),
     ),
     sequence(
@@ -331,7 +221,7 @@ SENTENCE = either(
     sequence(
         LEAD,
         silent(phrase(small_words.AFTER)),
-        either(LED_CLAUSE, _GONE),
+        either(LED_CLAUSE, GONE),
         COMMA,
         CHAIN,
         build=lambda orders, earlier, rest: None if orders else (*earlier, *_then(rest)),

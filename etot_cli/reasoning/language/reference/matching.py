@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.language.reference.unmatched import (
-    names_of,
-    not_understood,
-    nothing_fits,
+from etot_cli.reasoning.language.reference.entries import CONTENT, EXACT, GENERIC, HEAD, Entry
+from etot_cli.reasoning.language.reference.sifting import (
+    Sifted,
+    graded_by,
+    is_selecting,
+    is_stacked,
+    sift,
 )
-from etot_cli.reasoning.language.reference.vocabulary import (
-    CONTENT,
-    EXACT,
-    GENERIC,
-    HEAD,
-    Entry,
-    Vocabulary,
-    is_general_noun,
-    is_of_parts,
-)
+from etot_cli.reasoning.language.reference.unmatched import names_of, not_understood, nothing_fits
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
     LEVELS,
     ORDINALS,
-    PURPOSES,
-    SIDES,
-    SIZES,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -161,8 +153,8 @@ def _pools(
 ) -> list[list[Entry]]:
     """Where to look, in this order: parts come first where a level or their own name is said."""
     fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
-    one_of_many = len(fitting) == 1 and _is_stacked(fitting[0])
-    level = (parts_first and any(map(_is_stacked, fitting))) or any(
+    one_of_many = len(fitting) == 1 and is_stacked(fitting[0])
+    level = (parts_first and any(map(is_stacked, fitting))) or any(
         word in LEVELS or (one_of_many and (word in ORDINALS or word in STATES))
         for word in adjectives
     )
@@ -180,7 +172,7 @@ def _pools(
     pools = [objects, parts, boards, [vocabulary.desk]]
     if named:
         return [named, *pools]
-    units = [entry for entry in fitting if _is_stacked(entry)]
+    units = [entry for entry in fitting if is_stacked(entry)]
     of_parts = any(part.grade(head) is not None for part in parts)
     by_kind = len(units) > 1 and all(entry.grade(head) == GENERIC for entry in units)
     if of_parts and by_kind and not upon:
@@ -194,18 +186,6 @@ def _pools(
     return pools
 
 
-@dataclass
-class _Sifted:
-    """Entries that are left, and what the words so far were taken for."""
-
-    graded: list[tuple[Entry, int]]
-    selectors: list[str] = field(default_factory=list)
-    unknown: list[str] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    dropped: list[str] = field(default_factory=list)
-    named: list[tuple[str, tuple[Entry, ...]]] = field(default_factory=list)
-
-
 def _match_in(
     pool: list[Entry],
     adjectives: tuple[str, ...],
@@ -216,17 +196,17 @@ def _match_in(
     by_name: bool = True,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
-    sifted = _Sifted(_graded(pool, head))
+    sifted = Sifted(graded_by(pool, head))
     called = (*adjectives, head, *((number,) if number else ()))
     exactly = [item for item in sifted.graded if item[0].is_called(called)]
     if len(exactly) == 1 and len(called) > 1:
         every = tuple(entry for entry, _ in sifted.graded)
-        named = tuple((word, every) for word in adjectives if _is_selecting(word))
+        named = tuple((word, every) for word in adjectives if is_selecting(word))
         return Match((exactly[0][0],), named=named, whole=True)
     if number is not None:
         sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
     for word in adjectives:
-        _sift(sifted, word, vocabulary)
+        sift(sifted, word, vocabulary)
     if not sifted.graded:
         return None
     least = EXACT if by_name else HEAD
@@ -266,110 +246,3 @@ def _are_like(noun: str, entries: Sequence[Entry]) -> bool:
 
 def _is_object(entry: Entry) -> bool:
     return entry.info is not None and entry.thing.part is None and entry.thing.board is None
-
-
-def _is_selecting(word: str) -> bool:
-    """Whether a word tells things apart by how or where they are, unless it is part of a name."""
-    return any(word in table for table in (SIDES, SIZES, ORDINALS, STATES, LEVELS))
-
-
-def _sift(sifted: _Sifted, word: str, vocabulary: Vocabulary) -> None:
-    """Keeps the entries that an adjective fits, or notes what it is."""
-    graded = sifted.graded
-    fitting = [item for item in graded if item[0].has_word(word)]
-    color = basic_color(word)
-    if word.isdigit():
-        sifted.graded = []  # a number before the noun that is no count
-    elif word in LEVELS and any(_has_levels(entry) for entry, _ in graded):
-        sifted.graded = _at_level(graded, LEVELS[word])
-    elif color is not None:
-        sifted.graded = _of_color(sifted, word, color)
-    elif fitting:
-        if _is_selecting(word) and len(fitting) < len(graded):
-            best = min(grade for _, grade in fitting)
-            sifted.named.append((word, tuple(e for e, grade in graded if grade <= best)))
-        sifted.graded = fitting
-    elif word in LEVELS and any(_is_stacked(entry) for entry, _ in graded):
-        # What has parts on several levels has none on this one.
-        sifted.graded = [item for item in graded if not _is_stacked(item[0])]
-    elif _is_selecting(word):
-        sifted.selectors.append(word)
-    elif owned := _of_owner(word, graded):
-        sifted.graded = owned
-    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
-        # What is called a thing for something else is not for this.
-        apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
-        if not apt:
-            sifted.unknown.append(word)
-            return
-        sifted.graded = apt
-        names = names_of([entry for entry, _ in apt])
-        sifted.notes.append(f"took {word!r} for what {names} is for")
-        sifted.dropped.append(word)
-    else:
-        sifted.unknown.append(word)
-
-
-def _of_owner(word: str, graded: list[tuple[Entry, int]]) -> list[tuple[Entry, int]]:
-    """Parts of what a word names ("the microwave door"): by its own words before those by kind."""
-    own = [item for item in graded if matches_any(word, item[0].owner)]
-    return own or [item for item in graded if matches_any(word, item[0].context)]
-
-
-def _of_color(sifted: _Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
-    """Entries of a colour. A name beats a look, and a look beats a neighbouring colour."""
-    graded = sifted.graded
-    if word == color:
-        plain = [item for item in graded if item[0].is_plainly(color)]
-    else:
-        plain = [item for item in graded if item[0].has_word(word)]
-    if plain:
-        # A carton of orange juice is no orange thing where another thing is orange.
-        looks = [item for item in plain if item[1] != GENERIC or item[0].color in (None, color)]
-        return looks or plain
-    near = [item for item in graded if item[0].has_color(color)]
-    # A thing of unknown colour may have any.
-    found = near or [item for item in graded if not item[0].is_colored()]
-    if found:
-        names = names_of([entry for entry, _ in found])
-        sifted.notes.append(f"took {names} for {word!r}")
-    return found
-
-
-def _graded(pool: list[Entry], head: str) -> list[tuple[Entry, int]]:
-    """Entries that a noun fits, with how well."""
-    if matches_any(head, THING_NOUNS):
-        return [(e, GENERIC) for e in pool if e.info is not None and e.thing.part is None]
-    return [(entry, grade) for entry in pool if (grade := entry.grade(head)) is not None]
-
-
-def _has_levels(entry: Entry) -> bool:
-    return entry.thing.part is not None or entry.thing.board is not None
-
-
-def _is_stacked(entry: Entry) -> bool:
-    return (
-        entry.info is not None
-        and entry.thing.part is None
-        and bool(entry.info.parts or entry.info.boards)
-    )
-
-
-def _at_level(graded: list[tuple[Entry, int]], level: str) -> list[tuple[Entry, int]]:
-    """Of each piece of furniture the part at a level: by the parts' names, else by their order."""
-    found: list[tuple[Entry, int]] = []
-    owners = dict.fromkeys(entry.thing.name for entry, _ in graded)
-    for owner in owners:
-        stacked = [item for item in graded if item[0].thing.name == owner]
-        levels = [{LEVELS.get(word) for word in item[0].own} - {None} for item in stacked]
-        named = [item for item, said in zip(stacked, levels, strict=True) if level in said]
-        if named or all(levels):
-            found += named
-            continue
-        # Parts are listed from top to bottom, boards from bottom to top.
-        if stacked[0][0].thing.board is not None:
-            stacked = stacked[::-1]
-        index = {"top": 0, "bottom": -1, "middle": len(stacked) // 2}[level]
-        if level != "middle" or len(stacked) % 2:
-            found.append(stacked[index])
-    return found

@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import (
     RANKED,
@@ -29,7 +30,7 @@ from etot_cli.reasoning.language.reference.landmarks import (
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
-from etot_cli.reasoning.language.reference.vocabulary import EXACT, GENERIC, HEAD, Vocabulary
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     NUMBERS,

@@ -1,0 +1,96 @@
+"""Which of several things are put somewhere, told by where they are by then."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put
+from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import PutGroup
+from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def check_taken(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "the red one", where something goes, is what it is taken from: another may be."""
+    taken = any(
+        isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
+        for step in context.done[-1:]
+    ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
+    for phrase in (np for item in group.destinations for np in item.targets):
+        if not taken or phrase.words[-1:] not in (("one",), ("ones",)):
+            continue
+        for place in (place.where for place in places if place.where is not None):
+            below = context.discourse.things(place)
+            above = [thing for index in themes for thing in context.discourse.things(index)]
+            if all(touches(one, other, context.scene) for one in above for other in below):
+                raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, stays: bool) -> None:
+    """Of several things that may be meant those are put somewhere that are not there yet, and
+    those left there that are.
+    """
+    discourse = context.discourse
+    referent = discourse.referents[theme]
+    fixed = [place.where for place in places if place.where is not None and not place.beside]
+    if theme in discourse.put or any(len(discourse.referents[i].options) > 1 for i in fixed):
+        return
+    targets = [target for index in fixed for target in discourse.things(index)]
+    there = [
+        thing
+        for thing in discourse.things(theme)
+        if any(touches(thing, target, context.scene) for target in targets)
+    ]
+    options = tuple(
+        option
+        for option in referent.options
+        if ({*option} <= {*there} if stays else not {*option} & {*there})
+    )
+    if there and options and len(options) < len(referent.options):
+        discourse.referents[theme] = replace(referent, options=options)
+        names = ", ".join(thing.name for thing in there)
+        which = "one" if stays else "none"
+        discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
+
+
+def without_riders(context: Context, themes: list[int]) -> list[int]:
+    """Things to be put somewhere, but for what was just put in or on another of them: it comes
+    along ("put the pear on the plate and both on the tray").
+    """
+    riders = {
+        index
+        for step in (*context.done, *context.steps)
+        if isinstance(step, Put) and len(step.places) == 1 and step.places[0].where in themes
+        for index in step.what
+    }
+    return [index for index in themes if index not in riders]
+
+
+def choose_from_somewhere(context: Context, theme: int) -> None:
+    """Of several things that may be meant those are taken out or off that are in or on something,
+    rather in or on what was spoken of.
+    """
+    discourse = context.discourse
+    referent = discourse.referents[theme]
+    if theme in discourse.put or len(referent.options) < 2:
+        return
+    spoken = {
+        thing.name for item in discourse.mentions for thing in discourse.things(item.referent)
+    }
+    under = {
+        option: [bearers(context.scene, thing.name) for thing in option]
+        for option in referent.options
+    }
+    held = tuple(option for option, names in under.items() if all(names))
+    named = tuple(option for option in held if all({*names} & spoken for names in under[option]))
+    options = named or held
+    if options and options != referent.options:
+        discourse.referents[theme] = replace(referent, options=options)
+        names = ", ".join(dict.fromkeys(thing.name for option in options for thing in option))
+        discourse.notes.append(f"{referent.text!r} is one that is in or on something ({names})")

@@ -1,0 +1,125 @@
+"""Rules for what is said behind a place: together, upright, in which order, with what inside."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, OR, WITH
+from etot_cli.reasoning.language.grammar.destinations import destination
+from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+    some,
+)
+from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.syntax import Modifier, PutClause, PutGroup, State, Things
+from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
+from etot_cli.reasoning.language.words import manner, places
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+
+GROUPING = either(
+    phrase(manner.ANYHOW, Grouping.ANY),
+    phrase(manner.TOGETHER, Grouping.TOGETHER),
+    phrase(manner.SEPARATELY, Grouping.SEPARATELY),
+)
+CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
+EXTRA = sequence(
+    OPTIONAL_COMMA,
+    either(
+        GROUPING,
+        CONDITION,
+        phrase(manner.STANDING, ("upright", ())),
+        silent(phrase(manner.FITTING)),
+        sequence(
+            silent(phrase(places.BUT_NOT)),
+            separated(destination, OR, most=3),
+            build=lambda found: ("not", found),
+        ),
+        sequence(silent(optional(phrase("but"), None)), TURN, build=lambda turn: turn),
+        phrase(manner.BY_COLOR, ("color", ())),
+        phrase(manner.ONE_EACH, ("each", ())),
+        phrase("each, apiece", ("apart", ())),
+        sequence(
+            either(
+                phrase("(that|which) is [currently]", False),
+                phrase("(that|which) are [currently]", True),
+            ),
+            either(PLAIN_MODIFIER, quality_alone),
+            build=lambda several, modifier: ("that", (several, modifier)),
+        ),
+        silent(phrase(f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)")),
+    ),
+    build=lambda *found: found[0] if found else (),
+)
+EXTRAS = some(EXTRA, most=3)
+
+
+def put_of(
+    groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
+) -> PutClause | None:
+    """A clause of what goes where with what is said about it, None where that does not fit."""
+    groupings = [item for item in extras if isinstance(item, Grouping)]
+    conditions = tuple(item for item in extras if isinstance(item, State))
+    said = [item for item in extras if isinstance(item, tuple) and item]
+    turns = turns_of(said)
+    named = {item[0] for item in said}
+    ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
+    if "apart" in named and not groupings and len(groups) == 1:
+        groupings = [Grouping.SEPARATELY]
+    elif "apart" in named:
+        return None
+    if len(groupings) > 1 or turns is None:
+        return None
+    grouping = groupings[0] if groupings else grouping
+    described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
+    if described:
+        (only, *more) = described
+        if more or only is None:
+            return None
+        groups = only
+    if "upright" in named:
+        groups = tuple(replace(group, upright=True) for group in groups)
+    return PutClause(
+        groups,
+        grouping,
+        conditions,
+        turns,
+        ruled_out,
+        by_color="color" in named,
+        far_fetched=2 * len(described),
+        one_each="each" in named,
+    )
+
+
+def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """A clause that leaves things where they are."""
+    found = put_of(groups, extras)
+    return None if found is None else replace(found, stays=True)
+
+
+def kept(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Some of several are kept where they are; to keep "the cup" there says nothing to do."""
+    said = [phrase.determiner for group in groups for phrase in group.things.phrases]
+    some = all(determiner in ("a", "an", *NUMBERS) for determiner in said)
+    return left(groups, extras) if some else None
+
+
+def _that_are(
+    groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
+) -> tuple[PutGroup, ...] | None:
+    """Things that are described behind the place ("everything on the rack that is black")."""
+    (np, *more), (group, *others) = groups[0].things.phrases, groups
+    bare = np.words[-1:] in (("everything",), ("anything",), ("something",))
+    plural = not bare and np.determiner in ("those", "these", "all", "all the", "all those")
+    if more or others or np.modifiers or plural != several or not (bare or plural):
+        return None
+    things = Things((replace(np, modifiers=(modifier,), text=f"{np.text} that"),))
+    return (replace(group, things=things),)

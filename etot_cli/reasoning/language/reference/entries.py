@@ -1,0 +1,266 @@
+"""The words of one object, drawer, board or surface, and how well a noun fits them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.text import normalized
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
+    COMMON_NOUNS,
+    CONTAINER_NOUNS,
+    HELPING_NOUNS,
+    JOINT_NOUNS,
+    KIND_GROUPS,
+    TWINS,
+    basic_color,
+    is_plural_of,
+    matches_any,
+    singular,
+)
+from etot_cli.world.state import ObjectInfo
+
+EXACT, HEAD, GENERIC, CONTENT = range(4)
+"""How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
+its kind; what it is a pack or box of. A word before the noun (the "paper" of a paper clip) tells
+what is called so from others, but names nothing where the noun is for it."""
+
+
+_SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
+_VESSELS = frozenset(
+    noun
+    for kind, groups in KIND_GROUPS.items()
+    for group in groups
+    for noun in group
+    if kind not in ("sphere", "capsule", "pen") and not {*group} & {*_SHAPES}
+)
+"""Nouns for what things are kept in or on, be it solid in this scene."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A thing and its words, all lower case.
+
+    Args:
+        thing: what is called so.
+        own: words of its label and name.
+        heads: the nouns among them (the last words).
+        generic: nouns by kind.
+        context: words that may come before its noun without singling it out (its owner's).
+        numbers: numbers in its name or label.
+        exact: full names.
+        color: its basic colour.
+        info: the object (or the part's owner); None for the desk.
+        called: the words of its label and of its name.
+        owner: the own words of what it is a part of.
+        content: the noun behind the "of" of its label.
+    """
+
+    thing: Thing
+    own: tuple[str, ...]
+    heads: tuple[str, ...]
+    generic: tuple[str, ...] = ()
+    context: tuple[str, ...] = ()
+    numbers: tuple[str, ...] = ()
+    exact: tuple[str, ...] = ()
+    color: str | None = None
+    info: ObjectInfo | None = None
+    called: tuple[tuple[str, ...], ...] = ()
+    owner: tuple[str, ...] = ()
+    content: tuple[str, ...] = ()
+
+    def is_called(self, words: Sequence[str]) -> bool:
+        """Whether words are its whole name or label."""
+        return tuple(words) in self.called
+
+    def numbered(self) -> list[str]:
+        """The words before its numbers."""
+        return [word for words in self.called for word, n in pairwise(words) if n.isdigit()]
+
+    def grade(self, noun: str) -> int | None:
+        """How well a noun fits, None where it does not."""
+        if noun in self.exact:
+            return EXACT
+        if matches_any(noun, self.heads) or matches_any(noun.replace("_", ""), self.heads):
+            return HEAD
+        if matches_any(noun, self.generic):
+            return GENERIC
+        if matches_any(noun, self.content):
+            return CONTENT
+        return None
+
+    def only_tells(self, word: str) -> bool:
+        """Whether a word stands in its name before the noun and does not name it."""
+        return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
+
+    def is_short_for(self, word: str) -> bool:
+        """Whether the word before its noun is a usual short name for it ("the remote"): it is no
+        vessel, holder or tool for that, and the word no adjective.
+        """
+        if self.info is None or self.info.container or self.info.parts or self.info.boards:
+            return False
+        heads = {*map(singular, self.heads)}
+        holds = heads & (HELPING_NOUNS | _VESSELS)
+        # A key of a car is no car; a cube of sponge is a sponge.
+        other = heads & (COMMON_NOUNS - _SHAPES) and singular(word) in COMMON_NOUNS
+        return not holds and not other
+
+    def has_word(self, word: str) -> bool:
+        """Whether a word is one of its own, apart from number."""
+        return matches_any(word, self.own)
+
+    def has_color(self, color: str) -> bool:
+        """Whether it is of a basic colour, or is called by a word for it."""
+        return self.color == color or any(basic_color(word) == color for word in self.own)
+
+    def is_plainly(self, color: str) -> bool:
+        """Whether a basic colour is what people would call its colour first: by its own words, or
+        by how it looks when it is called by no colour.
+        """
+        named = {word for word in self.own if basic_color(word)}
+        plain = self.color == color and (self.info is None or self.info.plain_color)
+        return color in named or (not named and plain)
+
+    def colors(self) -> frozenset[str]:
+        """The basic colours that it is called by, or else the one that it has."""
+        named = frozenset(color for word in self.own if (color := basic_color(word)) is not None)
+        return named or frozenset(() if self.color is None else (self.color,))
+
+    def is_colored(self) -> bool:
+        """Whether anything is known of its colour."""
+        return self.color is not None or any(basic_color(word) for word in self.own)
+
+    def is_plural(self, noun: str) -> bool:
+        """Whether a noun is the plural of one of its nouns."""
+        singulars = (*self.heads, *self.generic, *self.own)
+        # The name "pills_1" of a pill bottle is the plural of its label's word.
+        by_name = any(singular(noun) in words for words in self.called[:1])
+        return (by_name or noun not in singulars) and is_plural_of(noun, singulars)
+
+
+def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
+    """Nouns for a kind that fit something called by these nouns: a can is no bottle."""
+    groups = KIND_GROUPS.get(kind, ())
+    own = {singular(head) for head in heads}
+    fitting = [group for group in groups if own & set(group)]
+    if not fitting and not own & COMMON_NOUNS:
+        fitting = list(groups[-1:] if kind == "pen" else groups)
+    if kind in own:
+        fitting = list(groups)
+    return tuple(noun for group in fitting for noun in group)
+
+
+_LINKS = ("of", "with", "for", "in", "and", "on", "the", "a")
+"""Words inside a label after which no noun of its own stands ("carton of milk" is a carton)."""
+
+
+def is_odd(words: Sequence[str]) -> bool:
+    """Whether one of several words of a name is no noun or adjective."""
+    odd = (word in GRAMMAR_WORDS or re.fullmatch(r"\D", word) for word in words)
+    return len(words) > 1 and any(odd)
+
+
+def cut_of(words: Sequence[str]) -> int | None:
+    """Where what a thing is of, with or for begins."""
+    return next((i for i, word in enumerate(words) if i and word in ("of", "with", "for")), None)
+
+
+def _head_of(words: Sequence[str]) -> str | None:
+    """The noun of a label's words."""
+    nouns = words[: cut_of(words)]
+    return nouns[-1] if nouns else None
+
+
+@lru_cache(maxsize=1024)  # every sentence about a scene needs the words of all its names
+def _words_of(text: str) -> tuple[str, ...]:
+    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|_|(?<=[A-Za-z])(?=\d)", " ", text)
+    return tuple(re.findall(r"\w+", normalized(spaced)))
+
+
+def _twins_of(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Other names of what is called so, one that is written as one word among them."""
+    nouns = tuple(word for word in words if not word.isdigit())
+    groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
+    own = [name for group in groups if any(nouns[-len(t) :] == t for t in group) for name in group]
+    written = [("".join(nouns),)] if len(nouns) == 2 else []
+    return [name for name in (*own, *written) if name != nouns[-len(name) :]]
+
+
+def object_entry(info: ObjectInfo) -> Entry:
+    """The words of an object."""
+    called = [_words_of(info.label), _words_of(info.name)]
+    own: dict[str, None] = {}
+    heads: dict[str, None] = {}
+    numbers: dict[str, None] = {}
+    for words in called:
+        nouns = [word for word in words if not word.isdigit() and len(word) > 1]
+        own.update(dict.fromkeys(word for word in nouns if word not in _LINKS))
+        head = _head_of(nouns)
+        # The name "tea_2" of a tea mug is no noun for it.
+        short = heads and len(nouns) == 1 and head in called[0][:-1] and head not in heads
+        heads.update({} if head is None or short else {head: None})
+        numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
+    whole = dict.fromkeys("_".join(words) for words in called if is_odd(words))
+    twins = [twin for words in called for twin in _twins_of(words)]
+    generic = (*_kind_nouns(info.kind, heads), *dict.fromkeys(words[-1] for words in twins))
+    if info.container or any(part.container for part in info.parts):
+        generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
+    return Entry(
+        thing=Thing(info.name),
+        own=(*own, *whole),
+        heads=(*heads, *whole),
+        generic=generic,
+        context=tuple(word for words in twins for word in words[:-1]),
+        numbers=tuple(numbers),
+        exact=(info.name.casefold(),),
+        color=info.color,
+        info=info,
+        called=tuple(dict.fromkeys(words for words in called if words)),
+        content=tuple(words[-1] for words in called if "of" in words[1:]),
+    )
+
+
+def part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
+    """The words of an object's drawers and doors, ``owner`` being its own."""
+    entries = []
+    for part in info.parts:
+        words = [word for word in _words_of(part.name) if not word.isdigit()]
+        entries.append(
+            Entry(
+                thing=Thing(info.name, part.name),
+                own=tuple(words),
+                heads=tuple(words[-1:]),
+                generic=JOINT_NOUNS.get(part.joint_type, ()),
+                context=(*owner.own, *owner.generic),
+                numbers=tuple(word for word in _words_of(part.name) if word.isdigit()),
+                exact=(f"{info.name}.{part.name}".casefold(),),
+                color=info.color,
+                info=info,
+                owner=owner.own,
+            )
+        )
+    return entries
+
+
+def board_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
+    """The words of an object's boards, ``owner`` being its own."""
+    return [
+        Entry(
+            thing=Thing(info.name, board=board),
+            own=tuple(_words_of(board)),
+            heads=tuple(_words_of(board)[-1:]),
+            generic=(*BOARD_NOUNS, *owner.heads, *owner.generic),
+            context=(*owner.own, *owner.generic),
+            exact=(f"{info.name}.{board}".casefold(),),
+            color=info.color,
+            info=info,
+            owner=owner.own,
+        )
+        for board in info.boards
+    ]

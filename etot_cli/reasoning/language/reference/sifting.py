@@ -1,0 +1,140 @@
+"""Which things an adjective leaves of those that a noun fits, or what else it may say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from etot_cli.reasoning.language.reference.entries import GENERIC, Entry
+from etot_cli.reasoning.language.reference.unmatched import names_of
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_general_noun
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    ORDINALS,
+    PURPOSES,
+    SIDES,
+    SIZES,
+    STATES,
+    THING_NOUNS,
+    basic_color,
+    matches_any,
+)
+
+
+@dataclass
+class Sifted:
+    """Entries that are left, and what the words so far were taken for."""
+
+    graded: list[tuple[Entry, int]]
+    selectors: list[str] = field(default_factory=list)
+    unknown: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    dropped: list[str] = field(default_factory=list)
+    named: list[tuple[str, tuple[Entry, ...]]] = field(default_factory=list)
+
+
+def is_selecting(word: str) -> bool:
+    """Whether a word tells things apart by how or where they are, unless it is part of a name."""
+    return any(word in table for table in (SIDES, SIZES, ORDINALS, STATES, LEVELS))
+
+
+def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
+    """Keeps the entries that an adjective fits, or notes what it is."""
+    graded = sifted.graded
+    fitting = [item for item in graded if item[0].has_word(word)]
+    color = basic_color(word)
+    if word.isdigit():
+        sifted.graded = []  # a number before the noun that is no count
+    elif word in LEVELS and any(_has_levels(entry) for entry, _ in graded):
+        sifted.graded = _at_level(graded, LEVELS[word])
+    elif color is not None:
+        sifted.graded = _of_color(sifted, word, color)
+    elif fitting:
+        if is_selecting(word) and len(fitting) < len(graded):
+            best = min(grade for _, grade in fitting)
+            sifted.named.append((word, tuple(e for e, grade in graded if grade <= best)))
+        sifted.graded = fitting
+    elif word in LEVELS and any(is_stacked(entry) for entry, _ in graded):
+        # What has parts on several levels has none on this one.
+        sifted.graded = [item for item in graded if not is_stacked(item[0])]
+    elif is_selecting(word):
+        sifted.selectors.append(word)
+    elif owned := _of_owner(word, graded):
+        sifted.graded = owned
+    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
+        # What is called a thing for something else is not for this.
+        apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
+        if not apt:
+            sifted.unknown.append(word)
+            return
+        sifted.graded = apt
+        names = names_of([entry for entry, _ in apt])
+        sifted.notes.append(f"took {word!r} for what {names} is for")
+        sifted.dropped.append(word)
+    else:
+        sifted.unknown.append(word)
+
+
+def _of_owner(word: str, graded: list[tuple[Entry, int]]) -> list[tuple[Entry, int]]:
+    """Parts of what a word names ("the microwave door"): by its own words before those by kind."""
+    own = [item for item in graded if matches_any(word, item[0].owner)]
+    return own or [item for item in graded if matches_any(word, item[0].context)]
+
+
+def _of_color(sifted: Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
+    """Entries of a colour. A name beats a look, and a look beats a neighbouring colour."""
+    graded = sifted.graded
+    if word == color:
+        plain = [item for item in graded if item[0].is_plainly(color)]
+    else:
+        plain = [item for item in graded if item[0].has_word(word)]
+    if plain:
+        # A carton of orange juice is no orange thing where another thing is orange.
+        looks = [item for item in plain if item[1] != GENERIC or item[0].color in (None, color)]
+        return looks or plain
+    near = [item for item in graded if item[0].has_color(color)]
+    # A thing of unknown colour may have any.
+    found = near or [item for item in graded if not item[0].is_colored()]
+    if found:
+        names = names_of([entry for entry, _ in found])
+        sifted.notes.append(f"took {names} for {word!r}")
+    return found
+
+
+def graded_by(pool: list[Entry], head: str) -> list[tuple[Entry, int]]:
+    """Entries that a noun fits, with how well."""
+    if matches_any(head, THING_NOUNS):
+        return [(e, GENERIC) for e in pool if e.info is not None and e.thing.part is None]
+    return [(entry, grade) for entry in pool if (grade := entry.grade(head)) is not None]
+
+
+def _has_levels(entry: Entry) -> bool:
+    return entry.thing.part is not None or entry.thing.board is not None
+
+
+def is_stacked(entry: Entry) -> bool:
+    """Whether an object has drawers, doors or boards."""
+    return (
+        entry.info is not None
+        and entry.thing.part is None
+        and bool(entry.info.parts or entry.info.boards)
+    )
+
+
+def _at_level(graded: list[tuple[Entry, int]], level: str) -> list[tuple[Entry, int]]:
+    """Of each piece of furniture the part at a level: by the parts' names, else by their order."""
+    found: list[tuple[Entry, int]] = []
+    owners = dict.fromkeys(entry.thing.name for entry, _ in graded)
+    for owner in owners:
+        stacked = [item for item in graded if item[0].thing.name == owner]
+        levels = [{LEVELS.get(word) for word in item[0].own} - {None} for item in stacked]
+        named = [item for item, said in zip(stacked, levels, strict=True) if level in said]
+        if named or all(levels):
+            found += named
+            continue
+        # Parts are listed from top to bottom, boards from bottom to top.
+        if stacked[0][0].thing.board is not None:
+            stacked = stacked[::-1]
+        index = {"top": 0, "bottom": -1, "middle": len(stacked) // 2}[level]
+        if level != "middle" or len(stacked) % 2:
+            found.append(stacked[index])
+    return found
