@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from etot_cli.commands import rooms as doors
 from etot_cli.commands.timed import TimedReasoner
@@ -97,7 +97,8 @@ def plan_task(
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
     """
-    options = replace(options, jobs=options.jobs or cores())
+    jobs = options.jobs or cores()
+    options = replace(options, jobs=jobs)
     watch = Stopwatch()
     begun_s = time.monotonic()
     task: Task | None = None
@@ -113,7 +114,10 @@ def plan_task(
             scene = rooms.vary(task.scene, options.seed) if options.vary else task.scene
         with watch.phase("world"):
             if options.reasoner == MODEL:
-                session = rooms.open_model(
+                # The HTTP client and OpenGL are imported only where a model is asked for.
+                from etot_cli.reasoning.vlm.session import open_vlm
+
+                session = open_vlm(
                     options.vlm, scene, seed=options.seed, state=rooms.reasoners["builtin"]()
                 )
             reasoner = TimedReasoner(
@@ -122,7 +126,7 @@ def plan_task(
             simulator = rooms.open_simulator(
                 scene,
                 seed=options.seed,
-                jobs=options.jobs,
+                jobs=jobs,
                 worlds=min(options.worlds or task.worlds, CHOOSING_WORLDS),
                 look=options.look,
                 record=options.record or (session is not None and session.needs_trajectories),
@@ -131,7 +135,7 @@ def plan_task(
             result = search(
                 Assignment(task.instruction, task.goal),
                 session.watch(simulator) if session else simulator,
-                cast(Reasoner, reasoner),
+                reasoner,
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
@@ -175,7 +179,7 @@ def _tried(
     trials = rooms.open_trials(
         scene,
         seed=options.seed,
-        jobs=options.jobs,
+        jobs=options.jobs or cores(),
         worlds=options.worlds or task.worlds,
         look=options.look,
     )

@@ -9,28 +9,44 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol
+
+from etot_cli.specs.look import Look
 
 if TYPE_CHECKING:
     from etot_cli.control.simulated import Simulator, Trials
     from etot_cli.reasoning.protocol import Reasoner
-    from etot_cli.reasoning.vlm.session import VlmSession
     from etot_cli.specs.scene import Scene
     from etot_cli.specs.task import Task
     from etot_cli.world.state import SceneState
 
 
-def _open_model(*arguments: Any, **named: Any) -> VlmSession:
-    # The HTTP client and OpenGL are imported only where a model is asked for.
-    from etot_cli.reasoning.vlm.session import open_vlm
+class OpenSimulator(Protocol):
+    """As :func:`etot_cli.control.simulator.open_simulator`, which says what the arguments are."""
 
-    return open_vlm(*arguments, **named)
+    def __call__(
+        self,
+        scene: Scene,
+        *,
+        seed: int,
+        jobs: int,
+        worlds: int,
+        record: bool,
+        truth: Scene | None = None,
+        look: Look = Look.EACH,
+    ) -> Simulator:
+        """A simulator of the scene, to be closed by who opened it."""
+        ...
 
 
-def _open_replay(*arguments: Any, **named: Any) -> Simulator:
-    from etot_cli.control.replaying import open_replay
+class OpenTrials(Protocol):
+    """As :func:`etot_cli.control.trial_worlds.open_trials`, which says what the arguments are."""
 
-    return open_replay(*arguments, **named)
+    def __call__(
+        self, scene: Scene, *, seed: int, jobs: int, worlds: int, look: Look = Look.EACH
+    ) -> Trials:
+        """Worlds that vary around the scene, to be closed by who opened them."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,18 +58,12 @@ class Rooms:
     """Draws poses and parameters of a scene by a seed."""
     vary_truth: Callable[[Scene, int], Scene]
     """The same, and what no twin is told."""
-    open_simulator: Callable[..., Simulator]
-    """As :func:`etot_cli.control.simulator.open_simulator`."""
-    open_trials: Callable[..., Trials]
-    """As :func:`etot_cli.control.trial_worlds.open_trials`."""
+    open_simulator: OpenSimulator
+    open_trials: OpenTrials
     known_targets: Callable[[SceneState], Sequence[str]]
     """What actions may name in a scene."""
     reasoners: dict[str, Callable[[], Reasoner]]
     """Reasoner name → how to make it."""
-    open_model: Callable[..., VlmSession] = _open_model
-    """As :func:`etot_cli.reasoning.vlm.session.open_vlm`, for the reasoner ``vlm``."""
-    open_replay: Callable[..., Simulator] = _open_replay
-    """As :func:`etot_cli.control.replaying.open_replay`."""
 
 
 def default_rooms() -> Rooms:

@@ -152,7 +152,10 @@ def _opened(run: _Run, scene: Scene, options: SimulateOptions, rooms: doors.Room
         run.scene = with_start_error(scene, options.error, vary=options.vary)
     if options.error is not None or options.vary:
         run.scene = rooms.vary_truth(run.scene, options.seed)
-    return rooms.open_replay(
+    # MuJoCo is imported only where something is simulated by this package's own rooms.
+    from etot_cli.control.replaying import open_replay
+
+    return open_replay(
         scene,
         run.recorded.recordings,
         truth=run.scene,

@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import jsonschema
 import pytest
 import yaml
 
+from etot_cli.commands import timed
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.trials import CHOOSING_WORLDS
+from etot_cli.reasoning.protocol import Assignment, Branch
 from etot_cli.reporting.files import claim_folder, report_text, write_atomically, write_report
 from etot_cli.reporting.models import Report
 from etot_cli.reporting.plan_report import PlanReport
 from etot_cli.skills.action import Action
-from etot_cli.world.state import Cause, CauseKind
+from etot_cli.world.state import Cause, CauseKind, SceneState
 from tests.docs.schemas import INPUTS, REPORTS, schema_text
-from tests.planning.fakes import ToyReasoner, ToySimulator, fails, plan
+from tests.planning.fakes import ToyReasoner, ToySimulator, branch, fails, plan
 from tests.reporting.toy_rooms import ToyRooms
 
 SCHEMAS = Path(__file__).parents[2] / "docs" / "schemas"
@@ -269,3 +273,23 @@ def test_a_planted_link_is_not_followed(tmp_path: Path) -> None:
     write_atomically(folder / "report.json", "{}")
     assert (tmp_path / "precious").read_text() == "mine"
     assert not (folder / "report.json").is_symlink()
+
+
+def test_thinking_is_timed_until_each_branch_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr(timed, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    toy = ToyReasoner([])
+
+    def propose(assignment: Assignment, scene: SceneState) -> Iterator[Branch]:
+        for name in ("a", "b"):
+            now[0] += 1.0
+            yield branch(name)
+
+    monkeypatch.setattr(toy, "propose", propose)
+    reasoner = timed.TimedReasoner(toy)
+    proposed = reasoner.propose(Assignment("Leave the cup alone."), SceneState({}, {}))
+    assert next(proposed) == branch("a")
+    assert reasoner.spent_s == 1.0
+    now[0] += 10.0  # nobody waits for the reasoner meanwhile
+    assert list(proposed) == [branch("b")]
+    assert reasoner.spent_s == 2.0
