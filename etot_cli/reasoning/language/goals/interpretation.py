@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.goals.ordering import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import Order, Spoken, reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import Discourse
+from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.protocol import ReasonerStopped

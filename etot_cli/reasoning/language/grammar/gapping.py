@@ -37,7 +37,15 @@ def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]
     nouns = [np.words[-1] for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
     if len(set(nouns)) != 1 or matches_any(nouns[0], THING_NOUNS):
         return (groups,)
-    lent = (*(_with_noun(group, nouns[0]) for group in groups[:-1]), groups[-1])
+    lent = (
+        *(
+            group.going_to(
+                lambda np: replace(np, words=(*np.words, nouns[0])) if _is_bare(np) else np
+            )
+            for group in groups[:-1]
+        ),
+        groups[-1],
+    )
     bare = [item.relation for group in groups for where in group.destinations
             for item in where.beside if not item.phrases]  # fmt: skip
     if lent != groups and Nearby.AT_CENTRE in bare:
@@ -89,22 +97,6 @@ def _is_bare(np: NounPhrase) -> bool:
     """Whether a phrase has an article and adjectives, and nothing else."""
     adjectives = np.words and all(is_descriptive(word) or word in LEVELS for word in np.words)
     return bool(np.determiner and adjectives) and not np.modifiers
-
-
-def _with_noun(group: PutGroup, noun: str) -> PutGroup:
-    return replace(
-        group,
-        destinations=tuple(
-            replace(
-                item,
-                targets=tuple(
-                    replace(np, words=(*np.words, noun)) if _is_bare(np) else np
-                    for np in item.targets
-                ),
-            )
-            for item in group.destinations
-        ),
-    )
 
 
 def _respective(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from etot_cli.reasoning.builtin.goal import Grouping
@@ -119,6 +119,13 @@ class PutGroup:
     destinations: tuple[Destination, ...]
     upright: bool = False
     """They are to stand there."""
+
+    def going_to(self, change: Callable[[NounPhrase], NounPhrase]) -> PutGroup:
+        """The same things with the phrases for where they go changed."""
+        changed = (
+            replace(where, targets=tuple(map(change, where.targets))) for where in self.destinations
+        )
+        return replace(self, destinations=tuple(changed))
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,20 +32,12 @@ def is_different(group: PutGroup) -> bool:
 
 def elsewhere(group: PutGroup) -> PutGroup:
     """Of one thing "a different shelf" is another one than that on which it stands."""
-    return replace(
-        group,
-        destinations=tuple(
-            replace(
-                item,
-                targets=tuple(
-                    replace(np, determiner="another", words=np.words[1:])
-                    if np.words[:1] == ("different",)
-                    else np
-                    for np in item.targets
-                ),
-            )
-            for item in group.destinations
-        ),
+    return group.going_to(
+        lambda np: (
+            replace(np, determiner="another", words=np.words[1:])
+            if np.words[:1] == ("different",)
+            else np
+        )
     )
 
 

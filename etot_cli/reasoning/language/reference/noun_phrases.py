@@ -7,12 +7,12 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
@@ -20,24 +20,16 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
-from etot_cli.reasoning.language.reference.landmarks import (
-    RANKED,
-    between_the_others,
-    is_one,
-    means_the_others,
-    related,
-)
-from etot_cli.reasoning.language.reference.nouns import matched, parts_of, with_quality
+from etot_cli.reasoning.language.reference.landmarks import is_one
+from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
+from etot_cli.reasoning.language.reference.nouns import matched, parts_of
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
-    NUMBERS,
     REFUSE,
-    STATES,
     THING_NOUNS,
-    basic_color,
     matches_any,
     singular,
 )
@@ -50,8 +42,6 @@ _INCOMPLETE = frozenset(
     {"", "the", "a", "an", "my", "your", "its", "their", "our", "this", "that", "these", "those"}
 )
 """Determiners that do not stand without a noun."""
-_SO_MANY = frozenset({*NUMBERS, *map(str, range(100)), "any", "some", "either"})
-"""Determiners that leave open which ones are left out."""
 
 
 Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
@@ -81,11 +71,6 @@ class Resolved:
     notes: tuple[str, ...] = ()
     again: bool = False
     adjectives: tuple[str, ...] = ()
-
-
-def _names(things: Sequence[Thing]) -> str:
-    parts = ((thing.name, thing.part or thing.board) for thing in things)
-    return ", ".join(dict.fromkeys(".".join(filter(None, names)) for names in parts))
 
 
 class Resolver:
@@ -194,30 +179,34 @@ class Resolver:
         if quantity.every:
             count = quantity.count
         notes = list(match.notes)
-        things = self._modified(things, modifiers, quantity, count, phrase, pronoun, notes)
-        things = self._without(things, phrase, words, noun, pronoun, role)
+        sets = partial(self._landmark_sets, phrase, pronoun, quantity)
+        things = modified(things, modifiers, quantity, count, phrase, self._scene, sets, notes)
+        meant = partial(self._landmarks, pronoun)
+        things = left_out(things, phrase, words, role, self._vocabulary, self._scene, meant)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
-            raise ReferenceProblem(phrase.text, f"not {among}, but {_names(things)} fit", 2)
+            raise ReferenceProblem(
+                phrase.text, f"not {among}, but {names_of_things(things)} fit", 2
+            )
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
         if len(things) == 1 and any(item.words[0] in ("to", "from") for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
         if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
-            why = f"say 'the' one of {_names(things)}, or to which side of what"
+            why = f"say 'the' one of {names_of_things(things)}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
         things = select(match.selectors, modifiers, things, count, self._scene, phrase.text, notes)
         if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
-            raise ReferenceProblem(phrase.text, f"say which of {_names(things)}", 2)
+            raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
         if match.plural and match.loose and len(things) == 1 and not quantity.count:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
             raise ReferenceProblem(
-                phrase.text, f"it is not the only one: {_names(things)}", 2, word="only"
+                phrase.text, f"it is not the only one: {names_of_things(things)}", 2, word="only"
             )
         vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
         single = quantity.definite and count == 1
         if match.dropped and (single or vague) and len(things) > 1:
-            why = f"{match.dropped[0]!r} does not tell which of {_names(things)} is meant"
+            why = f"{match.dropped[0]!r} does not tell which of {names_of_things(things)} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
@@ -233,111 +222,8 @@ class Resolver:
             adjectives=words[:-1],
         )  # fmt: skip
 
-    def _without(
-        self,
-        things: list[Thing],
-        phrase: NounPhrase,
-        words: tuple[str, ...],
-        noun: str | None,
-        pronoun: Pronoun,
-        role: Role,
-    ) -> list[Thing]:
-        """The things but for those that the phrase takes out."""
-        out: set[Thing] = set()
-        for word in phrase.without:
-            meant = with_quality(things, word, phrase, self._vocabulary, self._scene)
-            if not meant and basic_color(word) is None and word not in STATES:
-                raise ReferenceProblem(phrase.text, f"none of them is {word!r}", 1, word=word)
-            out |= meant
-        for modifier in phrase.modifiers:
-            if modifier.prep is Prep.QUALITY and modifier.denied:
-                out |= {
-                    t
-                    for word in modifier.words
-                    for t in with_quality(things, word, phrase, self._vocabulary, self._scene)
-                }
-            if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
-                for item in modifier.phrases:
-                    said = " ".join((item.determiner, *item.words, item.pronoun))
-                    if said.split()[0] in _SO_MANY:
-                        why = "say which are left out of"
-                        raise AmbiguousReference(phrase.text, [t.name for t in things], why)
-                    named = set(self._landmarks(item, pronoun, words[-1] if words else noun))
-                    # "Everything" may have the place among it that it is to go to.
-                    if role is Role.THEME and not matches_any(words[-1], THING_NOUNS):
-                        self._check_left(item.text, named, [t for t in things if t not in named])
-                    out |= named
-        if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
-            raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
-        left = [thing for thing in things if thing not in out]
-        if not left:
-            raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
-        return left
-
-    def _check_left(self, text: str, out: Iterable[Thing], moved: Sequence[Thing]) -> None:
-        """Whether what is left out would come along in or on what is moved."""
-        names = {thing.name for thing in moved}
-        for thing in (thing for thing in out if thing.name in self._scene.states):
-            for below in names.intersection(carriers(self._scene, thing.name)):
-                why = f"{below} would take it along; say first where it is to go"
-                raise ReferenceProblem(text, why, 4)
-
-    # -- modifiers ---------------------------------------------------------------------------------
-
-    def _modified(
-        self,
-        things: list[Thing],
-        modifiers: Sequence[Modifier],
-        quantity: Quantity,
-        count: int | None,
-        phrase: NounPhrase,
-        pronoun: Pronoun,
-        notes: list[str],
-    ) -> list[Thing]:
-        """Things that all modifiers are true of, or that they fit best; ``notes`` grows."""
-        waiting = sorted(modifiers, key=lambda item: item.prep in RANKED)
-        unclear = 0
-        while waiting:
-            modifier = waiting.pop(0)
-            if modifier.prep is Prep.MATCHING:
-                why = "say which thing's colour is meant"
-                raise ReferenceProblem(phrase.text, why, 2)
-            if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
-                continue
-            if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
-                things = between_the_others(things, phrase, self._scene)
-                continue
-            if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
-                raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
-            ways = {
-                tuple(related(modifier, things, landmarks, quantity, count, self._scene, notes))
-                for landmarks in self._landmark_sets(modifier, phrase, pronoun, quantity)
-            } - {()}
-            if len(ways) > 1 and unclear < len(waiting):
-                # Another modifier may tell.
-                waiting.append(modifier)
-                unclear += 1
-                continue
-            if len(ways) > 1:
-                named = [thing.name for way in ways for thing in way]
-                raise AmbiguousReference(phrase.text, sorted(named))
-            found = [thing for way in ways for thing in way]
-            if not found:
-                raise ReferenceProblem(
-                    phrase.text, f"this is true of none of what it could mean ({_names(things)})", 1
-                )
-            bare = modifier.denied and modifier.prep in (Prep.WITH, Prep.FROM)
-            alike = len(things) == 1 or all(thing.board for thing in things)
-            if bare and found == things and alike:
-                why = "there is no other one that this would tell it from"
-                raise ReferenceProblem(phrase.text, why, 2)
-            if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
-                found = space.with_what_lies_on_them(found, things, self._scene)
-            things = found
-        return things
-
     def _landmark_sets(
-        self, modifier: Modifier, phrase: NounPhrase, pronoun: Pronoun, quantity: Quantity
+        self, phrase: NounPhrase, pronoun: Pronoun, quantity: Quantity, modifier: Modifier
     ) -> list[list[list[Thing]]]:
         """What each landmark of a modifier may be; "between the bowls" names two at once. All ways
         to understand a pronoun among them.
@@ -350,13 +236,13 @@ class Resolver:
                 meant = [[thing] for things in meant for thing in things]
             return [[things] for things in meant]
         if modifier.prep is Prep.BETWEEN and not more:
-            both = self._landmarks(only, pronoun)
+            both = self._landmarks(pronoun, only)
             if len(both) != 2:
                 raise ReferenceProblem(phrase.text, "say between which two things", 2)
             return [[[both[0]], [both[1]]]]
         noun = phrase.words[-1] if phrase.words else None
         each = [
-            self._landmarks(item, pronoun, noun if item.words[-1:] == ("one",) else None)
+            self._landmarks(pronoun, item, noun if item.words[-1:] == ("one",) else None)
             for item in modifier.phrases
         ]
         if modifier.prep is Prep.ON and modifier.words:
@@ -372,7 +258,7 @@ class Resolver:
         return [list(way) for way in product(*ways)]
 
     def _landmarks(
-        self, phrase: NounPhrase, pronoun: Pronoun, noun: str | None = None
+        self, pronoun: Pronoun, phrase: NounPhrase, noun: str | None = None
     ) -> list[Thing]:
         """What a phrase inside a modifier may mean."""
         if phrase.pronoun or (quantity_of(phrase.determiner).other and phrase.words):

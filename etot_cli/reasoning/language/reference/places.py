@@ -13,8 +13,9 @@ from etot_cli.reasoning.language.grammar.destinations import TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import Discourse
+from etot_cli.reasoning.language.reference.coreference import latest_place, places_spoken_of
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.instances import check_not_part
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
@@ -273,8 +274,8 @@ class Places:
                 return (Place(relation, index),)
         if word == "there":  # nowhere else than where something was or is, so not in what moved
             referents = range(len(discourse.referents))
-            themes = [*themes, *({*referents} - discourse.places_spoken_of())]
-        return (discourse.latest_place(relation, themes, word),)
+            themes = [*themes, *({*referents} - places_spoken_of(discourse))]
+        return (latest_place(discourse, relation, themes, word),)
 
 
 def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:

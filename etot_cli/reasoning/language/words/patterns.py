@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from itertools import product
+
+_INNERMOST = re.compile(r"\(([^()\[\]]*)\)|\[([^()\[\]]*)\]")
 
 
 def expand(pattern: str) -> list[str]:
-    """All spellings of a pattern: ``(a|b)`` alternatives, ``[c]`` something optional."""
-    pattern = re.sub(r"\[([^\[\]]*)\]", r"(\1|)", pattern)
-    pieces = re.split(r"\(([^()]*)\)", pattern)
-    options = [piece.split("|") if index % 2 else [piece] for index, piece in enumerate(pieces)]
-    return [" ".join("".join(chosen).split()) for chosen in product(*options)]
+    """All spellings of a pattern: ``(a|b)`` alternatives, ``[c]`` something optional, nested."""
+    found = _INNERMOST.search(pattern)
+    if found is None:
+        return [" ".join(pattern.split())]
+    choices = found[1].split("|") if found[2] is None else (*found[2].split("|"), "")
+    before, after = pattern[: found.start()], pattern[found.end() :]
+    each = (expand(f"{before}{choice}{after}") for choice in choices)
+    return list(dict.fromkeys(text for texts in each for text in texts))
 
 
 def spellings(patterns: str) -> list[str]:

@@ -1,0 +1,192 @@
+"""What has been spoken of so far: referents, and how and by which words they were mentioned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from etot_cli.reasoning.builtin.goal import Place, Referent, Thing
+from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
+from etot_cli.world.spatial import Nearby
+from etot_cli.world.state import DESK, SceneState
+
+
+@dataclass
+class Discourse:
+    """Referents and mentions up to some point of an instruction.
+
+    Args:
+        scene: what is spoken about.
+        clause: number of the clause being read.
+        last_place: the latest destination, for "there".
+    """
+
+    scene: SceneState
+    referents: list[Referent] = field(default_factory=list)
+    mentions: list[Mention] = field(default_factory=list)
+    clause: int = 0
+    last_places: tuple[Place, ...] = ()
+    put_into: dict[int, int] = field(default_factory=dict)
+    """Referent → the referent that it was to be put into last."""
+    notes: list[str] = field(default_factory=list)
+    """What words were taken for, where that was a choice."""
+    put: frozenset[int] = frozenset()
+    """Referents that have been given a place."""
+    last_landmark: tuple[int, int, Nearby] = (-1, -1, Nearby.NEAR)
+    """Number of a clause, the referent that something is put beside there, and how it is to be."""
+    stacks: dict[int, int] = field(default_factory=dict)
+    """Number of the clause that built a stack → the referent at its bottom."""
+    undecided: frozenset[int] = frozenset()
+    """Referents of "the …" where several things fit and nothing tells them apart."""
+
+    def copy(self) -> Discourse:
+        """An independent copy, for trying a reading."""
+        return Discourse(
+            self.scene,
+            list(self.referents),
+            list(self.mentions),
+            self.clause,
+            self.last_places,
+            dict(self.put_into),
+            list(self.notes),
+            self.put,
+            self.last_landmark,
+            dict(self.stacks),
+            self.undecided,
+        )
+
+    def add(
+        self,
+        resolved: Resolved,
+        text: str,
+        role: Role,
+        *,
+        several: bool = False,
+        whatever: bool = False,
+    ) -> int:
+        """Notes what a phrase means and returns its referent; ``several``: no "it" means that.
+
+        A definite phrase with the same meaning as an earlier one speaks of the same choice.
+        """
+        self.notes += [note for note in resolved.notes if note not in self.notes]
+        index = len(self.referents)
+        mention = Mention(
+            index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever
+        )
+        if resolved.definite and not resolved.other:
+            for earlier in range(index - 1, -1, -1):
+                if self._is_again(earlier, resolved):
+                    self.mentions.append(replace(mention, referent=earlier))
+                    return earlier
+        distinct = self._told_from(resolved, role)
+        if resolved.definite and not resolved.other and len(resolved.options) > 1:
+            self._check_among_spoken(resolved, text)
+            self.undecided |= {index}
+        self.referents.append(Referent(resolved.options, text, distinct))
+        self.mentions.append(mention)
+        return index
+
+    def _told_from(self, resolved: Resolved, role: Role) -> tuple[int, ...]:
+        """Referents that a phrase means none of: "another cup", and "a cup" of which one has been
+        given a place before ("a cup on the tray and a cup on the shelf").
+        """
+        things = {thing for option in resolved.options for thing in option}
+        shared = [
+            earlier
+            for earlier, referent in enumerate(self.referents)
+            if things & {thing for option in referent.options for thing in option}
+        ]
+        if resolved.other:
+            return tuple(shared)
+        known = resolved.definite and (len(things) > 1 or len(resolved.options) > 1)
+        if known or resolved.again or role is not Role.THEME:
+            return ()
+        moved = {mention.referent for mention in self.mentions if mention.role is Role.THEME}
+        return tuple(
+            index
+            for index in shared
+            if index in moved
+            and (len(resolved.options) > 1 or len(self.referents[index].options) > 1)
+            and not any(things <= set(option) for option in self.referents[index].options)
+        )
+
+    def _check_among_spoken(self, resolved: Resolved, text: str) -> None:
+        """After "the black things" "the jar" may be the black one, or any.
+
+        Raises:
+            AmbiguousReference: some of what a definite phrase fits was spoken of, and some not.
+        """
+        if matches_any(resolved.noun, THING_NOUNS):
+            return
+        sets = [referent.options[0] for referent in self.referents if len(referent.options) == 1]
+        spoken = {thing for things in sets if len(things) > 1 for thing in things}
+        fitting = dict.fromkeys(thing for option in resolved.options for thing in option)
+        if spoken & set(fitting) and set(fitting) - spoken:
+            raise AmbiguousReference(text, [thing.name for thing in fitting])
+
+    def _is_again(self, referent: int, resolved: Resolved) -> bool:
+        """Whether a definite phrase speaks of an earlier referent.
+
+        It does when it means the same, and when it means, among others, what was spoken of by the
+        same noun: "the red plum … the plum".
+        """
+        earlier, now = set(self.referents[referent].options), set(resolved.options)
+        if earlier == now:
+            return True
+        nouns = {mention.noun for mention in self.mentions if mention.referent == referent}
+        return earlier < now and any(same_noun(noun, resolved.noun) for noun in nouns)
+
+    def mention_again(self, referent: int, role: Role) -> None:
+        """Notes that a pronoun spoke of a referent."""
+        noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
+        self.mentions.append(Mention(referent, role, self.clause, noun))
+
+    def step_back(self, first: int) -> None:
+        """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is."""
+        said = [replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]]
+        self.mentions[:] = [*said, *self.mentions[:first]]
+
+    def things(self, referent: int) -> tuple[Thing, ...]:
+        """Everything that a referent may stand for."""
+        options = self.referents[referent].options
+        return tuple(dict.fromkeys(thing for option in options for thing in option))
+
+    def last_noun(self, role: Role) -> str | None:
+        """The noun that "one" or "the other" stands for in a role; never the desk, which is one."""
+        said = [mention for mention in self.mentions if not self.is_desk(mention.referent)]
+        mentions = [mention for mention in said if _alike(mention.role, role)] or said
+        return mentions[-1].noun if mentions else None
+
+    def nouns(self) -> tuple[str, ...]:
+        """All nouns that "one" may stand for."""
+        said = (item.noun for item in self.mentions if not self.is_desk(item.referent))
+        return tuple(dict.fromkeys(said))
+
+    def is_desk(self, referent: int) -> bool:
+        """Whether a referent is the desk."""
+        return all(thing.name == DESK for thing in self.things(referent))
+
+    def mentioned_like(self, noun: str | None) -> tuple[Thing, ...]:
+        """Single things spoken of by a noun; "the other" is none of them."""
+        found: dict[Thing, None] = {}
+        for mention in self.mentions:
+            options = self.referents[mention.referent].options
+            if noun is not None and same_noun(mention.noun, noun) and len(options) == 1:
+                found.update(dict.fromkeys(options[0]))
+        return tuple(found)
+
+    def is_about_parts(self, noun: str | None) -> bool:
+        """Whether what was spoken of last by a noun is part of something ("one drawer")."""
+        for mention in reversed(self.mentions):
+            if noun is not None and same_noun(mention.noun, noun):
+                things = self.things(mention.referent)
+                return all(thing.part or thing.board for thing in things)
+        return False
+
+
+def _alike(first: Role, second: Role) -> bool:
+    """Whether two roles speak of the same side of an action: what is moved, or where to."""
+    moved = (Role.THEME, Role.PART)
+    return (first in moved) == (second in moved)

@@ -1,0 +1,192 @@
+"""What a phrase means after what was said: which noun it leaves out, what "the other" is not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.coreference import (
+    PLURAL_PRONOUNS,
+    antecedents,
+    candidates,
+)
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.narrowing import (
+    as_contrasted,
+    as_rest,
+    check_count,
+    check_one_left,
+    narrowed_to,
+    of_last_choice,
+    of_spoken_owner,
+    others,
+    spoken_part,
+)
+from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
+from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
+from etot_cli.reasoning.language.words.lexicon import (
+    THING_NOUNS,
+    is_descriptive,
+    matches_any,
+    same_noun,
+    singular,
+)
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import SceneState
+
+
+class Meanings:
+    """What phrases mean, given what was spoken of; nothing is spoken of by asking.
+
+    Args:
+        scene: what is spoken about.
+        resolver: of phrases with a noun.
+        discourse: what was spoken of before.
+    """
+
+    def __init__(self, scene: SceneState, resolver: Resolver, discourse: Discourse) -> None:
+        self.scene = scene
+        self.resolver = resolver
+        self.discourse = discourse
+
+    def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What a phrase means, without speaking of it."""
+        discourse = self.discourse
+        if phrase.pronoun and not phrase.modifiers:  # "one of them"
+            indices = antecedents(discourse, "them", role, phrase.text)
+            if any(len(discourse.referents[index].options) > 1 for index in indices):
+                names = [thing.name for index in indices for thing in discourse.things(index)]
+                raise AmbiguousReference(phrase.text, names)
+            things = dict.fromkeys(thing for i in indices for thing in discourse.things(i))
+            options = tuple((thing,) for thing in things)
+            noun = discourse.last_noun(role) or ""
+            return Resolved(options, definite=False, other=False, noun=noun, again=True)
+        if phrase.pronoun:  # "those on the desk"
+            noun = discourse.last_noun(role) or "object"
+            plural = phrase.pronoun in PLURAL_PRONOUNS
+            phrase = replace(
+                phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
+            )
+        possessor = {"its": "it", "their": "them"}.get(phrase.determiner.split(" ")[0])
+        if possessor:
+            pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
+            owner = Modifier(Prep.OF, (pronoun,))
+            phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
+        noun_before = discourse.last_noun(role)
+        named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
+        if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
+            raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
+        phrase = as_rest(phrase, noun_before, self.discourse)
+        quantity = quantity_of(phrase.determiner)
+        if quantity.other and quantity.definite and (quantity.count or 1) > 1:
+            # "One cup … the other two": which they are depends on the one.
+            with suppress(ReferenceProblem):
+                rest = replace(phrase, determiner="all other")
+                rest_of = others(self._with_noun(rest, role, noun_before), discourse)
+                if all(len(option) == quantity.count for option in rest_of.options):
+                    return rest_of
+        resolved = self._with_noun(phrase, role, noun_before)
+        if resolved.other and resolved.every:
+            return others(resolved, discourse)
+        if resolved.other and resolved.definite and quantity.count in (None, 1):
+            if phrase.words[-1:] in ((), ("one",)):
+                resolved = of_last_choice(resolved, discourse)
+            check_one_left(phrase, resolved, discourse)
+        # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
+        upon = role is Role.SURFACE and self.resolver.is_called(resolved.noun)
+        return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
+
+    def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
+        """The latest referent that "the same …" may mean."""
+        fitting: set[Thing] = set()
+        for parts_first in (True, False):
+            plain = replace(phrase, determiner="all")
+            with suppress(ReferenceProblem):
+                options = self.resolved_as(plain, role, None, parts_first=parts_first).options
+                fitting |= {thing for option in options for thing in option}
+        for mention in reversed(self.discourse.mentions):
+            things = self.discourse.things(mention.referent)
+            if mention.referent not in excluded and things and set(things) <= fitting:
+                return mention.referent
+        return None
+
+    def colors_of(self, thing: Thing) -> frozenset[str]:
+        """The basic colours that a thing is called by, or the one that it has."""
+        return self.resolver.colors_of(thing)
+
+    def named(self, words: Sequence[str]) -> bool:
+        """Whether anything is called by the last of some words."""
+        return bool(words) and self.resolver.names(words[-1])
+
+    def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
+        """A phrase that may leave its noun to an earlier one: to the latest, else to the only
+        other one that makes sense ("both cups on the tray, then the plum in the yellow one").
+        """
+        if phrase.determiner.isdigit() and not phrase.words:
+            why = "a number alone is a count or a name; say which thing"
+            raise ReferenceProblem(phrase.text, why, 3)
+        try:
+            return self.resolved_as(phrase, role, noun)
+        except ReferenceProblem:
+            others = quantity_of(phrase.determiner).other
+            if phrase.words[-1:] not in (("one",), ("ones",)) and (phrase.words or not others):
+                raise
+            found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
+            for other in self.discourse.nouns():
+                if noun is not None and not same_noun(other, noun):
+                    with suppress(ReferenceProblem):
+                        resolved = self.resolved_as(phrase, role, other)
+                        found.setdefault(resolved.options, resolved)
+            if len(found) != 1:
+                raise
+            return next(iter(found.values()))
+
+    def resolved_as(
+        self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
+    ) -> Resolved:
+        """What a phrase means where ``noun`` is the noun that it may leave out."""
+        elliptic = phrase.words[-1:] in (("one",), ("ones",))
+        if noun is not None and elliptic:
+            check_count(phrase, noun, self.discourse)
+        own_name = phrase.words and self.resolver.is_called(phrase.words[-1])
+        leaves_out = leaves_noun_out(phrase) and not own_name
+        if noun is not None and not is_descriptive(noun) and leaves_out:
+            check_count(phrase, noun, self.discourse)
+            phrase = replace(phrase, words=(*phrase.words, singular(noun)))
+        other = quantity_of(phrase.determiner).other
+        named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
+        own = named[0] if named else noun
+        elliptic = other or elliptic
+        resolve = partial(
+            self.resolver.resolve,
+            role=role,
+            noun=noun,
+            excluded=self.discourse.mentioned_like(own),
+            parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
+            pronoun=self.pronoun_things,
+        )
+        resolved = resolve(phrase)
+        alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
+        narrower = resolved
+        with suppress(ReferenceProblem):
+            narrower = resolve(alike) if alike is not None else resolved
+        return narrowed_to(narrower, resolved, phrase, self.discourse)
+
+    def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
+        """All that a pronoun in a modifier may mean, or "the other brush" there."""
+        if not phrase.pronoun:
+            return list(self.meaning(phrase, Role.ANY).options)
+        if phrase.pronoun not in PLURAL_PRONOUNS:
+            found = [self.discourse.things(index) for index in candidates(self.discourse)]
+            if not found:
+                raise ReferenceProblem(phrase.text, UNCLEAR, 2)
+            return found
+        indices = antecedents(self.discourse, phrase.pronoun, Role.ANY, phrase.text)
+        return [tuple(thing for index in indices for thing in self.discourse.things(index))]

@@ -1,0 +1,149 @@
+"""Which of the things that a noun fits are left by what is said behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import carriers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.landmarks import (
+    RANKED,
+    between_the_others,
+    means_the_others,
+    related,
+)
+from etot_cli.reasoning.language.reference.nouns import with_quality
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
+    STATES,
+    THING_NOUNS,
+    basic_color,
+    matches_any,
+)
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK, SceneState
+
+_SO_MANY = frozenset({*NUMBERS, *map(str, range(100)), "any", "some", "either"})
+"""Determiners that leave open which ones are left out."""
+
+
+def names_of_things(things: Sequence[Thing]) -> str:
+    """Names of things, parts and boards, for messages."""
+    parts = ((thing.name, thing.part or thing.board) for thing in things)
+    return ", ".join(dict.fromkeys(".".join(filter(None, names)) for names in parts))
+
+
+def modified(
+    things: list[Thing],
+    modifiers: Sequence[Modifier],
+    quantity: Quantity,
+    count: int | None,
+    phrase: NounPhrase,
+    scene: SceneState,
+    landmark_sets: Callable[[Modifier], list[list[list[Thing]]]],
+    notes: list[str],
+) -> list[Thing]:
+    """Things that all modifiers are true of, or that they fit best; ``notes`` grows.
+
+    ``landmark_sets`` gives all ways to understand a modifier's landmarks.
+    """
+    waiting = sorted(modifiers, key=lambda item: item.prep in RANKED)
+    unclear = 0
+    while waiting:
+        modifier = waiting.pop(0)
+        if modifier.prep is Prep.MATCHING:
+            why = "say which thing's colour is meant"
+            raise ReferenceProblem(phrase.text, why, 2)
+        if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
+            continue
+        if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
+            things = between_the_others(things, phrase, scene)
+            continue
+        if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
+            raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
+        ways = {
+            tuple(related(modifier, things, landmarks, quantity, count, scene, notes))
+            for landmarks in landmark_sets(modifier)
+        } - {()}
+        if len(ways) > 1 and unclear < len(waiting):
+            # Another modifier may tell.
+            waiting.append(modifier)
+            unclear += 1
+            continue
+        if len(ways) > 1:
+            named = [thing.name for way in ways for thing in way]
+            raise AmbiguousReference(phrase.text, sorted(named))
+        found = [thing for way in ways for thing in way]
+        if not found:
+            raise ReferenceProblem(
+                phrase.text,
+                f"this is true of none of what it could mean ({names_of_things(things)})",
+                1,
+            )
+        bare = modifier.denied and modifier.prep in (Prep.WITH, Prep.FROM)
+        alike = len(things) == 1 or all(thing.board for thing in things)
+        if bare and found == things and alike:
+            why = "there is no other one that this would tell it from"
+            raise ReferenceProblem(phrase.text, why, 2)
+        if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
+            found = space.with_what_lies_on_them(found, things, scene)
+        things = found
+    return things
+
+
+def left_out(
+    things: list[Thing],
+    phrase: NounPhrase,
+    words: tuple[str, ...],
+    role: Role,
+    vocabulary: Vocabulary,
+    scene: SceneState,
+    landmarks: Callable[[NounPhrase, str], list[Thing]],
+) -> list[Thing]:
+    """The things but for those that a phrase takes out; ``landmarks`` gives what these are."""
+    out: set[Thing] = set()
+    for word in phrase.without:
+        meant = with_quality(things, word, phrase, vocabulary, scene)
+        if not meant and basic_color(word) is None and word not in STATES:
+            raise ReferenceProblem(phrase.text, f"none of them is {word!r}", 1, word=word)
+        out |= meant
+    for modifier in phrase.modifiers:
+        if modifier.prep is Prep.QUALITY and modifier.denied:
+            out |= {
+                t
+                for word in modifier.words
+                for t in with_quality(things, word, phrase, vocabulary, scene)
+            }
+        if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
+            for item in modifier.phrases:
+                said = " ".join((item.determiner, *item.words, item.pronoun))
+                if said.split()[0] in _SO_MANY:
+                    why = "say which are left out of"
+                    raise AmbiguousReference(phrase.text, [t.name for t in things], why)
+                named = set(landmarks(item, words[-1]))
+                # "Everything" may have the place among it that it is to go to.
+                if role is Role.THEME and not matches_any(words[-1], THING_NOUNS):
+                    left = [t for t in things if t not in named]
+                    _check_left(item.text, named, left, scene)
+                out |= named
+    if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
+        raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
+    left = [thing for thing in things if thing not in out]
+    if not left:
+        raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
+    return left
+
+
+def _check_left(text: str, out: Iterable[Thing], moved: Sequence[Thing], scene: SceneState) -> None:
+    """Whether what is left out would come along in or on what is moved."""
+    names = {thing.name for thing in moved}
+    for thing in (thing for thing in out if thing.name in scene.states):
+        for below in names.intersection(carriers(scene, thing.name)):
+            why = f"{below} would take it along; say first where it is to go"
+            raise ReferenceProblem(text, why, 4)
