@@ -35,9 +35,8 @@ def perceive(
     """Puts a twin into the state that a look at the true world shows.
 
     The robot knows its own joints, gripper and how far doors and drawers are open. Every object,
-    furniture too, is seen shifted in the plane and turned about the vertical, uniformly within
-    ± the error; what a free one stands on fixes its height. Since things do not stand in each
-    other, nor in the fingers, free ones that seem to are moved aside.
+    furniture too, is seen with an error; what a free one stands on fixes its height. Since things
+    do not stand in each other, nor in the fingers, free ones that seem to are moved aside.
 
     Args:
         truth: the true world.
@@ -60,7 +59,7 @@ def perceive(
             believed.joint(part.joint).qpos[0] = min(max(value, low), high)
         position, quaternion = _place(twin, believed, name, entry)
         body = data.body(name)
-        _see(body.xpos, body.xquat, position, quaternion, error, rng)
+        position[:], quaternion[:] = seen_at(body.xpos, body.xquat, error, rng)
     mujoco.mj_kinematics(twin.model, believed)
     for name, entry in twin.entries.items():
         if entry.free:
@@ -82,21 +81,18 @@ def _place(
     return believed.mocap_pos[index], believed.mocap_quat[index]
 
 
-def _see(
-    true_position: Vector,
-    true_quaternion: Vector,
-    position: Vector,
-    quaternion: Vector,
-    error: Perception,
-    rng: np.random.Generator,
-) -> None:
+def seen_at(
+    position: Vector, quaternion: Vector, error: Perception, rng: np.random.Generator
+) -> tuple[Vector, Vector]:
+    """Where something at a position (3,) [m] and quaternion (4,) w x y z seems to be.
+
+    It is shifted in the plane and turned about the vertical, uniformly within ± the error.
+    """
     dx, dy, turn = rng.uniform(-1.0, 1.0, 3)
-    position[:] = true_position
-    position[:2] += np.array([dx, dy]) * error.position_m
     half = math.radians(turn * error.yaw_deg) / 2
-    mujoco.mju_mulQuat(
-        quaternion, np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), true_quaternion
-    )
+    turned = np.empty(4)
+    mujoco.mju_mulQuat(turned, np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), quaternion)
+    return position + error.position_m * np.array([dx, dy, 0.0]), turned
 
 
 def _part(twin: World, believed: mujoco.MjData, furthest: float) -> None:

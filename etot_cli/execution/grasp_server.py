@@ -24,9 +24,9 @@ from etot_cli.reconstruction.services import (
 )
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import Motion, framed
 from etot_cli.skills.motions import plan_motions
+from etot_cli.world.pose import Pose
 
 SAID = logging.getLogger(__name__)
 

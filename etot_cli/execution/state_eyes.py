@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from etot_cli.control.perception import seen_at
 from etot_cli.control.robot import Robot
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.specs.scene import Perception, SceneObject
+from etot_cli.world.arrays import Vector
 
 
 class StateEyes:
@@ -45,7 +45,7 @@ class StateEyes:
             for part in entry.parts:
                 parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
             body = data.body(entry.body)
-            objects[name] = self._seen(np.concatenate([body.xpos, body.xquat]), rng)
+            objects[name] = self._seen(body.xpos, body.xquat, rng)
         for name, sighting in last.objects.items():
             objects.setdefault(name, replace(sighting, mark=Mark.LOST))
         return Observation(robot.state(), objects, parts)
@@ -54,13 +54,6 @@ class StateEyes:
         """What an object that was not there before is, as a scene would say it."""
         return self._world.added.get(name)
 
-    def _seen(self, pose: NDArray[np.float64], rng: np.random.Generator) -> Sighting:
-        dx, dy, turn = rng.uniform(-1.0, 1.0, 3)
-        half = math.radians(turn * self._error.yaw_deg) / 2
-        quaternion = np.empty(4)
-        mujoco.mju_mulQuat(
-            quaternion, np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), pose[3:7]
-        )
-        w, i, j, k = (float(value) for value in quaternion)
-        x, y = pose[:2] + self._error.position_m * np.array([dx, dy])
-        return Sighting((float(x), float(y), float(pose[2])), (w, i, j, k))
+    def _seen(self, position: Vector, quaternion: Vector, rng: np.random.Generator) -> Sighting:
+        (x, y, z), (w, i, j, k) = seen_at(position, quaternion, self._error, rng)
+        return Sighting((float(x), float(y), float(z)), (float(w), float(i), float(j), float(k)))

@@ -14,11 +14,12 @@ import numpy as np
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
-from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.transit import plan_transit
 from etot_cli.world.arrays import Vector
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.model import World
+from etot_cli.world.pose import Pose
 from etot_cli.world.state import SceneState
 
 

@@ -18,7 +18,6 @@ from etot_cli.execution.perception.fitting import (
     Freedom,
     improved,
     outlined,
-    rotation_by,
     support,
 )
 from etot_cli.execution.perception.scan import Scan, scan_of
@@ -27,9 +26,9 @@ from etot_cli.execution.perception.unseen import out_of_sight
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reconstruction.capture.view import View
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import PhaseEnd, PhaseTrace, Trace
 from etot_cli.specs.load import load_task
+from etot_cli.world.pose import Pose, rotation_by
 from tests.opengl import need_opengl
 
 ACCURATE = 0.005

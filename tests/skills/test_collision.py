@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
-from etot_cli.skills.motion.kinematics import Arm, Pose, rotation_from_axes
+from etot_cli.skills.motion.kinematics import Arm
+from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL, BOX, UNIT, drawers
 from tests.world.helpers import Stage, make_scene, set_up
 

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from etot_cli.skills.hindrance import Hindrances, Passage
-from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes
 from etot_cli.skills.motion.ready import WAITING_CLEARANCE, ready_pose
+from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL, BOX, CUP, UNIT, drawers, episode
 from tests.world.helpers import make_scene, set_up
 

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.skills.motion import kinematics
-from etot_cli.skills.motion.kinematics import Arm, Pose, rotation_from_axes, straight, turn_about
+from etot_cli.skills.motion.kinematics import Arm
+from etot_cli.world.pose import LINE_STEP, Pose, rotation_from_axes, straight, turn_about
 from etot_cli.world.robot import load_robot
 
 ARM = Arm(load_robot("xarm6"))
@@ -147,7 +148,7 @@ def test_straight_ends_at_the_end_in_small_steps() -> None:
     assert poses[-1].position == pytest.approx(end.position)
     assert poses[-1].rotation == pytest.approx(end.rotation, abs=1e-6)
     for a, b in pairwise(poses):
-        assert np.linalg.norm(b.position - a.position) <= kinematics.LINE_STEP + 1e-9
+        assert np.linalg.norm(b.position - a.position) <= LINE_STEP + 1e-9
         assert angle_between(a.rotation, b.rotation) <= 0.125
 
 

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
-from etot_cli.skills.motion.kinematics import Arm, Pose, rotation_from_axes
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.transit import CLEARANCES, edge_free, plan_transit
+from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL
 from tests.world.helpers import make_scene, set_up
 

@@ -19,7 +19,6 @@ from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import Keepout
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.judging import DESK_GAP, Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.relief import free_distance, swept_shapes
@@ -29,6 +28,7 @@ from etot_cli.skills.placements.support import (
     container_support,
     surface_support,
 )
+from etot_cli.world.pose import Pose
 from tests.skills.helpers import BALL, BOX, OVEN, UNIT, drawers
 from tests.world.helpers import make_scene
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.skills.grasps.solids import Solids
-from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes
+from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.world.helpers import BALL, BOX, CUP, Stage, make_scene, set_up
 
 TURNED = BOX | {"at": [0.4, -0.3], "yaw_deg": 37}

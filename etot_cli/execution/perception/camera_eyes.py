@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
-from etot_cli.execution.perception.fitting import TOLERANCE, quaternion_of, visible_points
+from etot_cli.execution.perception.fitting import TOLERANCE, visible_points
 from etot_cli.execution.perception.following import Following
 from etot_cli.execution.perception.furniture import Furniture
 from etot_cli.execution.perception.hand import HandContents
@@ -22,8 +22,8 @@ from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import contradicted, out_of_sight, slid, with_its_part
 from etot_cli.execution.protocols import Camera, Frame
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.specs.scene import Scene
+from etot_cli.world.pose import Pose
 
 ARM_MARGIN = 0.009
 """Readings this near to the arm's surface are the arm's [m]."""
@@ -158,5 +158,5 @@ class CameraEyes:
 
 def _sighting(pose: Pose, mark: Mark) -> Sighting:
     x, y, z = (float(value) for value in pose.position)
-    w, i, j, k = (float(value) for value in quaternion_of(pose))
+    w, i, j, k = (float(value) for value in pose.quaternion)
     return Sighting((x, y, z), (w, i, j, k), mark)

@@ -20,7 +20,7 @@ from etot_cli.execution.perception.fitting import (
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose
 
 OWN = 8
 """Readings that tell a thing's colour, at least."""

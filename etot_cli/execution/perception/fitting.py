@@ -6,13 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose, rotation_by
 
 TOLERANCE = 0.007
 """Depth that is off by less, along the surface's normal, bears a pose out [m]: four standard
@@ -206,24 +205,6 @@ def _cross(one: Array, other: Array) -> Array:
     x, y, z = one.T
     u, v, w = other.T
     return np.column_stack([y * w - z * v, z * u - x * w, x * v - y * u])
-
-
-def quaternion_of(pose: Pose) -> Array:
-    """W x y z (4,) of the rotation that is nearest to what rounding has left of a pose's."""
-    found = np.empty(4)
-    left, _, right = np.linalg.svd(pose.rotation)
-    mujoco.mju_mat2Quat(found, np.ascontiguousarray(left @ right).ravel())
-    return found
-
-
-def rotation_by(turn: Array) -> Array:
-    """The rotation (3, 3) about the direction of ``turn`` (3,), by its length [rad]."""
-    angle = float(np.linalg.norm(turn))
-    if angle < 1e-12:
-        return np.eye(3)
-    x, y, z = turn / angle
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
 def outlined(

@@ -26,7 +26,7 @@ from etot_cli.execution.perception.unseen import (
     level_moves,
 )
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose
 
 STANDS = 0.9
 """An object is left in the same attitude when that much agrees."""

@@ -16,7 +16,7 @@ from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import GONE
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose
 
 PART_STEPS, PART_ROUNDS = 15, 3
 """Values of a part's joint that are compared, and how often between the two best ones."""

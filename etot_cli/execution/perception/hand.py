@@ -8,7 +8,7 @@ import numpy as np
 
 from etot_cli.control.robot import RobotState
 from etot_cli.execution.perception.twin import KnownScene
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose
 
 GRIPPED = 0.003
 """Fingers less than this from closed or from fully open hold nothing [m]."""

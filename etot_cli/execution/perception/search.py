@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.execution.perception.fitting import Support, improved, rotation_by, support
+from etot_cli.execution.perception.fitting import Support, improved, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
-from etot_cli.skills.motion.kinematics import Pose
+from etot_cli.world.pose import Pose, rotation_by
 
 HEADINGS = 8
 """Turns that are tried: neighbours are 45° apart, and a fit finds the rest."""

@@ -8,14 +8,13 @@ import mujoco
 import numpy as np
 
 from etot_cli.control.robot import RobotState
-from etot_cli.execution.perception.fitting import quaternion_of
 from etot_cli.execution.perception.surfaces import Surface, surface_of
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Part, Region
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects, settle_objects
+from etot_cli.world.pose import Pose
 
 SETTLE_S = 0.8
 """Simulated time for a new scene to come to rest [s]."""
@@ -84,7 +83,7 @@ class KnownScene:
 
     def put(self, name: str, pose: Pose) -> None:
         """Puts an object, or furniture, where it was seen."""
-        entry, quaternion = self.world.entries[name], quaternion_of(pose)
+        entry, quaternion = self.world.entries[name], pose.quaternion
         if entry.free:
             joint = self.data.joint(name).qpos
             joint[:3], joint[3:] = pose.position, quaternion

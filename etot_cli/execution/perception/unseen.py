@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from etot_cli.execution.perception.fitting import outlined, rotation_by, support
+from etot_cli.execution.perception.fitting import outlined, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.search import start
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.index import Region
+from etot_cli.world.pose import Pose, rotation_by
 
 STILL_THERE = 0.7
 """An object that agrees with so much of what is visible of its last place is still there."""

@@ -19,6 +19,7 @@ from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.placing import place_objects, settle_objects
+from etot_cli.world.pose import quaternion_of
 from etot_cli.world.state import owner_of
 
 SETTLE_SECONDS = 1.0
@@ -61,11 +62,9 @@ def scene_document(
         SpecError: a material is not known.
     """
     view = seen.view
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, view.rotation.ravel())
     camera = {
         "position": _rounded(view.position),
-        "quaternion": _rounded(quaternion, 6),
+        "quaternion": _rounded(quaternion_of(view.rotation), 6),
         "width": view.width, "height": view.height,
         "fx": view.fx, "fy": view.fy, "cx": view.cx, "cy": view.cy,
     }  # fmt: skip

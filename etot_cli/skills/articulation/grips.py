@@ -9,9 +9,9 @@ import numpy as np
 
 from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
 from etot_cli.skills.grasps.candidates import FINGER_ROOM
-from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Graspable
+from etot_cli.world.pose import Pose, rotation_from_axes, turn_about
 
 PITCHES = (0.0, 0.35, -0.35, 0.7, -0.7, 1.05, -1.05, 1.4, -1.4)
 """Turns of the hand about a bar that it grips [rad]: a hand that comes obliquely from above reaches

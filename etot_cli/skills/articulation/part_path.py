@@ -11,9 +11,10 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Passage
-from etot_cli.skills.motion.kinematics import JUMP, Pose, straight
+from etot_cli.skills.motion.kinematics import JUMP
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Part
+from etot_cli.world.pose import Pose, straight
 from etot_cli.world.snapshot import copy_configuration
 
 STANDOFF = 0.09

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
-from etot_cli.skills.motion.kinematics import UP, Pose, cross, rotation_from_axes
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Face, Part
+from etot_cli.world.pose import UP, Pose, cross, rotation_from_axes
 from etot_cli.world.robot_index import RobotIndex
 
 FACE_GAP, WIDEST_GAP = 0.004, 0.02

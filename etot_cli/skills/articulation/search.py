@@ -25,8 +25,8 @@ from etot_cli.skills.articulation.part_path import (
 from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.index import Part
+from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
 from etot_cli.world.state import CLOSED_AT, OPEN_AT
 

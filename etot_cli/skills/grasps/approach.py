@@ -10,9 +10,9 @@ import numpy as np
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.candidates import Grasp
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import UP, Pose, straight
 from etot_cli.world.relations import to_region
 from etot_cli.world.state import owner_of
 

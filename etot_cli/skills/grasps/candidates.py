@@ -26,10 +26,10 @@ from etot_cli.skills.grasps.lines import (
 )
 from etot_cli.skills.grasps.mouths import across_mouth
 from etot_cli.skills.grasps.solids import Interval, Solids
-from etot_cli.skills.motion.kinematics import Pose, rotation_from_axes, turn_about
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
+from etot_cli.world.pose import Pose, rotation_from_axes, turn_about
 
 FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""

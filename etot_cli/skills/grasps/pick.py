@@ -13,10 +13,10 @@ from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, arm_stopped, failed
 from etot_cli.world.build.pads import grip_friction
+from etot_cli.world.pose import Pose
 from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15

@@ -12,9 +12,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
+from etot_cli.world.pose import Pose
 
 Cells = NDArray[np.int64]
 

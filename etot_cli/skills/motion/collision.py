@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.frozen import MAX_KNOWN, FrozenScene
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
+from etot_cli.world.pose import Pose
 from etot_cli.world.state import owner_of
 
 CLEARANCE = 0.008

@@ -7,10 +7,10 @@ import copy
 import mujoco
 import numpy as np
 
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
+from etot_cli.world.pose import Pose, quaternion_of
 from etot_cli.world.snapshot import copy_configuration
 
 MAX_KNOWN = 8192
@@ -44,7 +44,7 @@ class FrozenScene:
         """Puts a free object of the frozen scene at a pose of its body, base frame."""
         address = self._data.joint(name).qpos
         address[:3] = pose.position
-        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(pose.rotation).ravel())
+        address[3:] = pose.quaternion
 
     def set_joint(self, joint: str, value: float) -> None:
         """Moves a door or drawer of the frozen scene, with what rides in or on a drawer."""
@@ -75,7 +75,7 @@ class FrozenScene:
         address = self._data.joint(name).qpos
         kept = address.copy()
         address[:3] = 0.0
-        mujoco.mju_mat2Quat(address[3:], np.ascontiguousarray(rotation).ravel())
+        address[3:] = quaternion_of(rotation)
         mujoco.mj_kinematics(self._model, self._data)
         low, high = object_bounds(self.world, self._data, name)
         address[:] = kept

@@ -15,6 +15,7 @@ import numpy as np
 
 from etot_cli.skills.deadline import Deadline
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 from etot_cli.world.robot import RobotSpec
 
 POSITION_TOLERANCE = 8e-4
@@ -32,9 +33,6 @@ IK_DAMPING = 1e-7
 JUMP = 0.35
 """Largest joint change between neighbouring points of a straight line [rad]; more is a change of
 the arm's branch in the middle of a path."""
-LINE_STEP = 0.035
-"""Spacing of poses on a straight line [m]; between them joints are interpolated, which at this
-spacing strays from the line by less than 0.5 mm."""
 RADIUS_STEP = 0.05
 """Spacing at which the range of the arm is looked at [m]."""
 FAR, TELLING_SEEDS = 0.05, 2
@@ -44,41 +42,6 @@ DISTINCT = 0.3
 """Joint difference from which two solutions count as different [rad]."""
 _LIMIT_MARGIN = 0.01
 """Descents begin this far inside the limits [rad], so that the first step can go either way."""
-UP = np.array([0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True)
-class Pose:
-    """A rigid transform to the base frame: ``position`` (3,) [m], ``rotation`` (3, 3)."""
-
-    position: Vector
-    rotation: Vector
-
-    @classmethod
-    def of(cls, position: Sequence[float], quaternion: Sequence[float]) -> Pose:
-        """From a position [m] and a quaternion w x y z."""
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, np.array(quaternion))
-        return cls(np.array(position), rotation.reshape(3, 3))
-
-    def place(self, points: Vector) -> Vector:
-        """Points (n, 3) of the frame in the base frame."""
-        return np.asarray(points @ self.rotation.T + self.position)
-
-    def local(self, points: Vector) -> Vector:
-        """Points (n, 3) of the base frame in the frame."""
-        return np.asarray((points - self.position) @ self.rotation)
-
-    def __matmul__(self, other: Pose) -> Pose:
-        return Pose(self.position + self.rotation @ other.position, self.rotation @ other.rotation)
-
-    def inverse(self) -> Pose:
-        """The inverse transform."""
-        return Pose(-self.rotation.T @ self.position, self.rotation.T)
-
-    def moved(self, offset: Vector) -> Pose:
-        """The same orientation, shifted by ``offset`` (3,) in the base frame [m]."""
-        return Pose(self.position + offset, self.rotation)
 
 
 @dataclass(frozen=True)
@@ -172,10 +135,7 @@ class Arm:
 
     def _descend(self, target: Pose, seed: Vector, free_spin: bool) -> IkResult:
         task = self._tasks[free_spin]
-        there = np.empty(7)
-        mujoco.mju_mat2Quat(there[:4], target.rotation.ravel())
-        there[4:] = target.position
-        task.set_target(mink.SE3(there))
+        task.set_target(mink.SE3(np.concatenate([target.quaternion, target.position])))
         joints = _within(seed, self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN)
         best = np.inf
         stalled = 0
@@ -290,50 +250,3 @@ class Arm:
 def _within(joints: Vector, lower: Vector, upper: Vector) -> Vector:
     """``np.clip`` with less around it."""
     return np.minimum(np.maximum(joints, lower), upper)
-
-
-def rotation_from_axes(approach: Vector, closing: Vector) -> Vector:
-    """Tool rotation (3, 3) with z along ``approach`` and y along ``closing`` (made orthogonal)."""
-    z = approach / math.sqrt(float(approach @ approach))
-    y = closing - z * float(closing @ z)
-    y = y / math.sqrt(float(y @ y))
-    rotation = np.empty((3, 3))
-    rotation[:, 0] = cross(y, z)
-    rotation[:, 1] = y
-    rotation[:, 2] = z
-    return rotation
-
-
-def cross(first: Vector, second: Vector) -> Vector:
-    """Cross product of two vectors (3,); ``np.cross`` takes ten times as long for so little."""
-    a, b, c = first.tolist()
-    d, e, f = second.tolist()
-    return np.array([b * f - c * e, c * d - a * f, a * e - b * d])
-
-
-def turn_about(axis: Vector, angle: float) -> Vector:
-    """Rotation matrix (3, 3) about a unit axis (3,) by an angle [rad]."""
-    quaternion, matrix = np.zeros(4), np.zeros(9)
-    mujoco.mju_axisAngle2Quat(quaternion, np.asarray(axis, dtype=np.float64), angle)
-    mujoco.mju_quat2Mat(matrix, quaternion)
-    return matrix.reshape(3, 3)
-
-
-def straight(start: Pose, end: Pose, step: float = LINE_STEP) -> list[Pose]:
-    """Poses along a straight line (spherical interpolation of the rotation), end included."""
-    distance = float(np.linalg.norm(end.position - start.position))
-    relative = start.rotation.T @ end.rotation
-    angle = float(np.arccos(np.clip((np.trace(relative) - 1) / 2, -1.0, 1.0)))
-    count = max(int(np.ceil(max(distance / step, angle / 0.12))), 1)
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, relative.ravel())
-    velocity = np.zeros(3)
-    mujoco.mju_quat2Vel(velocity, quaternion, 1.0)
-    poses = []
-    for i in range(1, count + 1):
-        share = i / count
-        norm = float(np.linalg.norm(velocity))
-        turn = turn_about(velocity / norm, norm * share) if norm > 1e-9 else np.eye(3)
-        position = start.position + share * (end.position - start.position)
-        poses.append(Pose(position, start.rotation @ turn))
-    return poses

@@ -12,11 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-import mujoco
-import numpy as np
-
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 from etot_cli.world.state import owner_of
 
 
@@ -123,10 +120,8 @@ class FramedPose:
 def framed(frame: str, origin: Pose, pose: Pose) -> FramedPose:
     """A base-frame pose in the frame called so, which now is at ``origin``."""
     local = origin.inverse() @ pose
-    quaternion = np.empty(4)
-    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(local.rotation).ravel())
     x, y, z = (round(float(value), 6) for value in local.position)
-    w, i, j, k = (round(float(value), 6) for value in quaternion)
+    w, i, j, k = (round(float(value), 6) for value in local.quaternion)
     return FramedPose(frame, (x, y, z), (w, i, j, k))
 
 

@@ -6,10 +6,11 @@ import mujoco
 import numpy as np
 
 from etot_cli.skills.motion.collision import CollisionChecker
-from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import place_objects
+from etot_cli.world.pose import Pose
 
 RISES = tuple(0.04 * step for step in range(1, 8))
 """Heights above the home pose at which the hand may wait [m], the lowest that is free first."""

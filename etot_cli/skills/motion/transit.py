@@ -12,8 +12,9 @@ from itertools import pairwise
 import numpy as np
 
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
-from etot_cli.skills.motion.kinematics import Arm, Pose
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 
 Free = Callable[[Vector], bool]
 

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from etot_cli.skills.action import Keepout
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.orientation import discomfort
 from etot_cli.skills.placements.relief import (
     Relief,
@@ -30,6 +29,7 @@ from etot_cli.skills.placements.relief import (
 from etot_cli.skills.placements.support import Support
 from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Undersides
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 
 Cells = NDArray[np.int64]
 Preference = Callable[[Vector], Vector]

@@ -9,12 +9,12 @@ import numpy as np
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import Pose, straight
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import placements_into, placements_on
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose, straight
 from etot_cli.world.state import DESK, CauseKind, SceneState, owner_of
 
 LOWER_SPEED = 0.12

@@ -8,9 +8,9 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import UP, turn_about
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import UP, turn_about
 from etot_cli.world.relations import standing_axis
 
 HIGHEST_APPROACH = 0.1

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import UP, Pose, straight
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.placements.judging import Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
+from etot_cli.world.pose import UP, Pose, straight
 
 HOVER = 0.06
 """Height above a surface from which an object is lowered straight [m]."""

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.judging import Cells, Judge, Judged, Quality, Request, Turned
 from etot_cli.skills.placements.orientation import orientations
 from etot_cli.skills.placements.relief import free_distance, under
 from etot_cli.skills.placements.undersides import Stamps
+from etot_cli.world.pose import Pose
 
 LOWER = 0.85
 """What is laid down becomes at least this much lower, else it stays as it is held."""

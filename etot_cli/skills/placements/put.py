@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Preference, Request
 from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.refusal import why_no_place
 from etot_cli.skills.placements.support import container_support, surface_support
 from etot_cli.skills.placements.wanted import wanted_spots
+from etot_cli.world.pose import Pose
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import CauseKind
 

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
 
 Cells = NDArray[np.int64]

@@ -9,9 +9,9 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.kinematics import Pose
 from etot_cli.skills.placements.relief import Shape, Stamp, shapes_of, stamp
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
 
 SNUG_RELEASE = 0.006

@@ -12,6 +12,7 @@ from etot_cli.specs import scene as specs
 from etot_cli.specs.objects import ROLLING_DEFAULT
 from etot_cli.world.build.material import SOLIMP, SOLREF
 from etot_cli.world.colors import rgb
+from etot_cli.world.pose import quaternion_of
 from etot_cli.world.state import DESK
 
 TIMESTEP = 0.002
@@ -94,12 +95,10 @@ def _add_camera(world: Any, name: str, camera: specs.Camera) -> None:
     rotation = camera_rotation(camera)
     # MuJoCo cameras look along -z with y up; the optical frame looks along +z with y down.
     flipped = rotation @ np.diag([1.0, -1.0, -1.0])
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, flipped.ravel())
     world.add_camera(
         name=name,
         pos=list(camera.position),
-        quat=quaternion.tolist(),
+        quat=quaternion_of(flipped).tolist(),
         resolution=[camera.width, camera.height],
         sensor_size=[camera.width * 1e-5, camera.height * 1e-5],
         focal_pixel=[camera.fx, camera.fy],
