@@ -14,14 +14,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from etot_cli.errors import ServiceError
+from etot_cli.execution.perception.scan import view_of
 from etot_cli.execution.protocols import Frame
 from etot_cli.reconstruction.capture.view import Array, Mask
-from etot_cli.reconstruction.services import (
-    Server,
-    depth_picture,
-    mask_picture,
-    picture,
-)
+from etot_cli.reconstruction.services import Server, what_is_seen
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.motion import Motion, framed
@@ -42,8 +38,6 @@ ROOM = 0.03
 """How much further than the grasp's width the fingers open for the approach [m]."""
 SAME = 0.001
 """A motion whose tool ends this near to a grasp is a motion to that grasp [m]."""
-RIGID = 0.02
-"""A matrix this far from a rotation is refused; digits lost in JSON leave far less."""
 LEVEL = 0.5
 """Sine of the approach's fall from which a grasp counts as from above."""
 
@@ -112,19 +106,8 @@ class GraspServer:
         Raises:
             ServiceError: no usable reply.
         """
-        matrix = frame.matrix
-        request = {
-            "color": picture(frame.color),
-            "depth": depth_picture(frame.depth),
-            "mask": mask_picture(mask),
-            "intrinsics": {
-                "fx": float(matrix[0, 0]), "fy": float(matrix[1, 1]),
-                "cx": float(matrix[0, 2]), "cy": float(matrix[1, 2]),
-            },
-            "object": name,
-            "max_width": opening,
-        }  # fmt: skip
-        reply = self._server.ask(request)
+        seen = what_is_seen(frame.color, frame.depth, mask, view_of(frame))
+        reply = self._server.ask({**seen, "object": name, "max_width": opening})
         entries = reply.get("grasps")
         if not isinstance(entries, list) or len(entries) > MOST_GRASPS:
             raise self._server.error(f"the answer has no list 'grasps' of at most {MOST_GRASPS}")
@@ -138,19 +121,7 @@ class GraspServer:
             raise self._server.error(f"{where} is no object")
         score = self._number(entry, "score", where, -1e9, 1e9)
         width = self._number(entry, "width", where, 0.0, 0.5)
-        try:
-            pose = np.array(entry.get("pose"), dtype=np.float64)
-        except (TypeError, ValueError):
-            pose = np.zeros(0)
-        if pose.shape != (4, 4) or not np.isfinite(pose).all():
-            raise self._server.error(f"{where}.pose is not 4×4 numbers")
-        rotation = pose[:3, :3]
-        if (
-            np.abs(rotation @ rotation.T - np.eye(3)).max() > RIGID
-            or np.linalg.det(rotation) < 0
-            or np.abs(pose[3] - [0, 0, 0, 1]).max() > RIGID
-        ):
-            raise self._server.error(f"{where}.pose is no rigid pose")
+        pose = self._server.pose(entry.get("pose"), f"{where}.pose")
         return ServerGrasp(frame.camera_to_base @ pose, width, score)
 
     def _number(

@@ -17,9 +17,15 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import EtotError, ServiceError
 from etot_cli.reconstruction.capture.folder import LEAST_MASK, mask_of, safe_name, unique_name
-from etot_cli.reconstruction.capture.pictures import decode_png, encode_png
+from etot_cli.reconstruction.capture.pictures import (
+    DEPTH_UNIT,
+    decode_png_text,
+    depth_text,
+    png_text,
+)
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.services.endpoint import SHOWN, Endpoint
+from etot_cli.world.pose import is_rigid
 
 DEADLINE = 120.0
 """A whole stage, retries included, takes no longer [s]."""
@@ -58,6 +64,31 @@ class Server:
         """An error that names this server; what may be secret in its URL is left out."""
         return self._endpoint.error(reason)
 
+    def numbers(self, value: Any, shape: tuple[int, ...], what: str) -> Array:
+        """An array of finite numbers of a reply; ``what`` is what messages call it.
+
+        Raises:
+            ServiceError: it is none of that shape.
+        """
+        try:
+            array = np.array(value, dtype=np.float64)
+        except (TypeError, ValueError):
+            array = np.zeros(0)
+        if array.shape != shape or not np.isfinite(array).all():
+            raise self.error(f"{what!r} is not {'×'.join(map(str, shape)) or 'a'} number(s)")
+        return array
+
+    def pose(self, value: Any, what: str) -> Array:
+        """A rigid pose (4, 4) of a reply.
+
+        Raises:
+            ServiceError: it is none.
+        """
+        pose = self.numbers(value, (4, 4), what)
+        if not is_rigid(pose):
+            raise self.error(f"{what!r} is no rigid pose")
+        return pose
+
     @property
     def _endpoint(self) -> Endpoint:
         return Endpoint(self.url, f"{self.stage} server", self.deadline, MAX_REPLY)
@@ -65,23 +96,22 @@ class Server:
 
 def picture(color: NDArray[np.uint8]) -> str:
     """An RGB picture (h, w, 3) as base64 PNG."""
-    return base64.b64encode(encode_png(color[..., ::-1])).decode()
-
-
-def depth_picture(depth: Array) -> dict[str, Any]:
-    """Depth (h, w) [m] as base64 16-bit PNG in tenths of a millimetre."""
-    units = np.where(depth < 6.5, np.round(depth * 10_000), 0).astype(np.uint16)
-    return {"png": base64.b64encode(encode_png(units)).decode(), "scale": 0.0001}
+    return png_text(color[..., ::-1])
 
 
 def mask_picture(mask: Mask) -> str:
     """A mask (h, w) as base64 PNG, 255 = object."""
-    return base64.b64encode(encode_png(mask.astype(np.uint8) * 255)).decode()
+    return png_text(mask.astype(np.uint8) * 255)
 
 
-def intrinsics(view: View) -> dict[str, float]:
-    """Intrinsics as they stand in requests [px]."""
-    return {"fx": view.fx, "fy": view.fy, "cx": view.cx, "cy": view.cy}
+def what_is_seen(color: NDArray[np.uint8], depth: Array, mask: Mask, view: View) -> dict[str, Any]:
+    """An object in an RGB-D picture as it stands in requests; intrinsics in pixels."""
+    return {
+        "color": picture(color),
+        "depth": {"png": depth_text(depth), "scale": DEPTH_UNIT},
+        "mask": mask_picture(mask),
+        "intrinsics": {"fx": view.fx, "fy": view.fy, "cx": view.cx, "cy": view.cy},
+    }
 
 
 def ask_masks(
@@ -101,9 +131,8 @@ def ask_masks(
     for index, entry in enumerate(entries):
         if not isinstance(entry, dict) or not isinstance(entry.get("png"), str):
             raise server.error(f"masks[{index}] has no 'png'")
-        data = _decoded(server, entry["png"], f"masks[{index}].png")
         try:
-            image = decode_png(data, f"masks[{index}].png")
+            image = decode_png_text(entry["png"], f"masks[{index}].png")
         except EtotError as error:
             raise server.error(str(error)) from None
         if image.shape[:2] != color.shape[:2]:
@@ -135,7 +164,10 @@ def ask_mesh(
         raise server.error(f"format {kind[:20]!r}; expected glb, obj or stl")
     if not isinstance(reply.get("mesh"), str):
         raise server.error("the answer has no 'mesh'")
-    data = _decoded(server, reply["mesh"], "mesh")
+    try:
+        data = base64.b64decode(reply["mesh"], validate=True)
+    except (binascii.Error, ValueError):
+        raise server.error("mesh is no base64") from None
     if len(data) > MAX_MESH:
         raise server.error(f"the mesh is larger than {MAX_MESH // 2**20} MiB")
     return data, kind
@@ -148,12 +180,7 @@ def ask_pose(url: str, request: dict[str, Any], deadline: float = DEADLINE) -> A
         ServiceError: no usable reply.
     """
     server = Server(url, "pose", deadline)
-    reply = server.ask(request)
-    pose = _numbers(server, reply.get("pose"), (4, 4), "pose")
-    rotation = pose[:3, :3]
-    if np.abs(rotation @ rotation.T - np.eye(3)).max() > 0.02 or np.linalg.det(rotation) < 0:
-        raise server.error("'pose' is no rigid pose")
-    return pose
+    return server.pose(server.ask(request).get("pose"), "pose")
 
 
 @dataclass(frozen=True)
@@ -182,31 +209,14 @@ def ask_articulation(
         return None
     if kind not in ("prismatic", "revolute"):
         raise server.error(f"type {str(kind)[:20]!r}; expected prismatic, revolute or none")
-    axis = _numbers(server, reply.get("axis"), (3,), "axis")
+    axis = server.numbers(reply.get("axis"), (3,), "axis")
     length = float(np.linalg.norm(axis))
     if length < 1e-6:
         raise server.error("'axis' has no length")
-    origin = _numbers(server, reply.get("origin", [0, 0, 0]), (3,), "origin")
-    limits = _numbers(server, reply.get("limits"), (2,), "limits")
-    value = float(_numbers(server, reply.get("value", 0.0), (), "value"))
+    origin = server.numbers(reply.get("origin", [0, 0, 0]), (3,), "origin")
+    limits = server.numbers(reply.get("limits"), (2,), "limits")
+    value = float(server.numbers(reply.get("value", 0.0), (), "value"))
     bound = 1.0 if kind == "prismatic" else np.pi
     if not -bound <= limits[0] < limits[1] <= bound:
         raise server.error(f"'limits' are {limits.tolist()}; expected low < high in ±{bound:.2f}")
     return AskedJoint(kind, axis / length, origin, (float(limits[0]), float(limits[1])), value)
-
-
-def _decoded(server: Server, text: str, what: str) -> bytes:
-    try:
-        return base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError):
-        raise server.error(f"{what} is no base64") from None
-
-
-def _numbers(server: Server, value: Any, shape: tuple[int, ...], what: str) -> Array:
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        array = np.zeros(0)
-    if array.shape != shape or not np.isfinite(array).all():
-        raise server.error(f"{what!r} is not {'×'.join(map(str, shape)) or 'a'} number(s)")
-    return array

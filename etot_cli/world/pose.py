@@ -18,6 +18,9 @@ from etot_cli.world.arrays import Vector
 LINE_STEP = 0.035
 """Spacing of poses on a straight line [m]; between them joints are interpolated, which at this
 spacing strays from the line by less than 0.5 mm."""
+ROTATION_TOLERANCE = 0.02
+"""Entries of a rotation times its transpose may be off the identity by this much where somebody
+wrote it down: rounding to three digits leaves less."""
 UP = np.array([0.0, 0.0, 1.0])
 """Away from the floor, base frame."""
 
@@ -66,6 +69,14 @@ def quaternion_of(rotation: Vector) -> Vector:
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(rotation).ravel())
     return quaternion
+
+
+def is_rigid(transform: Vector) -> bool:
+    """Whether a matrix (4, 4) is a rotation, a position and the row 0 0 0 1."""
+    rotation = transform[:3, :3]
+    skew = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
+    last = float(np.abs(transform[3] - [0.0, 0.0, 0.0, 1.0]).max())
+    return skew <= ROTATION_TOLERANCE and last <= 1e-6 and bool(np.linalg.det(rotation) > 0)
 
 
 def rotation_from_axes(approach: Vector, closing: Vector) -> Vector:

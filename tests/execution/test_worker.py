@@ -16,9 +16,10 @@ import pytest
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.errors import RobotStoppedError, ServiceError
 from etot_cli.execution.observation import Mark, Observation, Sighting
+from etot_cli.execution.protocols import Frame
 from etot_cli.execution.robots import worker, worker_process
-from etot_cli.execution.robots.worker import Episode, WorkerEyes, WorkerRobot
-from etot_cli.execution.robots.worker_messages import line_of
+from etot_cli.execution.robots.worker import Episode, WorkerCamera, WorkerEyes, WorkerRobot
+from etot_cli.execution.robots.worker_messages import Picture, line_of
 from etot_cli.execution.robots.worker_server import Served, serve
 from etot_cli.skills.motion.motion import PhaseEnd, Press
 
@@ -171,12 +172,12 @@ class Toy:
         self.calls.append("close")
 
 
-def exchange(robot: Toy, *requests: dict) -> list[dict]:
+def exchange(robot: Toy, *requests: dict, camera=None) -> list[dict]:
     sink, out = io.BytesIO(), sys.stdout
     hello = {"id": 0, "method": "hello", "protocol": "etot.worker/1"}
     lines = b"".join(line_of(item) for item in [hello, *requests])
     try:
-        serve(lambda _: Served(robot), io.BytesIO(lines), sink)
+        serve(lambda _: Served(robot, camera=camera), io.BytesIO(lines), sink)
     finally:
         sys.stdout = out
     return [json.loads(line) for line in sink.getvalue().splitlines()][1:]
@@ -203,6 +204,36 @@ def test_the_server_hands_everything_on_to_the_last_digit():
     done = [call for call in toy.calls if call not in ("stop", "close")]
     assert done == [(targets, Guards(0.01)), (0.5, Guards(), True), 0.1]
     assert toy.calls[-1] == "close"  # the input ended
+
+
+class Lens:
+    """A camera that took one picture."""
+
+    def __init__(self, taken: Frame):
+        self.frame = lambda: taken
+
+    def connect(self):
+        return "toy"
+
+    def close(self):
+        pass
+
+
+def test_a_picture_comes_over_the_pipe_as_it_was_taken(monkeypatch):
+    color = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
+    depth = np.array([[0.0, 0.5, 1.2345], [6.56, 6.5534, 9.0]])
+    taken = Frame(color, depth, np.diag([600.0, 600.0, 1.0]), np.eye(4), 1.5)
+    (reply,) = exchange(Toy(), {"id": 1, "method": "frame"}, camera=Lens(taken))
+    robot = rogue("well")
+    robot.offers = frozenset({"frame"})
+    monkeypatch.setattr(robot, "ask", lambda *_: Picture.model_validate(reply["result"]))
+    seen = WorkerCamera(robot).frame()
+    assert np.array_equal(seen.color, color)
+    within = [[0.0, 0.5, 1.2345], [0.0, 6.5534, 0.0]]  # what 16 bits hold
+    assert seen.depth == pytest.approx(np.array(within), abs=1e-9)
+    reply["result"]["camera_to_base"][0][0] = 2.0
+    with pytest.raises(ServiceError, match="no rigid pose"):
+        WorkerCamera(robot).frame()
 
 
 def test_nothing_is_done_before_hello():

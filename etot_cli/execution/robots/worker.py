@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import binascii
 import contextlib
 from dataclasses import dataclass
 from typing import Any
@@ -29,10 +27,11 @@ from etot_cli.execution.robots.worker_messages import (
     fault_in,
 )
 from etot_cli.execution.robots.worker_process import WorkerProcess
-from etot_cli.reconstruction.capture.pictures import decode_png
+from etot_cli.reconstruction.capture.pictures import decode_png_text
 from etot_cli.skills.motion.motion import PhaseEnd
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import is_rigid
 
 STARTS_WITHIN = 60.0
 """Time for a worker to load what it needs and say hello [s]; simulators take their time."""
@@ -219,6 +218,8 @@ class WorkerCamera:
             matrix = pose = np.zeros(0)
         if matrix.shape != (3, 3) or pose.shape != (4, 4):
             raise self._worker.fault("frame", "expected matrix 3 × 3 and camera_to_base 4 × 4")
+        if not is_rigid(pose):
+            raise self._worker.fault("frame", "camera_to_base is no rigid pose")
         rgb = np.ascontiguousarray(color[..., 2::-1])
         return Frame(rgb, depth * found.depth_scale, matrix, pose, found.taken_s)
 
@@ -227,8 +228,6 @@ class WorkerCamera:
 
     def _decoded(self, text: str) -> NDArray[Any]:
         try:
-            return decode_png(base64.b64decode(text, validate=True), "picture")
-        except (binascii.Error, ValueError):
-            raise self._worker.fault("frame", "a picture is no base64") from None
+            return decode_png_text(text, "picture")
         except SpecError as error:
             raise self._worker.fault("frame", str(error)) from None

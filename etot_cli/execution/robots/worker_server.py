@@ -5,7 +5,6 @@ For simulators and bridges in Python; whoever speaks another language follows do
 
 from __future__ import annotations
 
-import base64
 import json
 import sys
 import threading
@@ -30,10 +29,8 @@ from etot_cli.execution.robots.worker_messages import (
     line_of,
     rows_of,
 )
-from etot_cli.reconstruction.capture.pictures import encode_png
+from etot_cli.reconstruction.capture.pictures import DEPTH_UNIT, depth_text, png_text
 
-DEPTH_SCALE = 0.0001
-"""Metres per unit of the depth pictures sent."""
 NO_STATE = RobotState(np.zeros(1), np.zeros(1), 0.0, 0.0)
 """Stands where a request carries no state of the robot."""
 
@@ -168,15 +165,10 @@ class _Session:
 
 def _picture(camera: Camera) -> dict[str, Any]:
     frame = camera.frame()
-    units = np.where(frame.depth < 65535 * DEPTH_SCALE, np.round(frame.depth / DEPTH_SCALE), 0)
-    pictures = {"color": frame.color[..., ::-1], "depth": units.astype(np.uint16)}
-    encoded = {
-        name: base64.b64encode(encode_png(np.ascontiguousarray(image))).decode()
-        for name, image in pictures.items()
-    }
     return {
-        **encoded,
-        "depth_scale": DEPTH_SCALE,
+        "color": png_text(frame.color[..., ::-1]),
+        "depth": depth_text(frame.depth),
+        "depth_scale": DEPTH_UNIT,
         "matrix": frame.matrix.tolist(),
         "camera_to_base": frame.camera_to_base.tolist(),
         "taken_s": frame.taken_s,

@@ -35,10 +35,9 @@ def asked_joints(
             options.articulation_url,
             {
                 "name": solid.name,
-                "color": services.picture(seen.capture.color),
-                "depth": services.depth_picture(seen.depth),
-                "mask": services.mask_picture(solid.segment.mask),
-                "intrinsics": services.intrinsics(seen.view),
+                **services.what_is_seen(
+                    seen.capture.color, seen.depth, solid.segment.mask, seen.view
+                ),
             },
             options.deadline,
         )

@@ -17,7 +17,8 @@ from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.pictures import read_png
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.specs.reading import read_utf8
-from etot_cli.specs.scene import MAX_OBJECTS
+from etot_cli.specs.scene import MAX_OBJECTS, RESERVED_NAMES
+from etot_cli.world.pose import is_rigid
 
 NEAREST, FARTHEST = 0.1, 5.0
 """The median depth of a desk scene lies between these [m]; else the unit is wrong."""
@@ -25,8 +26,6 @@ LEAST_READINGS = 0.02
 """With a smaller share of valid pixels a depth picture is empty."""
 SCALES = (0.001, 0.0001, 0.00025, 0.01, 1.0)
 """Metres per unit that depth pictures are written with."""
-ROTATION_TOLERANCE = 0.02
-"""A matrix this far from a rotation is refused; rounding to three digits leaves less."""
 MAX_MASKS = MAX_OBJECTS
 LEAST_MASK = 60
 """A smaller mask shows too little of an object [px]."""
@@ -162,13 +161,7 @@ def _pose(info: dict[str, Any], path: Path) -> Array:
     where = "camera_to_base"
     if pose.shape != (4, 4) or not np.isfinite(pose).all():
         raise SpecError("expected 4 rows of 4 numbers", file=str(path), path=where)
-    rotation = pose[:3, :3]
-    skew = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
-    if (
-        skew > ROTATION_TOLERANCE
-        or np.linalg.det(rotation) < 0
-        or np.any(np.abs(pose[3] - [0, 0, 0, 1]) > 1e-6)
-    ):
+    if not is_rigid(pose):
         raise SpecError(
             "is no rigid pose (a rotation, a position in metres and the row 0 0 0 1)",
             file=str(path), path=where,
@@ -178,7 +171,7 @@ def _pose(info: dict[str, Any], path: Path) -> Array:
             f"puts the camera {np.linalg.norm(pose[:3, 3]):.4g} m from the base; expected metres",
             file=str(path), path=where,
         )  # fmt: skip
-    left, _, right = np.linalg.svd(rotation)
+    left, _, right = np.linalg.svd(pose[:3, :3])
     pose[:3, :3] = left @ right  # rounding of written numbers
     return pose
 
@@ -306,8 +299,6 @@ def safe_name(text: str) -> str:
 
 def unique_name(name: str, taken: Any) -> str:
     """The name, with a number when it is taken or reserved."""
-    from etot_cli.specs.scene import RESERVED_NAMES
-
     if name not in taken and name not in RESERVED_NAMES:
         return name
     number = 2

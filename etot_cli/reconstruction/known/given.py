@@ -156,10 +156,9 @@ def _asked_pose(
         {
             "name": solid.name, "mesh": base64.b64encode(mesh.data).decode(), "format": mesh.kind,
             "metres_per_unit": metres_per_unit,
-            "color": services.picture(seen.capture.color),
-            "depth": services.depth_picture(seen.depth),
-            "mask": services.mask_picture(solid.segment.mask),
-            "intrinsics": services.intrinsics(seen.view),
+            **services.what_is_seen(
+                seen.capture.color, seen.depth, solid.segment.mask, seen.view
+            ),
         },
         options.deadline,
     )  # fmt: skip
