@@ -1063,3 +1063,21 @@ def lounge() -> SceneState:
         cup("mug", (0.32, -0.40), label="tea mug", color="green"),
         drawers("dresser", (0.66, 0.40), {"top": 0.9, "bottom": 0.0}, color="brown"),
     )  # fmt: skip
+
+
+def grocer() -> SceneState:
+    """Fruit on the desk and in a bowl, a vegetable, a milk carton, a toy car, a plate, a basket."""
+    return scene(
+        item(
+            "basket", "bowl", (0.55, 0.30), size=(0.24, 0.24, 0.10), label="basket", color="brown"
+        ),
+        item("bowl", "bowl", (0.55, -0.10), size=(0.16, 0.16, 0.06), label="bowl", color="white"),
+        ball("pear", (0.55, -0.10), on="bowl", inside="bowl", color="green", z=0.17),
+        ball("peach_1", (0.35, 0.20), label="peach", color="orange"),
+        ball("peach_2", (0.35, 0.05), label="peach", color="red"),
+        ball("leek", (0.35, -0.10), color="green"),
+        item("milk", "box", (0.35, -0.22), size=(0.05, 0.05, 0.12), label="milk carton"),
+        item("car", "box", (0.35, -0.34), size=(0.08, 0.04, 0.03), label="racing car"),
+        item("plate", "cylinder", (0.55, -0.35), size=(0.2, 0.2, 0.015), color="white"),
+        item("mug", "cup", (0.35, 0.36), size=(0.08, 0.08, 0.09), label="coffee mug"),
+    )

@@ -9,11 +9,12 @@ import re
 from pathlib import Path
 
 from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.categories import SORTS
 from etot_cli.reasoning.language.words.lexicon import KIND_GROUPS
 from etot_cli.reasoning.language.words.patterns import spellings
 
 PAGE = Path(__file__).parents[2] / "docs" / "instructions.md"
-TABLE = re.compile(r"(<!-- (relations|nouns): [^\n]*-->\n).*?(<!-- end -->)", re.DOTALL)
+TABLE = re.compile(r"(<!-- (relations|nouns|categories): [^\n]*-->\n).*?(<!-- end -->)", re.DOTALL)
 
 
 def tables() -> dict[str, str]:
@@ -25,7 +26,12 @@ def tables() -> dict[str, str]:
         f"| `{kind}` | {'; '.join(', '.join(group) for group in groups)} |\n"
         for kind, groups in KIND_GROUPS.items()
     ]
+    sorts = [
+        f"| {', '.join(words.split())} | {len(nouns)} | {', '.join(sorted(nouns)[:5])} … |\n"
+        for words, nouns in SORTS.items()
+    ]
     return {
+        "categories": "".join(["| said | nouns | such as |\n|---|---|---|\n", *sorts]),
         "relations": "".join(["| relation | said as |\n|---|---|\n", *said]),
         "nouns": "".join(["| kind | nouns |\n|---|---|\n", *nouns]),
     }

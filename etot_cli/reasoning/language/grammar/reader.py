@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.text import (
     words_in,
 )
 from etot_cli.reasoning.language.words import known
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -136,6 +137,7 @@ def _is_known(word: str, vocabulary: Iterable[str]) -> bool:
         or word in known.ALL_WORDS
         or single in COMMON_NOUNS
         or single in PURPOSES
+        or is_category(word)
         or word in MATERIALS
         or any(word in table for table in tables)
         or basic_color(word) is not None

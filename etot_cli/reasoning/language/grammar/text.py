@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 
 MAX_CHARACTERS = 2000
@@ -58,6 +59,10 @@ def normalized(text: str) -> str:
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
     text = re.sub(rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]]), text)
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)
+    # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
+    pieces = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
+    text = re.sub(rf"\b{pieces} (?=(?:{'|'.join(CATEGORIES)})\b)", "", text)
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)

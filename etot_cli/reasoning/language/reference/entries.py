@@ -10,6 +10,7 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.text import normalized
+from etot_cli.reasoning.language.words.categories import PACKED, PACKS
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -110,6 +111,12 @@ class Entry:
         # A key of a car is no car; a cube of sponge is a sponge.
         other = heads & (COMMON_NOUNS - _SHAPES) and singular(word) in COMMON_NOUNS
         return not holds and not other
+
+    def counts_among(self, members: frozenset[str]) -> bool:
+        """Whether it is called by one of some nouns, or is a pack of what is."""
+        heads = {*map(singular, (*self.heads, *self.content))}
+        packed = bool(heads & PACKS) and self.info is not None and not self.info.container
+        return bool(heads & members) or (packed and bool({*self.own} & members & PACKED))
 
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.reference.sifting import (
 )
 from etot_cli.reasoning.language.reference.unmatched import names_of, not_understood, nothing_fits
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
+from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
@@ -112,8 +113,11 @@ def match_words(
         if found is not None:
             return found
     pools = _pools(vocabulary, head, adjectives, parts_first, upon)
-    if not any(entry.grade(head) is not None for entry in everything):
-        pools.append(vocabulary.short_names(head, place=place))
+    grades = {entry.grade(head) for entry in everything} - {None}
+    if not grades:
+        pools.append(vocabulary.of_category(head) or vocabulary.short_names(head, place=place))
+    elif grades == {GENERIC} and singular(head) != head:
+        pools.insert(0, vocabulary.of_category(head))  # plates are dishes, too, beside a bowl
     for pool in pools:
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:
@@ -221,6 +225,7 @@ def _match_in(
         # Of several pairs of socks "the socks" are all.
         packs = len(entries) > 1 and singular(head) != head
         plural = any(e.is_plural(head) or (packs and head in e.content) for e in entries)
+        plural |= head in MASS_NOUNS and len(entries) > 1
     if best == GENERIC and any(e.only_tells(head) and e.grade(head) is None for e in pool):
         return None  # where there is a glass jar "the glass" is no cup
     loose = best == CONTENT or (

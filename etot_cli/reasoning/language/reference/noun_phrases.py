@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.reference.nouns import matched, parts_of
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     REFUSE,
@@ -194,9 +195,13 @@ class Resolver:
             why = f"say 'the' one of {names_of_things(things)}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
         things = select(match.selectors, modifiers, things, count, self._scene, phrase.text, notes)
-        if phrase.loose and count == 1 and len(things) > 1 and len(words) == 1:
+        kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
+        unclear = phrase.loose and len(words) == 1 and len(things) > 1
+        unclear |= match.loose and quantity.definite and len(kinds) > 1
+        if unclear and count == 1:
             raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
-        if match.plural and match.loose and len(things) == 1 and not quantity.count:
+        plural = match.plural and words[-1] not in MASS_NOUNS
+        if plural and match.loose and len(things) == 1 and not quantity.count:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
@@ -208,7 +213,6 @@ class Resolver:
         if match.dropped and (single or vague) and len(things) > 1:
             why = f"{match.dropped[0]!r} does not tell which of {names_of_things(things)} is meant"
             raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
-        kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in things])
         things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.reference.entries import (
     object_entry,
     part_entries,
 )
+from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
@@ -76,6 +77,17 @@ class Vocabulary:
             for entry in told
         )
         return [replace(e, content=(*e.content, word)) for e in told] if fitting else []
+
+    def of_category(self, noun: str) -> list[Entry]:
+        """Entries that count among what a noun like "fruit" or "tools" means, with it as a noun of
+        theirs.
+        """
+        members = members_of(noun)
+        return [
+            replace(entry, generic=(), content=(*entry.content, noun))
+            for entry in self.objects
+            if members and entry.counts_among(members)
+        ]
 
     def words(self) -> frozenset[str]:
         """Every word of the scene's names and labels."""

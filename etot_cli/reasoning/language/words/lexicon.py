@@ -179,6 +179,9 @@ _COLOR_SYNONYMS = {
 _IRREGULAR = {
     "shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box",
     "canvases": "canvas", "canvas": "canvas", "lenses": "lens", "lens": "lens",
+    **{f"{word}s": word for word in (
+        "cookie", "brownie", "veggie", "smoothie", "hoodie", "beanie", "birdie", "genie",
+    )},
 }  # fmt: skip
 
 

@@ -1,0 +1,146 @@
+"""Words for everything of a sort ("the fruit", "the tools"), and what people count among it.
+
+A category word is understood where nothing in the scene is called so, and what it was taken for is
+always said. What is of two sorts stands in both; what is of a sort only in some uses (a bowl of
+fruit, a toy car) is told by its own noun alone.
+"""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.lexicon import singular, word_set
+
+_FRUIT = word_set(
+    """
+    apple orange banana lemon lime peach pear plum cherry grape berry strawberry blueberry
+    raspberry blackberry cranberry melon watermelon cantaloupe mango papaya pineapple kiwi apricot
+    nectarine grapefruit mandarin tangerine clementine satsuma pomegranate fig date coconut
+    persimmon lychee guava quince currant
+    """
+)
+_VEGETABLES = word_set(
+    """
+    potato onion carrot cucumber eggplant aubergine corn garlic mushroom cabbage lettuce broccoli
+    cauliflower spinach zucchini courgette pumpkin squash radish turnip beet beetroot celery leek
+    asparagus artichoke pea bean tomato pepper chili kale parsnip ginger shallot scallion yam
+    """
+)
+_PASTRIES = word_set(
+    "bun cake cookie biscuit donut doughnut muffin cupcake croissant pie pastry brownie scone tart "
+    "bagel roll pretzel baguette danish waffle cracker"
+)
+_SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
+_DRINKS = word_set(
+    "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
+    "pepsi fanta kombucha"
+)
+_SPICES = word_set(
+    "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron"
+)
+_SAUCES = word_set("ketchup mustard mayonnaise mayo relish salsa vinegar dressing sauce syrup")
+_OTHER_FOOD = word_set(
+    """
+    bread toast bagel loaf pizza egg cheese butter meat steak ham bacon sausage fish salmon tuna
+    chicken turkey soup cereal granola oatmeal rice pasta noodle spaghetti jam honey yogurt
+    sandwich burger hamburger hotdog taco burrito sushi salad pancake fries chip cracker nut
+    peanut almond tofu spam pudding
+    """
+)
+_TOOLS = word_set(
+    """
+    hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
+    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel
+    """
+)
+_CUTLERY = word_set("fork knife spoon teaspoon tablespoon chopstick")
+_COOKING = word_set(
+    "spatula ladle whisk tongs peeler grater masher colander strainer turner rolling_pin corkscrew"
+)
+_DISHES = word_set("plate bowl saucer cup mug glass platter dish")
+_WRITING = word_set("pen pencil marker crayon highlighter chalk sharpie biro")
+_STATIONERY = word_set("stapler ruler eraser notebook notepad envelope folder binder")
+_VEHICLES = word_set(
+    "car truck train bus van taxi ambulance tractor bicycle bike motorcycle scooter plane airplane "
+    "aeroplane helicopter boat ship rocket"
+)
+_ANIMALS = word_set(
+    """
+    bear duck dog cat horse cow pig sheep lamb goat lion tiger elephant giraffe zebra monkey rabbit
+    bunny dinosaur penguin frog turtle fox wolf panda owl bird chick hen rooster fish shark
+    whale dolphin unicorn dragon octopus camel deer hippo rhino kangaroo koala crocodile
+    """
+)
+_PLAYTHINGS = word_set("ball doll teddy puppet yoyo kite puzzle figurine block robot lego rattle")
+_CLOTHES = word_set(
+    "shirt tshirt sweater pullover hoodie coat jacket sock hat cap beanie scarf glove mitten pants "
+    "trouser jean short skirt dress blouse belt tie pajama pyjama"
+)
+_SHOES = word_set("shoe boot sneaker trainer sandal slipper heel loafer")
+_TOILETRIES = word_set(
+    "toothbrush toothpaste soap shampoo conditioner deodorant razor comb hairbrush lotion floss "
+    "mouthwash perfume sunscreen"
+)
+_ELECTRONICS = word_set(
+    "phone telephone cellphone smartphone laptop computer tablet keyboard monitor camera headphone "
+    "earphone earbud charger calculator"
+)
+_JEWELRY = word_set("ring necklace bracelet earring brooch pendant")
+_FLOWERS = word_set("rose tulip daisy lily sunflower daffodil orchid carnation")
+_READING = word_set("book magazine newspaper comic novel dictionary atlas textbook")
+
+SORTS: dict[str, frozenset[str]] = {
+    "fruit": _FRUIT,
+    "vegetable veggie": _VEGETABLES,
+    "produce": _FRUIT | _VEGETABLES,
+    "pastry dessert": _PASTRIES,
+    "sweet": _SWEETS,
+    "snack": _SWEETS | _PASTRIES,
+    "drink beverage": _DRINKS,
+    "spice seasoning": _SPICES,
+    "condiment": _SPICES | _SAUCES,
+    "food": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD,
+    "grocery": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD | _DRINKS | _SAUCES,
+    "tool": _TOOLS,
+    "cutlery silverware flatware": _CUTLERY,
+    "utensil": _CUTLERY | _COOKING,
+    "dish tableware crockery dishware dinnerware": _DISHES,
+    "stationery": _WRITING | _STATIONERY,
+    "vehicle": _VEHICLES,
+    "animal": _ANIMALS,
+    "toy plaything": _PLAYTHINGS | _VEHICLES | _ANIMALS,
+    "clothes clothing garment laundry": _CLOTHES,
+    "footwear": _SHOES,
+    "toiletry": _TOILETRIES,
+    "gadget electronics": _ELECTRONICS,
+    "jewelry jewellery": _JEWELRY,
+    "flower": _FLOWERS,
+    "literature": _READING,
+}
+"""Category words, several for one thing, with the nouns of what counts among it."""
+PACKED = _DRINKS | _SPICES | _SAUCES | _SWEETS | _OTHER_FOOD | _FRUIT | _VEGETABLES | _TOILETRIES
+"""What a can, carton or box of it is still called by (a milk carton is among "the drinks")."""
+PACKS = word_set("can tin carton bottle jar packet pack bag box tube pouch sachet wrapper")
+MASS_NOUNS = word_set(
+    """
+    fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
+    stationery clothes clothing laundry footwear electronics jewelry jewellery literature
+    """
+)
+"""Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""
+
+
+CATEGORIES: dict[str, frozenset[str]] = {
+    word: frozenset(map(singular, nouns))
+    for words, nouns in SORTS.items()
+    for word in words.split()
+}
+"""The same by each word, all nouns in the singular."""
+
+
+def is_category(word: str) -> bool:
+    """Whether a noun, in either number, stands for everything of a sort."""
+    return bool(members_of(word))
+
+
+def members_of(category: str) -> frozenset[str]:
+    """The nouns, in the singular, of what counts among a category; empty where it is none."""
+    return CATEGORIES.get(category) or CATEGORIES.get(singular(category), frozenset())
