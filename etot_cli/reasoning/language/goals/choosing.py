@@ -9,9 +9,10 @@ from etot_cli.reasoning.builtin.goal import Pick, Place, Put
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import PutGroup
+from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK
 
 
 def check_taken(
@@ -30,6 +31,24 @@ def check_taken(
             above = [thing for index in themes for thing in context.discourse.things(index)]
             if all(touches(one, other, context.scene) for one in above for other in below):
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def check_describes(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> None:
+    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there."""
+    where = {p.where for places in places_of.values() for p in places if p.where is not None}
+    below = [thing for index in where for thing in context.discourse.things(index)]
+    if not all(np.pronoun for item in condition.destinations for np in item.targets):
+        return
+    for index in (index for index in subjects if index not in context.discourse.put):
+        for thing in context.discourse.things(index):
+            if any(touches(thing, other, context.scene) for other in below if other.name != DESK):
+                text = context.discourse.referents[index].text
+                raise ReferenceProblem(text, "it is there already; say where what is", 3)
 
 
 def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, stays: bool) -> None:

@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.spatial import Nearby
@@ -46,11 +47,29 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_kept(state.goal())
     _check_run(state.goal())
     _check_turns(state.timed, state.context.discourse)
-    goal = settled(state.goal(), scene, state.context.turned)
+    goal = settled(_without_places(state), scene, state.context.turned)
     _check_held(state.timed, goal)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
     return goal
+
+
+def _without_places(state: _State) -> Goal:
+    """The goal, where "the red ones" are none of the places that it brings things to."""
+    goal, discourse = state.goal(), state.context.discourse
+    puts = [step for step in goal.steps if isinstance(step, Put)]
+    where = {place.where for step in puts for place in step.places} - {None}
+    places = {t.name for i in where if i is not None for t in discourse.things(i)}
+    sweeping = {m.referent for m in discourse.mentions if matches_any(m.noun, THING_NOUNS)}
+    referents, notes = list(goal.referents), list(goal.notes)
+    for index in sorted(sweeping & {index for step in puts for index in step.what}):
+        for option in referents[index].options if len(referents[index].options) == 1 else ():
+            kept = tuple(thing for thing in option if thing.name not in places)
+            out = ", ".join(thing.name for thing in option if thing not in kept)
+            if out and kept:
+                referents[index] = replace(referents[index], options=(kept,))
+                notes.append(f"{referents[index].text!r}: without {out}, where things go")
+    return replace(goal, referents=tuple(referents), notes=tuple(notes))
 
 
 def _check_held(said: Sequence[Timed], goal: Goal) -> None:

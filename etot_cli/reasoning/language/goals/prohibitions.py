@@ -94,26 +94,28 @@ def rule_out(
     return found
 
 
-def keep_as_it_is(context: Context, index: int, word: str) -> None:
+def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> None:
     """What is open or closed by now, and is to stay so, must not be moved in between.
 
-    Of a chest of drawers that was spoken of as "the drawer", only what is so by now is meant.
+    Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
+    now is meant; ``every``: all are.
     """
-    opened = word == "open"
+    holds = is_open if word == "open" else is_closed
     referent = context.discourse.referents[index]
-    match referent.options:
-        case ((Thing(owner, None),),):
-            parts = context.scene.infos[owner].parts
-            standing = [p for p in parts if (is_open if opened else is_closed)(context.scene, p)]
-            if 0 < len(standing) < len(parts):
-                options = tuple((Thing(owner, part.name),) for part in standing)
-                context.discourse.referents[index] = replace(referent, options=options)
+    infos = context.scene.infos
+    for option in referent.options[:1] if len(referent.options) == 1 and not every else ():
+        parts = [p for t in option for p in infos[t.name].parts if t.part in (None, p.name)]
+        standing = [Thing(p.owner, p.name) for p in parts if holds(context.scene, p)]
+        if 0 < len(standing) < len(parts):
+            one = len(option) == 1
+            options = tuple((thing,) for thing in standing) if one else (tuple(standing),)
+            context.discourse.referents[index] = replace(referent, options=options)
     for thing in context.discourse.things(index):
         for part in context.scene.infos[thing.name].parts:
             if thing.part not in (None, part.name):
                 continue
-            if (is_open if opened else is_closed)(context.scene, part):
-                keep = Keep.OPEN if opened else Keep.CLOSED
+            if holds(context.scene, part):
+                keep = Keep.OPEN if word == "open" else Keep.CLOSED
                 name = f"{part.owner}.{part.name}"
                 context.constraints.append(Constraint(keep, (name,)))
 

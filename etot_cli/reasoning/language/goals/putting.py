@@ -8,6 +8,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
+    check_describes,
     check_taken,
     choose_by_place,
     choose_from_somewhere,
@@ -38,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     Turns,
 )
-from etot_cli.reasoning.language.reference.determiners import is_distributive
+from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
@@ -68,9 +69,13 @@ def put(context: Context, clause: PutClause) -> None:
             put_back(context, themes, group, clause.ruled_out)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
-        options = [context.discourse.referents[index].options[0] for index in themes]
-        if is_different(group) and sum(map(len, options)) == 1:
+        several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
+        if is_different(group) and several == 1:
             group = elsewhere(group)
+        targets = [np for item in group.destinations for np in item.targets]
+        so_many = {quantity_of(np.determiner).count for np in targets} == {several}
+        if grouping is Grouping.ANY and several > 1 and so_many:
+            grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
         check_taken(context, group, themes, places)
@@ -99,7 +104,8 @@ def ensure(context: Context, state: State) -> None:
                 phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
             for index in context.phrases.refer(phrase, Role.PART):
                 if state.kept:
-                    keep_as_it_is(context, index, state.word)
+                    all_of_them = quantity_of(phrase.determiner).every
+                    keep_as_it_is(context, index, state.word, every=all_of_them)
                 context.steps.append(_made(index, opens=state.word == "open"))
             if phrase.determiner.startswith(("only", "just")):
                 every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
@@ -249,6 +255,7 @@ def _condition(
             why = "name what is to be there; what is there already comes along"
             raise ReferenceProblem(phrase.text, why, 3)
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
+    check_describes(context, condition, subjects, places_of)
     vessels = [theme for theme in themes if theme not in subjects]
     if not set(subjects) & set(themes):
         # Of a bystander it says where it is, not where it is to be, unless it goes along in one.

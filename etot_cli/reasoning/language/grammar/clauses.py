@@ -7,7 +7,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.modifiers import exceptions
+from etot_cli.reasoning.language.grammar.modifiers import ONLY_THOSE, excepting, exceptions
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
@@ -37,12 +37,13 @@ from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
 LEFT_OUT = either(
-    sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=lambda nps: nps),
+    sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=excepting),
+    sequence(silent(optional(phrase("but"), None)), ONLY_THOSE, build=lambda kept: kept),
     sequence(
         silent(phrase("[but|and] leav(e|ing) [out], [but|and] keep[ing]")),
         exceptions,
         silent(optional(phrase(manner.AS_IT_IS), None)),
-        build=lambda nps: nps,
+        build=excepting,
     ),
 )
 _ASKED = Rule(

@@ -7,10 +7,12 @@ modifiers need stand here, and are defined there.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OR, WITH
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Input,
     Parser,
     Result,
@@ -159,6 +161,21 @@ def _other_than(np: NounPhrase) -> Modifier | None:
     return Modifier(Prep.EXCEPT, (np,))
 
 
+def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | None:
+    """What is left out; or (``only``) in "but only the red one" all else is."""
+    said = {nouns.is_only(np.determiner) for np in nps}
+    left_out = tuple(map(_one_of_them, nps))
+    return Modifier(Prep.EXCEPT, left_out, denied=only) if said == {only} else None
+
+
+def _only_ahead(given: Input, at: int) -> list[Result]:
+    """Nothing, where "only" follows."""
+    return [(at, NOTHING)] if nouns.is_only(" ".join(given.words[at : at + 1])) else []
+
+
+ONLY_THOSE = sequence(_only_ahead, exceptions, build=partial(excepting, only=True))
+
+
 def quality_alone(given: Input, at: int) -> list[Result]:
     """Qualities, but no "closest" that says "to" what."""
     words = (*given.words, "")
@@ -240,7 +257,8 @@ _modifier = either(
         silent(optional(phrase("~comma"), None)),
         silent(phrase(nouns.EXCEPT)),
         exceptions,
-        build=lambda nps: Modifier(Prep.EXCEPT, tuple(map(_one_of_them, nps))),
+        build=excepting,
     ),
+    sequence(silent(phrase("~comma but, ~comma, but")), ONLY_THOSE, build=lambda kept: kept),
 )
 MODIFIER.define(_modifier)

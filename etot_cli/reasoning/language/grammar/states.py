@@ -42,7 +42,13 @@ def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State:
     return State(subjects, predicate)
 
 
-STATE = sequence(NP_LIST, BE, PREDICATE, build=state_of)
+_STAYS = sequence(
+    NP_LIST,
+    silent(phrase(verbs.STAY)),
+    PREDICATE,
+    build=lambda nps, predicate: replace(state_of(nps, predicate), kept=True),
+)
+STATE = either(sequence(NP_LIST, BE, PREDICATE, build=state_of), _STAYS)
 states = Rule(separated(STATE, LIST, most=6))
 
 
@@ -117,12 +123,7 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
-    sequence(
-        NP_LIST,
-        silent(phrase("stay[s], remain[s]")),
-        PREDICATE,
-        build=lambda nps, predicate: EnsureClause((state_of(nps, predicate),)),
-    ),
+    valued(_STAYS, lambda state: EnsureClause((state,))),
     sequence(
         silent(phrase("there (should|must|has to|have to|needs to|need to|shall) be")),
         NP_LIST,

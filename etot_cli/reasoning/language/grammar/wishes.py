@@ -20,7 +20,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     Modifier,
     MoveClause,
-    NounPhrase,
     PickClause,
     PutClause,
     PutGroup,
@@ -30,7 +29,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.places import Prep
 
 WANTED = either(
     sequence(
@@ -76,9 +74,8 @@ AGAIN = either(
 )
 
 
-def excluding(clause: Clause, out: tuple[NounPhrase, ...]) -> Clause | None:
+def excluding(clause: Clause, left_out: Modifier) -> Clause | None:
     """A clause without some of the things that it is about ("…, except the blue one")."""
-    left_out = Modifier(Prep.EXCEPT, out)
 
     def without(things: Things) -> Things:
         last = replace(things.phrases[-1], modifiers=(*things.phrases[-1].modifiers, left_out))

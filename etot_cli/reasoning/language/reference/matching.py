@@ -19,8 +19,10 @@ from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
+    KIND_NOUNS,
     LEVELS,
     ORDINALS,
+    PACKS,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -112,6 +114,9 @@ def match_words(
         found = _by_color(adjectives, head, number, vocabulary, phrase)
         if found is not None:
             return found
+    packed = _packed(adjectives, head, vocabulary, phrase)
+    if packed is not None:
+        return packed
     pools = _pools(vocabulary, head, adjectives, parts_first, upon)
     grades = {entry.grade(head) for entry in everything} - {None}
     if not grades:
@@ -132,6 +137,29 @@ def match_words(
         if found is not None:
             return found
     raise nothing_fits(head, adjectives, number, vocabulary, phrase)
+
+
+def _packed(
+    adjectives: tuple[str, ...], head: str, vocabulary: Vocabulary, phrase: str
+) -> Match | None:
+    """What is called by the word before a noun for its pack alone ("the rice packet")."""
+    single = singular(head)
+    if not adjectives or single not in PACKS:
+        return None
+    if any(e.has_word(head) and e.has_word(adjectives[-1]) for e in vocabulary.objects):
+        return None
+    inner = [
+        entry
+        for entry in vocabulary.objects
+        if entry.grade(adjectives[-1]) in (EXACT, HEAD)
+        and entry.info is not None
+        and single in KIND_NOUNS.get(entry.info.kind, (single,))
+    ]
+    found = _match_in(inner, adjectives[:-1], adjectives[-1], None, vocabulary, phrase)
+    if found is None:
+        return None
+    notes = (*found.notes, f"read {head!r} as what {names_of(found.entries)} is in")
+    return replace(found, plural=single != head, notes=notes)
 
 
 def _by_color(

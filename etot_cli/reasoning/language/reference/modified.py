@@ -127,12 +127,15 @@ def left_out(
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = set(landmarks(item, words[-1]))
+                if modifier.denied:
+                    named = {*things} - named  # "but only the red one"
                 # "Everything" may have the place among it that it is to go to.
                 if role is Role.THEME and not matches_any(words[-1], THING_NOUNS):
                     left = [t for t in things if t not in named]
                     _check_left(item.text, named, left, scene)
                 out |= named
-    if any(item.prep is Prep.EXCEPT for item in phrase.modifiers) and not out & set(things):
+    excepting = any(item.prep is Prep.EXCEPT and not item.denied for item in phrase.modifiers)
+    if excepting and not out & set(things):
         raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
     left = [thing for thing in things if thing not in out]
     if not left:

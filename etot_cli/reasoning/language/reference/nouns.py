@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, SIZES, STAT
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
-_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.UNDER, Prep.ABOVE)
+_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.BEARING, Prep.UNDER, Prep.ABOVE)
 
 
 def _tells_parts(modifier: Modifier) -> bool:
@@ -70,7 +70,7 @@ def matched(
             noun,
             by_name=plain and quantity.definite and not quantity.other,
             parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
-            upon=upon,
+            upon=upon or any(item.prep is Prep.BEARING for item in phrase.modifiers),
             place=place,
             counted=any(
                 item.prep is Prep.SIDE and item.words[0] == "from" for item in phrase.modifiers

@@ -21,7 +21,12 @@ from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings, is_support
 from etot_cli.reasoning.language.reference.usual_form import usual_form
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, SIDES, matches_any
+from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
+    SIDES,
+    holds_things,
+    matches_any,
+)
 from etot_cli.reasoning.language.words.places import OVER
 from etot_cli.world.state import DESK, SceneState
 
@@ -214,14 +219,18 @@ class Places:
         return found
 
     def _goes_in(self, laid: Sequence[Thing], around: Sequence[Thing]) -> bool:
-        """Whether things go into one that can be moved as they lie, or are meant for it."""
+        """Whether things go into one that can be moved as they lie, or are meant for it.
+
+        What stands by itself rather goes beside what one drinks from.
+        """
         infos = self._scene.infos
         moved = [infos[t.name] for t in around if t.name != DESK and infos[t.name].movable]
         room = [min(info.size[:2]) for info in moved]
+        drunk = all(info.kind == "cup" and not holds_things(info.label) for info in moved)
         return all(
-            infos[thing.name].elongated or max(infos[thing.name].size[:2]) <= min(room)
-            for thing in laid
-            if room
+            info.elongated
+            or (max(info.size[:2]) <= min(room) and not (drunk and info.size[2] > info.size[0]))
+            for info in (infos[thing.name] for thing in laid if room)
         )
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:

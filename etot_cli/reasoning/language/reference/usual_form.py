@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     ORDINALS,
+    PACKS,
     SIDES,
     SIZES,
     is_descriptive,
@@ -64,6 +65,13 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         head = out.phrases[0].words[-1]
         return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
     of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
+    if of is not None and singular(last) in PACKS and of.phrases[0].words:
+        (inner,) = of.phrases
+        if not (inner.determiner or inner.modifiers or is_descriptive(inner.words[0])):
+            # "The packet of rice" is the rice packet.
+            words = (*phrase.words[:-1], *inner.words, last)
+            rest = tuple(item for item in phrase.modifiers if item is not of)
+            return usual_form(replace(phrase, words=words, modifiers=rest))
     first = phrase.words[0] if phrase.words else ""
     several = (quantity_of(phrase.determiner).count or 1) > 1
     if several and LEVELS.get(first) in ("top", "bottom") and len(phrase.words) > 1:

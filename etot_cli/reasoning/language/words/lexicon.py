@@ -38,6 +38,12 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
 KIND_NOUNS = {
     kind: tuple(noun for group in groups for noun in group) for kind, groups in KIND_GROUPS.items()
 }
+PACKS = (
+    *KIND_GROUPS["box"][1],
+    *(n for group in KIND_GROUPS["cylinder"][1:] for n in group),
+    "bag",
+)
+"""Nouns for what food and the like is sold in."""
 TWINS: tuple[tuple[str, ...], ...] = (
     ("fridge", "refrigerator"), ("closet", "wardrobe"), ("couch", "sofa", "settee"),
     ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),
@@ -192,6 +198,11 @@ def basic_color(word: str) -> str | None:
     if word in NAMED_COLORS:
         return nearest_basic(word)
     return _COLOR_SYNONYMS.get(word)
+
+
+def holds_things(label: str) -> bool:
+    """Whether a label is that of a holder, basket or bin, not of what one drinks from."""
+    return any(word in HELPING_NOUNS | RUBBISH for word in label.casefold().split())
 
 
 def is_descriptive(text: str) -> bool:

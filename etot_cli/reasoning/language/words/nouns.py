@@ -72,3 +72,8 @@ CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
     (that|which) (contains|holds|has|contain|hold|have)
 """
+
+
+def is_only(determiner: str) -> bool:
+    """Whether nothing else is meant ("only the")."""
+    return determiner.split()[:1] in (["only"], ["just"])

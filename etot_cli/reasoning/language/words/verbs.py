@@ -48,8 +48,8 @@ NOTHING_IS = """
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 MODAL = """
-    (should|must|shall) (be|end up|stay|remain|get|finally be|then be|go|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|stay|remain|go),
+    (should|must|shall) (be|end up|get|finally be|then be|go|stand|sit|lie),
+    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     (put|placed|moved|brought|stored|dropped|transferred),
     (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed),
@@ -61,8 +61,11 @@ WANT = """
     (can|could|may) (i|we) have, i would (like|love) to (have|see), i want to (have|see)
 """
 BE = """
-    is, are, be, (is|are|be) (left|put|placed|kept|again|properly), stay[s], remain[s], end[s] up,
-    get[s]
+    is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
+"""
+STAY = """
+    (stay|stays|remain|remains),
+    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
 """
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
