@@ -14,6 +14,7 @@ from etot_cli.world.build.objects import resting_quaternion
 from etot_cli.world.index import ObjectEntry, Part, Region
 from etot_cli.world.model import World
 from etot_cli.world.state import DESK, owner_of
+from etot_cli.world.surface import mesh_of
 
 GAP = 0.0005
 """Objects start this far above their support [m], and settle."""
@@ -219,9 +220,7 @@ def geom_bounds(
         axis = rotation[:, 2]
         extent = np.abs(axis) * size[1] + size[0] * np.sqrt(np.maximum(0.0, 1 - axis**2))
     elif kind == mujoco.mjtGeom.mjGEOM_MESH:
-        mesh = int(model.geom_dataid[geom])
-        first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        points = model.mesh_vert[first : first + count] @ rotation.T + position
+        points = mesh_of(model, int(model.geom_dataid[geom]))[0] @ rotation.T + position
         return points.min(axis=0), points.max(axis=0)
     else:
         extent = np.abs(rotation) @ model.geom_aabb[geom][3:]

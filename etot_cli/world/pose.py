@@ -112,6 +112,21 @@ def rotation_by(turn: Vector) -> Vector:
     return turn_about(turn / angle, angle) if angle > 1e-12 else np.eye(3)
 
 
+def rotation_between(source: Vector, target: Vector) -> Vector:
+    """The smallest rotation (3, 3) that takes one unit vector (3,) to another; of those to the
+    opposite one, that about the axis of the frame which is most nearly square to it.
+    """
+    axis, cosine = cross(source, target), float(source @ target)
+    sine = math.sqrt(float(axis @ axis))
+    if sine > 1e-9:
+        return turn_about(axis / sine, math.atan2(sine, cosine))
+    if cosine > 0:
+        return np.eye(3)
+    square = np.eye(3)[int(np.abs(source).argmin())]
+    square = square - source * float(square @ source)
+    return turn_about(square / math.sqrt(float(square @ square)), math.pi)
+
+
 def straight(start: Pose, end: Pose, step: float = LINE_STEP) -> list[Pose]:
     """Poses along a straight line (spherical interpolation of the rotation), end included."""
     distance = float(np.linalg.norm(end.position - start.position))

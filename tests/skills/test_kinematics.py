@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 
 from etot_cli.skills.motion import kinematics
 from etot_cli.skills.motion.kinematics import Arm
-from etot_cli.world.pose import LINE_STEP, Pose, rotation_from_axes, straight, turn_about
+from etot_cli.world.pose import (
+    LINE_STEP,
+    Pose,
+    rotation_between,
+    rotation_from_axes,
+    straight,
+    turn_about,
+)
 from etot_cli.world.robot import load_robot
 
 ARM = Arm(load_robot("xarm6"))
@@ -181,3 +188,15 @@ def test_rotation_from_axes_is_a_rotation(seed: int) -> None:
     assert np.linalg.det(rotation) == pytest.approx(1.0)
     assert rotation[:, 2] @ approach == pytest.approx(np.linalg.norm(approach))
     assert rotation[:, 1] @ closing > 0
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_smallest_rotation_takes_one_direction_to_another(seed: int) -> None:
+    source, other = np.random.default_rng(seed).normal(size=(2, 3))
+    source /= np.linalg.norm(source)
+    for target in (other / np.linalg.norm(other), source, -source, *np.eye(3)):
+        turn = rotation_between(source, target)
+        assert turn @ source == pytest.approx(target, abs=1e-9)
+        assert turn @ turn.T == pytest.approx(np.eye(3), abs=1e-9)
+        assert np.linalg.det(turn) == pytest.approx(1.0)
+        assert (np.trace(turn) - 1) / 2 == pytest.approx(float(source @ target), abs=1e-9)

@@ -12,7 +12,7 @@ from etot_cli.execution.perception.fitting import Support, improved, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
-from etot_cli.world.pose import Pose, rotation_by
+from etot_cli.world.pose import UP, Pose, rotation_between, rotation_by
 
 HEADINGS = 8
 """Turns that are tried: neighbours are 45° apart, and a fit finds the rest."""
@@ -87,17 +87,9 @@ def _ball(surface: Surface) -> bool:
 
 def _attitudes(last: Pose) -> Iterator[Array]:
     """The attitudes with each of the body's axes up, but for the last one."""
-    up = np.array([0.0, 0.0, 1.0])
     for axis in np.vstack([np.eye(3), -np.eye(3)]):
-        if (last.rotation @ axis)[2] > 0.9:
-            continue
-        cross, cosine = np.cross(axis, up), float(axis @ up)
-        if cosine < -0.999:
-            yield np.diag([1.0, -1.0, -1.0])
-        else:
-            angle = np.arccos(np.clip(cosine, -1.0, 1.0))
-            length = max(float(np.linalg.norm(cross)), 1e-9)
-            yield rotation_by(cross / length * angle)
+        if (last.rotation @ axis)[2] <= 0.9:
+            yield rotation_between(axis, UP)
 
 
 def _best(

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from etot_cli.world.model import World
+from etot_cli.world.surface import area, sampled, triangles
 
 Array = NDArray[np.float64]
 
 SPACING = 0.004
 """Distance between neighbouring points [m]: about a pixel of a 640-pixel camera a metre away."""
-MOST = 30_000
-"""Points of a body."""
+LEAST, MOST = 50, 30_000
+"""Points of a geom, and of a body at most: so many cover 0.48 m² at that spacing, and the fewest
+leave some that face the camera of what is smaller than 3 cm square."""
 SEEN_GROUPS = 3
 """Geoms of lower groups are what is drawn."""
 LONG = 3.0
@@ -101,64 +103,17 @@ def surface_of(world: World, bodies: list[int], frame: int) -> Surface | None:
     for geom in np.flatnonzero(np.isin(model.geom_bodyid, bodies)):
         if model.geom_group[geom] >= SEEN_GROUPS or model.geom_rgba[geom, 3] == 0.0:
             continue
-        mesh = _mesh(model, int(geom))
+        mesh = triangles(model, int(geom))
         if mesh is None:
             continue
-        sampled, facing = _sampled(*mesh)
+        count = int(np.clip(area(*mesh) / SPACING**2, LEAST, MOST))
+        spread, facing = sampled(*mesh, count)
         turn = data.geom_xmat[geom].reshape(3, 3)
-        points.append((sampled @ turn.T + data.geom_xpos[geom] - data.xpos[frame]) @ rotation)
+        points.append((spread @ turn.T + data.geom_xpos[geom] - data.xpos[frame]) @ rotation)
         normals.append(facing @ turn.T @ rotation)
     if not points:
         return None
     return _thinned(np.vstack(points), np.vstack(normals))
-
-
-def _mesh(model: mujoco.MjModel, geom: int) -> tuple[Array, NDArray[np.int64]] | None:
-    """Vertices (n, 3) and triangles (m, 3) of a geom in its own frame; None for planes."""
-    import trimesh
-
-    kind, size = model.geom_type[geom], model.geom_size[geom]
-    types = mujoco.mjtGeom
-    found: Any
-    if kind == types.mjGEOM_BOX:
-        found = trimesh.creation.box(extents=2 * size)
-    elif kind == types.mjGEOM_SPHERE:
-        found = trimesh.creation.icosphere(subdivisions=3, radius=size[0])
-    elif kind == types.mjGEOM_ELLIPSOID:
-        found = trimesh.creation.icosphere(subdivisions=3)
-        found.apply_scale(size)
-    elif kind == types.mjGEOM_CYLINDER:
-        found = trimesh.creation.cylinder(radius=size[0], height=2 * size[1], sections=48)
-    elif kind == types.mjGEOM_CAPSULE:
-        found = trimesh.creation.capsule(height=2 * size[1], radius=size[0])
-        found.apply_translation(-found.bounds.mean(axis=0))
-    elif kind == types.mjGEOM_MESH:
-        index = model.geom_dataid[geom]
-        first, count = model.mesh_vertadr[index], model.mesh_vertnum[index]
-        begin, faces = model.mesh_faceadr[index], model.mesh_facenum[index]
-        return (
-            np.array(model.mesh_vert[first : first + count], dtype=np.float64),
-            np.array(model.mesh_face[begin : begin + faces], dtype=np.int64),
-        )
-    else:
-        return None
-    return np.asarray(found.vertices), np.asarray(found.faces)
-
-
-def _sampled(vertices: Array, faces: NDArray[np.int64]) -> tuple[Array, Array]:
-    """Points (n, 3) about :data:`SPACING` apart, and the normals of their triangles."""
-    a, b, c = (vertices[faces[:, index]] for index in range(3))
-    cross = np.cross(b - a, c - a)
-    double = np.linalg.norm(cross, axis=1)
-    a, b, c, cross, double = (item[double > 0] for item in (a, b, c, cross, double))
-    count = int(np.clip(double.sum() / 2 / SPACING**2, 50, MOST))
-    rng = np.random.default_rng(0)
-    chosen = rng.choice(len(double), count, p=double / double.sum())
-    u, v = rng.random((2, count, 1))
-    flip = u + v > 1.0
-    u, v = np.where(flip, 1.0 - u, u), np.where(flip, 1.0 - v, v)
-    points = a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen]
-    return points, cross[chosen] / double[chosen, None]
 
 
 def _thinned(points: Array, normals: Array) -> Surface:

@@ -11,7 +11,7 @@ from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.world.index import Region
-from etot_cli.world.pose import Pose, rotation_by
+from etot_cli.world.pose import Pose, rotation_between
 
 STILL_THERE = 0.7
 """An object that agrees with so much of what is visible of its last place is still there."""
@@ -134,7 +134,7 @@ def _standing_in(
         for lean, heading in LEANS:
             flat = np.array([np.cos(heading), np.sin(heading), 0.0])
             wanted = flat * np.sin(lean) + np.array([0.0, 0.0, np.cos(lean)])
-            turn = _turn_between(before.rotation @ surface.long_axis * up, wanted)
+            turn = rotation_between(before.rotation @ surface.long_axis * up, wanted)
             rotation = turn @ before.rotation
             placed = few.points @ rotation.T
             foot = placed[int(np.argmin(placed @ wanted))]
@@ -212,13 +212,3 @@ def level_moves(surface: Surface, pose: Pose) -> list[Array]:
         np.concatenate([across * SLIDE, np.zeros(3)]),
         np.array([0.0, 0.0, 0.0, 0.0, 0.0, TURN]),
     ]
-
-
-def _turn_between(one: Array, other: Array) -> Array:
-    """The shortest rotation (3, 3) that takes one direction (3,) to another."""
-    cross, cosine = np.cross(one, other), float(np.clip(one @ other, -1.0, 1.0))
-    length = float(np.linalg.norm(cross))
-    if length < 1e-9:
-        aside = np.cross(one, np.eye(3)[int(np.abs(one).argmin())])
-        return rotation_by(aside / np.linalg.norm(aside) * (0.0 if cosine > 0 else np.pi))
-    return rotation_by(cross / length * float(np.arccos(cosine)))

@@ -18,6 +18,7 @@ from etot_cli.reconstruction.capture.alignment import SHIFT_NOTED, displaced, me
 from etot_cli.reconstruction.capture.folder import Capture
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.reconstruction.capture.workspace import Workspace
+from etot_cli.world.pose import UP, rotation_between
 
 REACH = 1.1
 """Only points this near to the robot's axis can be the desk it works on [m]."""
@@ -229,12 +230,7 @@ def refined_plane(points: Array, normal: Array, offset: float) -> tuple[Array, A
 
 def _levelled(pose: Array, normal: Array, pivot: Array) -> Array:
     """The pose (4, 4) turned about ``pivot`` so that ``normal`` becomes +z."""
-    axis = np.cross(normal, [0.0, 0.0, 1.0])
-    sine, cosine = float(np.linalg.norm(axis)), float(normal[2])
-    if sine < 1e-12:
-        return pose
-    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    turn = np.eye(3) + cross + cross @ cross * (1 - cosine) / sine**2
+    turn = rotation_between(normal, UP)
     levelled = pose.copy()
     levelled[:3, :3] = turn @ pose[:3, :3]
     levelled[:3, 3] = turn @ (pose[:3, 3] - pivot) + pivot

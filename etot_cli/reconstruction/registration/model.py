@@ -17,6 +17,8 @@ from scipy.spatial import ConvexHull, QhullError
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.shapes.base import own_frame
 from etot_cli.reconstruction.shapes.free import FreeForm
+from etot_cli.world.pose import UP, rotation_between
+from etot_cli.world.surface import sampled
 
 SAMPLES = 16_000
 """Points on the surface; 1.5 mm apart on a thing the size of a mug."""
@@ -87,7 +89,7 @@ def models_of(
         faces: (m, 3).
         turns: rotations (3, 3) to take instead of those in which it rests.
     """
-    points, normals = _sampled(vertices, faces)
+    points, normals = sampled(vertices, faces, SAMPLES)
     sense = _winding(vertices, faces)
     found = []
     for turn in turns or resting_turns(vertices):
@@ -129,7 +131,7 @@ def resting_turns(vertices: Array) -> list[Array]:
         ground = vertices[heights > heights.max() - tolerance]
         tip = _tip_angle(ground, normal, center, float(heights.max() - center @ normal))
         if tip > LEAST_TIP:
-            found.append((tip, _turn_down(normal)))
+            found.append((tip, rotation_between(normal, -UP)))
     found.sort(key=lambda item: -item[0])
     kept = [np.eye(3)]
     for _, turn in found:
@@ -141,35 +143,11 @@ def resting_turns(vertices: Array) -> list[Array]:
 
 def _tip_angle(ground: Array, normal: Array, center: Array, height: float) -> float:
     """By how much a thing on the side with this outward normal may lean [deg]; 0: it falls."""
-    flat = ground @ _turn_down(normal)[:2].T
-    middle = _turn_down(normal)[:2] @ center
+    level = rotation_between(normal, -UP)[:2]
+    flat, middle = ground @ level.T, level @ center
     try:
         equations = ConvexHull(flat).equations
     except (QhullError, ValueError):
         return 0.0
     margin = float(-(equations[:, :2] @ middle + equations[:, 2]).max())
     return float(np.degrees(np.arctan2(margin, max(height, 1e-9)))) if margin > 0 else 0.0
-
-
-def _turn_down(normal: Array) -> Array:
-    """A rotation (3, 3) that turns a direction (3,) to −z the short way."""
-    down = np.array([0.0, 0.0, -1.0])
-    axis, cosine = np.cross(normal, down), float(normal @ down)
-    if cosine < -0.999999:
-        return np.diag([1.0, -1.0, -1.0])
-    cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-    return np.asarray(np.eye(3) + cross + cross @ cross / (1.0 + cosine))
-
-
-def _sampled(vertices: Array, faces: Any) -> tuple[Array, Array]:
-    """Points (n, 3) spread evenly over the surface, and unit normals of their faces."""
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    cross = np.cross(b - a, c - a)
-    area = np.linalg.norm(cross, axis=1)
-    rng = np.random.default_rng(0)
-    chosen = rng.choice(len(faces), SAMPLES, p=area / area.sum())
-    u, v = rng.random((2, SAMPLES, 1))
-    flip = u + v > 1
-    u, v = np.where(flip, 1 - u, u), np.where(flip, 1 - v, v)
-    points = a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen]
-    return np.asarray(points), np.asarray(cross[chosen] / area[chosen, None])

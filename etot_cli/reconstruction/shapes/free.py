@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.reconstruction.shapes.base import Evidence, Family, own_frame, rotate
+from etot_cli.world.surface import sampled
 
 SAMPLES = 4000
 """Points drawn on a mesh's faces to stand for its surface."""
@@ -34,7 +35,7 @@ class FreeForm(Family):
         self.vertices = (vertices - middle) / self.unit
         self.faces = np.asarray(faces, dtype=np.int64)
         self.extent = (high - low) / self.unit
-        self._surface = _sampled(self.vertices, self.faces)
+        self._surface, _ = sampled(self.vertices, self.faces, SAMPLES)
         self._tree = cKDTree(self._surface)
         try:
             self._hull = self.vertices[ConvexHull(self.vertices).vertices]
@@ -73,15 +74,3 @@ class FreeForm(Family):
         own = abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
         known = MASSIVE[0] * whole < own < MASSIVE[1] * whole
         return float((own if known else USUAL * whole) * params[4] ** 3)
-
-
-def _sampled(vertices: Array, faces: Any) -> Array:
-    """Points (n, 3) spread evenly over the surface."""
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    rng = np.random.default_rng(0)
-    chosen = rng.choice(len(faces), SAMPLES, p=area / area.sum())
-    u, v = rng.random((2, SAMPLES, 1))
-    flip = u + v > 1
-    u, v = np.where(flip, 1 - u, u), np.where(flip, 1 - v, v)
-    return np.asarray(a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen])

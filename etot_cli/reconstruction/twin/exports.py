@@ -15,6 +15,7 @@ from etot_cli.reconstruction.shapes.free import FreeForm
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import place_objects
+from etot_cli.world.surface import mesh_of, triangles
 
 GEOM_NAMES = {
     mujoco.mjtGeom.mjGEOM_SPHERE: "sphere",
@@ -47,9 +48,10 @@ def object_mesh(world: World, data: mujoco.MjData, name: str, color: Any) -> Any
     for geom, owner in enumerate(world.geom_object):
         if owner != name or (shell and model.geom_group[geom] == 3):
             continue
-        mesh = _geom_mesh(model, geom)
-        if mesh is None:
+        surface = triangles(model, geom)
+        if surface is None:
             continue
+        mesh: Any = trimesh.Trimesh(*surface, process=False)
         pose = np.eye(4)
         rotation = root.xmat.reshape(3, 3)
         pose[:3, :3] = rotation.T @ data.geom_xmat[geom].reshape(3, 3)
@@ -83,33 +85,6 @@ def _painted(mesh: Any, color: tuple[float, float, float]) -> Any:
     return mesh
 
 
-def _geom_mesh(model: mujoco.MjModel, geom: int) -> Any:
-    import trimesh
-
-    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
-    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
-        return trimesh.creation.icosphere(subdivisions=3, radius=size[0])
-    if kind == mujoco.mjtGeom.mjGEOM_BOX:
-        return trimesh.creation.box(extents=2 * size)
-    if kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
-        return trimesh.creation.cylinder(radius=size[0], height=2 * size[1])
-    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
-        return trimesh.creation.capsule(radius=size[0], height=2 * size[1])
-    if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        vertices, faces = _mesh_data(model, int(model.geom_dataid[geom]))
-        return trimesh.Trimesh(vertices, faces, process=False)
-    return None
-
-
-def _mesh_data(model: mujoco.MjModel, mesh: int) -> tuple[Any, Any]:
-    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    start, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-    return (
-        np.array(model.mesh_vert[first : first + count]),
-        np.array(model.mesh_face[start : start + faces]),
-    )
-
-
 def export_twin(
     scene: Scene, colors: dict[str, tuple[float, float, float]], meshes: Path, mjcf: Path
 ) -> None:
@@ -140,7 +115,7 @@ def write_mjcf(world: World, data: mujoco.MjData, path: Path) -> None:
         "  <asset>",
     ]
     for mesh in meshes:
-        vertices, faces = _mesh_data(model, mesh)
+        vertices, faces = mesh_of(model, mesh)
         lines.append(
             f'    <mesh name="mesh{mesh}" inertia="shell" vertex="{_text(vertices)}" '
             f'face="{_text(faces)}"/>'

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.pose import Pose
+from etot_cli.world.surface import mesh_of
 
 Cells = NDArray[np.int64]
 
@@ -195,8 +196,7 @@ def _planes(model: mujoco.MjModel, geom: int) -> tuple[Vector, Vector]:
         return np.vstack([ring, caps]), np.concatenate([np.full(_SIDES, size[0]), [tall] * 2])
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])
-        first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        vertices = model.mesh_vert[first : first + count].astype(np.float64)
+        vertices = mesh_of(model, mesh)[0].astype(np.float64)
         start, faces = int(model.mesh_polyadr[mesh]), int(model.mesh_polynum[mesh])
         normals = model.mesh_polynormal[start : start + faces].astype(np.float64)
         normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)

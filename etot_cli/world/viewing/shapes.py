@@ -10,6 +10,10 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import Pose
+from etot_cli.world.surface import Faces, triangles
+
 SEEN_GROUPS = 3
 """Geom groups from this number on are for collisions and are not drawn."""
 UNPAINTED = (0.5, 0.5, 0.5, 1.0)
@@ -18,8 +22,6 @@ ENDLESS_M = 4.0
 """Side of a plane without an end [m]."""
 THIN_M = 0.002
 """A plane is drawn as a box this thick [m]."""
-ROUND = 2
-"""Subdivisions of a ball: 320 faces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +39,11 @@ def shapes_of(model: mujoco.MjModel) -> Iterator[Shape]:
     """Everything of a model that is seen, height fields excepted."""
     for geom in range(model.ngeom):
         rgba = _paint(model, geom)
-        mesh = _mesh(model, geom)
+        mesh = _plane(model, geom) or triangles(model, geom)
         if model.geom_group[geom] >= SEEN_GROUPS or rgba[3] <= 0.0 or mesh is None:
             continue
         vertices, faces = mesh
-        turn = np.zeros(9)
-        mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
-        placed = vertices @ turn.reshape(3, 3).T + model.geom_pos[geom]
+        placed = Pose.of(model.geom_pos[geom], model.geom_quat[geom]).place(vertices)
         red, green, blue = (round(255 * float(share)) for share in rgba[:3])
         yield Shape(int(model.geom_bodyid[geom]), placed, faces, (red, green, blue), float(rgba[3]))
 
@@ -67,32 +67,11 @@ def _paint(model: mujoco.MjModel, geom: int) -> NDArray[np.float64]:
     return rgba
 
 
-def _mesh(model: mujoco.MjModel, geom: int) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
-    """Vertices (n, 3) and faces (m, 3) of a geom in its own frame."""
-    size = model.geom_size[geom]
-    kind = mujoco.mjtGeom(model.geom_type[geom])
-    if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        number = model.geom_dataid[geom]
-        first, count = model.mesh_vertadr[number], model.mesh_vertnum[number]
-        face, faces = model.mesh_faceadr[number], model.mesh_facenum[number]
-        return (
-            np.array(model.mesh_vert[first : first + count], dtype=np.float64),
-            np.array(model.mesh_face[face : face + faces], dtype=np.int64),
-        )
-    if kind == mujoco.mjtGeom.mjGEOM_BOX:
-        made = trimesh.creation.box(2 * size)
-    elif kind == mujoco.mjtGeom.mjGEOM_PLANE:
-        sides = [2 * side if side > 0 else ENDLESS_M for side in size[:2]]
-        made = trimesh.creation.box([*sides, THIN_M])
-        made.apply_translation([0.0, 0.0, -THIN_M / 2])
-    elif kind in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_ELLIPSOID):
-        made = trimesh.creation.icosphere(subdivisions=ROUND, radius=1.0)
-        made.apply_scale(size[0] if kind == mujoco.mjtGeom.mjGEOM_SPHERE else size)
-    elif kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
-        made = trimesh.creation.cylinder(radius=size[0], height=2 * size[1])
-    elif kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
-        made = trimesh.creation.capsule(radius=size[0], height=2 * size[1])
-        made.apply_translation(-made.bounds.mean(axis=0))
-    else:
+def _plane(model: mujoco.MjModel, geom: int) -> tuple[Vector, Faces] | None:
+    """A plane as a thin box below it; None of other geoms."""
+    if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
         return None
+    sides = [2 * side if side > 0 else ENDLESS_M for side in model.geom_size[geom][:2]]
+    made = trimesh.creation.box([*sides, THIN_M])
+    made.apply_translation([0.0, 0.0, -THIN_M / 2])
     return np.asarray(made.vertices), np.asarray(made.faces, dtype=np.int64)
