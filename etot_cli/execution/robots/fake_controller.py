@@ -24,6 +24,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Self
 
+from etot_cli.execution.robots.fake_gripper import Hand, is_told_to_move
 from etot_cli.world.robot import load_robot
 
 AXES = 6
@@ -45,7 +46,6 @@ STATUS_ERROR, STATUS_NOT_READY = 0x40, 0x10
 F_VERSION, F_ENABLE, F_SET_STATE, F_GET_STATE, F_QUEUE, F_ERROR = 1, 11, 12, 13, 14, 15
 F_CLEAR, F_MODE, F_SERVO, F_JOINTS, F_RS485, F_BAUD = 16, 19, 29, 42, 124, 128
 MOVING = frozenset({F_SERVO, 21, 22, 23, 24, 25})
-R_ENABLE, R_SPEED, R_TARGET, R_POSITION, R_ERROR, R_CLEAR = 0x100, 0x303, 0x700, 0x702, 0xF, 0x109
 BAUD_2M = 11
 
 
@@ -65,18 +65,6 @@ class Faults:
     frozen: bool = False
     blocked: bool = False
     gripper: int = 0
-
-
-@dataclass
-class Hand:
-    """The gripper [pulses]; ``thing``: width of what stands between the pads, 0 for nothing."""
-
-    position: float = 850.0
-    target: float = 850.0
-    speed: float = 1500.0
-    enabled: bool = False
-    error: int = 0
-    thing: float = 0.0
 
 
 @dataclass
@@ -130,8 +118,7 @@ class FakeController:
     def moved(self) -> bool:
         """Whether it was ever told to move the arm or the gripper."""
         return any(
-            function in MOVING
-            or (function == F_RS485 and payload[2] == 0x10 and _register(payload) == R_TARGET)
+            function in MOVING or (function == F_RS485 and is_told_to_move(payload))
             for function, payload in self.log
         )
 
@@ -171,11 +158,7 @@ class FakeController:
         while self._running:
             time.sleep(TICK_S)
             with self._lock:
-                hand = self.hand
-                if hand.enabled and not hand.error:
-                    goal = max(hand.target, hand.thing) if hand.thing else hand.target
-                    step = hand.speed * TICK_S
-                    hand.position += max(-step, min(step, goal - hand.position))
+                self.hand.move(TICK_S)
                 if self.state == STOPPED or (self.faults.blocked and self._due()):
                     self._goal = list(self.joints) if self.state == STOPPED else self._goal
                     continue
@@ -256,7 +239,9 @@ class FakeController:
         elif function == F_BAUD:
             return struct.pack(">i", BAUD_2M)
         elif function == F_RS485:
-            return self._gripper(payload)
+            if self.faults.gripper and self._due():
+                self.hand.error = self.faults.gripper
+            return self.hand.answer(payload)
         return b""
 
     def _joint_states(self, payload: bytes) -> bytes:
@@ -267,31 +252,6 @@ class FakeController:
         torque = [random.gauss(0.0, 0.05) for _ in self.joints]
         self._last = struct.pack("<21f", *read, *self._speeds, *torque)
         return self._last[: 28 * count]
-
-    def _gripper(self, payload: bytes) -> bytes:
-        """One Modbus request to the gripper."""
-        host, device, kind = payload[0], payload[1], payload[2]
-        register, hand = _register(payload), self.hand
-        if self.faults.gripper and self._due():
-            hand.error = self.faults.gripper
-        if kind == 3:
-            count = int(struct.unpack_from(">H", payload, 5)[0])
-            values = {
-                R_POSITION: struct.pack(">i", round(hand.position)),
-                R_ERROR: struct.pack(">H", hand.error),
-            }
-            value = values.get(register, b"\0" * 2 * count)
-            return bytes([host, device, kind, len(value), *value])
-        value = payload[8:]
-        if register == R_TARGET:
-            hand.target = float(struct.unpack(">i", value[:4])[0])
-        elif register == R_SPEED:
-            hand.speed = float(struct.unpack(">H", value[:2])[0])
-        elif register == R_ENABLE:
-            hand.enabled = bool(struct.unpack(">H", value[:2])[0])
-        elif register == R_CLEAR:
-            hand.error = 0
-        return bytes([host, device, kind]) + payload[3:7]
 
     def _serve_reports(self, link: socket.socket, size: int) -> None:
         while self._running:
@@ -312,10 +272,6 @@ class FakeController:
         if size > 145:
             report[145:151] = bytes([AXES, AXES, 1, 1, 1, 1])
         return bytes(report)
-
-
-def _register(payload: bytes) -> int:
-    return int(struct.unpack_from(">H", payload, 3)[0])
 
 
 def main() -> None:

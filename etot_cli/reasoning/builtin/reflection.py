@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.regrasping import regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -43,17 +44,13 @@ from etot_cli.reasoning.builtin.revision import (
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import Action, GraspPose, Verb
+from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import DESK, STAYS_OPEN_AT, Cause, CauseKind, PartInfo, owner_of
 
 REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""
 _COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCKED})
 """Causes of a failed pick that an opened part may be behind, even when it is not named."""
-
-
-_NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
-"""Causes that a roof above the place may be behind."""
 
 
 def reflect_on(failed: FailedStep) -> Iterator[Branch]:
@@ -219,7 +216,7 @@ class _Case:
                 part = self.failed.start.part(self.actions[opening].target)
                 if part is not None and self._is_near(part):
                     yield from self._taken_before_opening(part.owner)
-        yield from self._other_pose(index)
+        yield from regrasped(self.failed, index, self.cause.kind)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""
@@ -250,32 +247,6 @@ class _Case:
         travel = part.travel if part.joint_type == "slide" else max(owner.size[:2])
         limit = radius(owner) + travel + radius(scene.infos[name]) + REACH_AROUND
         return distance(scene.states[part.owner], scene.states[name]) < limit
-
-    def _other_pose(self, pick: int) -> Iterator[Correction]:
-        """Another grasp where none was asked for: from above where the object slipped, from the
-        side where the hand has no room above it.
-        """
-        action = self.actions[pick]
-        if action.pose is not None:
-            return
-        if self.cause.kind is CauseKind.SLIP:
-            pose, how = GraspPose.VERTICAL, "from above"
-        elif self.cause.kind in _NO_ROOM_ABOVE and self._is_roofed():
-            pose, how = GraspPose.HORIZONTAL, "from the side"
-        else:
-            return
-        posed = replace(action, pose=pose)
-        actions = (*self.actions[:pick], posed, *self.actions[pick + 1 :])
-        yield Correction(actions, f"{action.target} is grasped {how}")
-
-    def _is_roofed(self) -> bool:
-        """Whether the place that the action puts to or takes from is got at through a front."""
-        scene = self.failed.record.before
-        places = {self.action.target}
-        if self.action.verb is Verb.PICK_UP:
-            state = scene.states.get(self.action.target)
-            places = {*state.on, state.inside or ""} if state is not None else set()
-        return any(has_front(scene, place) for place in places)
 
     def _of_put(self) -> Iterator[Correction]:
         index, owner = self.failed.index, owner_of(self.action.target)
@@ -310,7 +281,7 @@ class _Case:
         if self.action.safe and not self._is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
-            yield from self._other_pose(pick)
+            yield from regrasped(self.failed, pick, self.cause.kind)
 
     @property
     def _is_full(self) -> bool:

@@ -1,0 +1,48 @@
+"""Another grasp, after a failure, where the instruction asked for none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.relations import has_front
+from etot_cli.reasoning.builtin.relocation import Correction
+from etot_cli.reasoning.protocol import FailedStep
+from etot_cli.skills.action import GraspPose, Verb
+from etot_cli.world.state import CauseKind
+
+_NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
+"""Causes that a roof above the place may be behind."""
+
+
+def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
+    """The branch with the object grasped from above where it slipped, from the side where the hand
+    has no room above it.
+
+    Args:
+        failed: the failed step.
+        pick: place in the branch of the action that grasps the object.
+        cause: of the failure.
+    """
+    actions = failed.branch.actions
+    action = actions[pick]
+    if action.pose is not None:
+        return
+    if cause is CauseKind.SLIP:
+        pose, how = GraspPose.VERTICAL, "from above"
+    elif cause in _NO_ROOM_ABOVE and _is_roofed(failed):
+        pose, how = GraspPose.HORIZONTAL, "from the side"
+    else:
+        return
+    posed = (*actions[:pick], replace(action, pose=pose), *actions[pick + 1 :])
+    yield Correction(posed, f"{action.target} is grasped {how}")
+
+
+def _is_roofed(failed: FailedStep) -> bool:
+    """Whether the place that the action puts to or takes from is got at through a front."""
+    scene, action = failed.record.before, failed.branch.actions[failed.index]
+    places = {action.target}
+    if action.verb is Verb.PICK_UP:
+        state = scene.states.get(action.target)
+        places = {*state.on, state.inside or ""} if state is not None else set()
+    return any(has_front(scene, place) for place in places)
