@@ -10,6 +10,7 @@ import numpy as np
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.candidates import Grasp
 from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.kinematics import ANGLE_TOLERANCE, POSITION_TOLERANCE
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import UP, Pose, straight
@@ -25,6 +26,9 @@ NARROW_ROOMS = (0.008, 0.004)
 millimetres of error in position are forgiven."""
 CONTACT_CLEARANCE = 0.0008
 """Clearance of the hand at the grasp itself [m]."""
+SURELY_MET = CONTACT_CLEARANCE - POSITION_TOLERANCE - 0.2 * ANGLE_TOLERANCE
+"""Clearance that a hand has nowhere near a grasp, as exactly as the arm gets there: within the
+tolerances of inverse kinematics, for a hand of 0.2 m [m]."""
 LEVEL = 0.5
 """A hand whose approach falls or rises less than this (sine) can take things out of a front."""
 CLEAR = 0.015
@@ -50,24 +54,38 @@ def prepare_grasp(
 ) -> PreparedGrasp | bool | None:
     """A prepared grasp, False where something is in the way, None where the arm cannot get."""
     checker, arm = belief.checker, belief.arm
-    checker.set_fingers(grasp.opening)
     approach = grasp.tool.rotation[:, 2]
-    # The grasp itself first: where the hand has no room there, the way to it need not be found.
+    largest = belief.world.robot.spec.gripper.opening
+    allow = {name} if grasp.width > largest else set()
+    # Beside a thing in a cup there may be room for a finger, not for a wide open one.
+    narrow = (min(largest, grasp.width + 2 * room) for room in NARROW_ROOMS)
+    openings = (grasp.opening, *narrow)
+    # The hand first, wherever the arm may be: where it has no room, the arm need not get there.
+    met: list[str] = []
+    for opening in openings:
+        checker.set_fingers(opening)
+        hits = checker.hand_hits(grasp.tool, clearance=SURELY_MET, fingers_only=False)
+        hits = [address for address in hits if owner_of(address) not in allow]
+        met = met or hits
+        if not hits:
+            break
+    else:
+        blockers.add(met)
+        return False
+    # Then the grasp itself, and the way to it last.
     at_grasp = arm.reach(grasp.tool, belief.commanded)
     if not at_grasp.reached:
         return None
-    largest = belief.world.robot.spec.gripper.opening
-    allow = {name} if grasp.width > largest else set()
-    hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
-    for room in NARROW_ROOMS if hits else ():
-        # Beside a thing in a cup there may be room for a finger, not for a wide open one.
-        narrow = min(largest, grasp.width + 2 * room)
-        checker.set_fingers(narrow)
-        if not checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow):
-            grasp, hits = replace(grasp, opening=narrow), []
+    met = []
+    for opening in openings:
+        checker.set_fingers(opening)
+        hits = checker.hits(at_grasp.joints, clearance=CONTACT_CLEARANCE, allow=allow)
+        met = met or hits
+        if not hits:
+            grasp = replace(grasp, opening=opening)
             break
-    if hits:
-        blockers.add(hits)
+    else:
+        blockers.add(met)
         return False
     way = straight(grasp.tool, grasp.tool.moved(-STANDOFF * approach))
     back, count = arm.line(way, at_grasp.joints)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -53,6 +54,10 @@ MOUTH_COST = 0.2
 middle. Of the walls that are met from above, most have the rest of the vessel in the way."""
 TOO_WIDE_TRIES = 1.35
 """Objects up to so many times the opening are still tried, off their widest line."""
+MAX_RANKED = 48
+"""Grasps that are kept, of several hundred that are found mostly: those whose whole way is looked
+at."""
+_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,7 @@ class Grasp:
 
 @dataclass(frozen=True)
 class GraspSet:
-    """All candidates, best first. ``too_wide``: grasps that were left out for width alone,
+    """The best candidates, best first. ``too_wide``: grasps that were left out for width alone,
     which can only be tried in physics; ``narrowest`` [m] is the smallest width seen.
     """
 
@@ -102,27 +107,81 @@ def sample_grasps(
     center = data.body(name).xipos.copy() if massive else (low + high) / 2
     axis = _axis(world, data, name)
     closings = closing_directions(axis)
-    grasps: list[Grasp] = []
-    wide: list[Grasp] = []
+    found = _Found(world.robot.spec.gripper.opening)
     if pose in (None, GraspPose.VERTICAL):
         bounds = low, high, center, axis
-        _from_above(world, solids, data, name, bounds, grid(bounds, closings), grasps, wide)
-        if all(grasp.friction > SLANTED for grasp in grasps):
+        _from_above(world, solids, data, name, bounds, grid(bounds, closings), found)
+        if all(pinch.friction > SLANTED for pinch in found.fitting):
             # Too wide at the middle, as large balls are. The lower, the less friction it takes.
             lines = grid(bounds, closings, between=True)
-            _from_above(world, solids, data, name, bounds, lines, grasps, wide)
-        if not grasps:
+            _from_above(world, solids, data, name, bounds, lines, found)
+        if not found.fitting:
             lines = through_parts(world, data, name, bounds, closings)
-            _from_above(world, solids, data, name, bounds, lines, grasps, wide)
+            _from_above(world, solids, data, name, bounds, lines, found)
     if pose in (None, GraspPose.HORIZONTAL):
-        _from_side(world, solids, data, name, (low, high, center, axis), grasps, wide)
-        _through_mouth(world, solids, data, name, grasps, wide)
-    widths = [grasp.width for grasp in (*grasps, *wide)]
-    return GraspSet(
-        tuple(sorted(grasps, key=lambda grasp: grasp.score)),
-        tuple(sorted(wide, key=lambda grasp: (grasp.width, grasp.score))),
-        min(widths, default=float("inf")),
-    )
+        _from_side(solids, data, name, (low, high, center, axis), found)
+        _through_mouth(world, solids, data, name, found)
+    return found.ranked()
+
+
+class _Pinch(NamedTuple):
+    """What a grasp is made of; its tool pose is worked out for the best alone."""
+
+    point: Vector
+    approach: Vector
+    closing: Vector
+    width: float
+    pose: GraspPose
+    score: float
+    friction: float
+
+    def grasp(self, opening: float) -> Grasp:
+        """The grasp, with the pads ``opening`` apart for the approach [m]."""
+        tool = Pose(self.point, rotation_from_axes(self.approach, self.closing))
+        return Grasp(tool, self.width, opening, self.pose, self.score, self.friction)
+
+
+class _Found:
+    """Collects candidates for a gripper that opens to ``largest`` [m]."""
+
+    def __init__(self, largest: float) -> None:
+        self._largest = largest
+        self.fitting: list[_Pinch] = []
+        self._wide: list[_Pinch] = []
+
+    def add(
+        self,
+        point: Vector,
+        approach: Vector,
+        closing: Vector,
+        interval: Interval,
+        pose: GraspPose,
+        score: float,
+    ) -> None:
+        """Takes note of a grasp of what lies on an interval, unless it meets that too obliquely."""
+        if interval.squareness < SQUARE:
+            return
+        cosine, width = min(interval.squareness, 1.0), interval.width
+        friction = math.sqrt(1.0 - cosine**2) / cosine
+        score += FRICTION_COST * friction
+        if width + WIDTH_MARGIN <= self._largest:
+            into = self.fitting
+        elif width <= self._largest * TOO_WIDE_TRIES:
+            into = self._wide
+        else:
+            return
+        into.append(_Pinch(point, approach, closing, width, pose, score, friction))
+
+    def ranked(self) -> GraspSet:
+        """The best of them."""
+        best = sorted(self.fitting, key=lambda pinch: pinch.score)[:MAX_RANKED]
+        wide = sorted(self._wide, key=lambda pinch: (pinch.width, pinch.score))[:MAX_RANKED]
+        widths = (pinch.width for pinch in (*self.fitting, *self._wide))
+        return GraspSet(
+            tuple(pinch.grasp(min(self._largest, pinch.width + 2 * FINGER_ROOM)) for pinch in best),
+            tuple(pinch.grasp(self._largest) for pinch in wide),
+            min(widths, default=float("inf")),
+        )
 
 
 def _axis(world: World, data: mujoco.MjData, name: str) -> Vector | None:
@@ -139,8 +198,7 @@ def _from_above(
     name: str,
     bounds: Bounds,
     levels: Sequence[Line],
-    grasps: list[Grasp],
-    wide: list[Grasp],
+    found: _Found,
 ) -> None:
     if not levels:
         return
@@ -161,13 +219,10 @@ def _from_above(
             score = _score(center, middle, axis, interval, rim=rim, offset=offset)
             if rim and interval.squareness < SQUARE:
                 slanted.append(Slanted(middle, closing, score))
-            _add(
-                world, grasps, wide, middle, np.array([0.0, 0.0, -1.0]), closing, interval,
-                GraspPose.VERTICAL, score,
-            )  # fmt: skip
+            found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score)
     for wall in across_walls(solids, data, name, slanted):
-        _add(
-            world, grasps, wide, wall.middle, wall.approach, wall.closing, wall.interval,
+        found.add(
+            wall.middle, wall.approach, wall.closing, wall.interval,
             GraspPose.VERTICAL, wall.score + LEAN_COST * wall.lean,
         )  # fmt: skip
 
@@ -214,13 +269,7 @@ def _score(
 
 
 def _from_side(
-    world: World,
-    solids: Solids,
-    data: mujoco.MjData,
-    name: str,
-    bounds: Bounds,
-    grasps: list[Grasp],
-    wide: list[Grasp],
+    solids: Solids, data: mujoco.MjData, name: str, bounds: Bounds, found: _Found
 ) -> None:
     low, high, center, axis = bounds
     outward = float(np.arctan2(center[1], center[0]))
@@ -246,58 +295,22 @@ def _from_side(
         score = 1.0 + abs(turn) * 0.3 + abs(origin[2] - center[2]) * 4 + abs(back) * 5
         if axis is not None and abs(float(axis @ closing)) > 0.5:
             continue
-        _add(
-            world, grasps, wide, middle, approach, closing, outer, GraspPose.HORIZONTAL,
-            score + outer.width * 2,
-        )  # fmt: skip
+        found.add(middle, approach, closing, outer, GraspPose.HORIZONTAL, score + outer.width * 2)
 
 
 def _through_mouth(
-    world: World,
-    solids: Solids,
-    data: mujoco.MjData,
-    name: str,
-    grasps: list[Grasp],
-    wide: list[Grasp],
+    world: World, solids: Solids, data: mujoco.MjData, name: str, found: _Found
 ) -> None:
     lines = across_mouth(world, data, name)
     if not lines:
         return
     points, closings, _ = (np.array(column) for column in zip(*lines, strict=True))
-    found = solids.intervals(data, name, points, closings)
-    for (point, closing, approach), line in zip(lines, found, strict=True):
+    cuts = solids.intervals(data, name, points, closings)
+    for (point, closing, approach), line in zip(lines, cuts, strict=True):
         for wall, is_rim in _choices(line, []):
             if is_rim:
                 middle = point + closing * (wall.start + wall.end) / 2
-                _add(
-                    world, grasps, wide, middle, approach, closing, wall,
-                    GraspPose.HORIZONTAL, MOUTH_COST,
-                )  # fmt: skip
-
-
-def _add(
-    world: World,
-    grasps: list[Grasp],
-    wide: list[Grasp],
-    point: Vector,
-    approach: Vector,
-    closing: Vector,
-    interval: Interval,
-    pose: GraspPose,
-    score: float,
-) -> None:
-    if interval.squareness < SQUARE:
-        return
-    largest = world.robot.spec.gripper.opening
-    cosine = min(interval.squareness, 1.0)
-    friction = math.sqrt(1.0 - cosine**2) / cosine
-    score += FRICTION_COST * friction
-    tool = Pose(point, rotation_from_axes(approach, closing))
-    if interval.width + WIDTH_MARGIN <= largest:
-        opening = min(largest, interval.width + 2 * FINGER_ROOM)
-        grasps.append(Grasp(tool, interval.width, opening, pose, score, friction))
-    elif interval.width <= largest * TOO_WIDE_TRIES:
-        wide.append(Grasp(tool, interval.width, largest, pose, score, friction))
+                found.add(middle, approach, closing, wall, GraspPose.HORIZONTAL, MOUTH_COST)
 
 
 def tilted(grasp: Grasp, angle: float) -> Grasp:

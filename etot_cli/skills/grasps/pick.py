@@ -33,8 +33,6 @@ HELD_SHARE = 0.4
 way by up to half a thin wall's thickness, and empty fingers close to nothing."""
 MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
-MAX_RANKED = 48
-"""Of those, the ones whose whole way is looked at."""
 MAX_SUSPECTS = 4
 """Objects that are taken away one at a time to see whether that helps ..."""
 MAX_TRIED_AGAIN = 48
@@ -182,7 +180,7 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
     """Candidates best first, leaning ones behind upright ones of the same quality. Objects too wide
     for the gripper are tried all the same when nothing else is left: physics decides.
     """
-    ranked = found.grasps[:MAX_RANKED] or found.too_wide[:12]
+    ranked = found.grasps or found.too_wide[:12]
     order = [
         (grasp.score + LEAN_COST * abs(tilt), abs(tilt), rank, tilt)
         for rank, grasp in enumerate(ranked)

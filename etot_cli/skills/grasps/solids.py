@@ -6,7 +6,7 @@ pair of fingers could close on.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -26,8 +26,7 @@ PARALLEL = 1e-9
 """A line that comes nearer to a plane by less than this share of its way never crosses it."""
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(NamedTuple):
     """Solid material along a line, from ``start`` to ``end`` [m].
 
     ``squareness``: cosine of the larger of the angles at which the line meets the two surfaces; 1

@@ -22,8 +22,6 @@ CLEARANCE = 0.008
 SELF_CLEARANCE = 0.004
 """Distance that links of the robot keep from each other [m]: an arm that follows its targets some
 milliradians late must not get stuck on itself."""
-_MARGIN = 0.02
-"""Distances are known up to this [m]."""
 
 
 @dataclass(frozen=True)
@@ -48,16 +46,10 @@ class CollisionChecker(FrozenScene):
                 for o in world.geom_object
             ]
         )  # fmt: skip
-        moving = self._owner < -1
-        self._model.geom_margin[moving] = _MARGIN
-        for name, entry in world.entries.items():
-            if entry.free:
-                self._model.geom_margin[world.geoms_of(name)] = _MARGIN
-        # The broad phase looks at bodies' margins, which are fixed when a model is compiled.
-        self._model.body_margin[:] = _MARGIN
         self._solid = (world.model.geom_contype | world.model.geom_conaffinity) != 0
         self._carried: int | None = None
-        self._select_pairs(None)
+        self._within = 0.0
+        self._select_pairs(None, CLEARANCE)
         self._hand = np.nonzero(self._owner == -2)[0]
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
@@ -65,10 +57,14 @@ class CollisionChecker(FrozenScene):
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
 
-    def _select_pairs(self, carried: int | None) -> None:
+    def _select_pairs(self, carried: int | None, within: float) -> None:
         """Makes MuJoCo look only at pairs with the robot or the carried object (its number) in
-        them: how the other things touch each other is none of the robot's business.
+        them, as far as they are ``within`` a distance [m] of each other: how the other things touch
+        each other is none of the robot's business, and most of a hand's surroundings is farther.
         """
+        if (carried, within) == (self._carried, self._within):
+            return
+        self._carried, self._within = carried, within
         model = self._model
         active = self._owner < -1
         if carried is not None:
@@ -77,7 +73,11 @@ class CollisionChecker(FrozenScene):
         model.geom_conaffinity[:] = self._solid
         model.body_contype[:] = 0
         np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)
-        self._carried = carried
+        # A pair's margin is the sum of both, and two links have to be told apart by half of theirs.
+        margin = max(within, SELF_CLEARANCE / 2)
+        model.geom_margin[:] = np.where(active, margin, 0.0)
+        # The broad phase looks at bodies' margins, which are fixed when a model is compiled.
+        model.body_margin[:] = margin
 
     @contextmanager
     def without(self, names: Iterable[str]) -> Iterator[None]:
@@ -149,8 +149,7 @@ class CollisionChecker(FrozenScene):
         """As :meth:`hits`, of the arm's configuration that is set, nobody being left out."""
         model, data, world = self._model, self._data, self.world
         carried = None if attached is None else self._object_names.index(attached.name)
-        if carried != self._carried:
-            self._select_pairs(carried)
+        self._select_pairs(carried, max(clearance, 0.0 if worked is None else worked[1]))
         if attached is not None:
             mujoco.mj_kinematics(model, data)
             tool = Pose(data.site_xpos[self._tool], data.site_xmat[self._tool].reshape(3, 3))
@@ -162,24 +161,24 @@ class CollisionChecker(FrozenScene):
         mujoco.mj_collision(model, data)
         if data.ncon == 0:
             return []
-        geoms = data.contact.geom
-        owners = self._owner[geoms]
-        held = -9 if carried is None else carried
-        moving = (owners < -1) | (owners == held)
-        close = data.contact.dist < self._required(geoms, clearance, worked)
-        candidates = np.nonzero(close & _either(moving))[0]
-        if len(candidates) == 0:
+        contacts = data.contact
+        geoms, distances = contacts.geom, contacts.dist
+        close = np.flatnonzero(distances < self._required(geoms, clearance, worked))
+        if len(close) == 0:
             return []
+        held = -9 if carried is None else carried
         allowed = {self._object_names.index(n) for n in allow if n in world.entries}
         allow_desk = "desk" in allow
         allowed_contacts = set(allow_attached)
         found: dict[str, None] = {}
-        for index in candidates:
-            first, second = (int(value) for value in owners[index])
-            one, two = (int(value) for value in geoms[index])
+        pairs = geoms[close]
+        # Plain numbers: there are too few contacts for arrays to pay.
+        for (one, two), (first, second), distance in zip(
+            pairs.tolist(), self._owner[pairs].tolist(), distances[close].tolist(), strict=True
+        ):
             if first < -1 and second < -1:
                 # MuJoCo leaves out pairs of neighbouring links, which the model excludes.
-                if data.contact.dist[index] < SELF_CLEARANCE and not hand_only:
+                if distance < SELF_CLEARANCE and not hand_only:
                     found["robot"] = None
                 continue
             if not (first < -1 or first == held):
@@ -240,6 +239,7 @@ class CollisionChecker(FrozenScene):
 
     def _hand_hits(self, tool: Pose, clearance: float, fingers_only: bool) -> list[str]:
         model, data = self._model, self._data
+        self._select_pairs(self._carried, clearance)
         mujoco.mj_kinematics(model, data)
         move = tool @ self.tool_pose().inverse()
         bodies, geoms = self._hand_bodies, self._hand
