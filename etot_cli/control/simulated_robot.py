@@ -104,7 +104,7 @@ class SimulatedRobot:
             if self._slipped(guards):
                 self._command[ctrl] = target
                 return PhaseEnd.SLIPPED
-            error = float(np.abs(data.qpos[qpos] - target).max())
+            error = _largest(data.qpos[qpos] - target)
             late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
             if late >= BLOCKED_PERIODS:
                 self._command[ctrl] = data.qpos[qpos]
@@ -193,8 +193,14 @@ class SimulatedRobot:
     def _at_rest(self) -> bool:
         if not len(self._free_dofs):
             return True
-        return float(np.abs(self._data.qvel[self._free_dofs]).max()) < REST_SPEED
+        return _largest(self._data.qvel[self._free_dofs]) < REST_SPEED
 
     @property
     def _exhausted(self) -> bool:
         return self._periods * CONTROL_PERIOD > TIME_LIMIT_S
+
+
+def _largest(values: Vector) -> float:
+    """The largest magnitude of a few values (n,); numpy takes three times as long for so few."""
+    largest: float = max(map(abs, values.tolist()))
+    return largest

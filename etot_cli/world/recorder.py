@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -44,8 +45,22 @@ class Trajectory:
         )
 
 
+class _Contacts(NamedTuple):
+    """Contacts (k,) at one observation: geoms (k, 2), rows of constraints, normal forces [N]; rows
+    are negative where a contact bears nothing.
+    """
+
+    observation: int
+    geoms: NDArray[np.int64]
+    rows: NDArray[np.int64]
+    forces: NDArray[np.float64]
+
+
 class Recorder:
-    """Collects what happens during one action. Call :meth:`observe` at a fixed period."""
+    """Collects what happens during one action. Call :meth:`observe` at a fixed period.
+
+    While it is stepped only notes are taken; what they say is worked out when it is asked for.
+    """
 
     def __init__(self, world: World, data: mujoco.MjData, *, keep_frames: bool = True) -> None:
         self._world = world
@@ -54,76 +69,37 @@ class Recorder:
         self._bodies = np.array(
             [world.model.body(world.entries[name].body).id for name in self._names], dtype=np.int64
         )
-        owners = sorted(set(world.geom_address))
-        self._labels = owners
-        self._geom_label = np.array([owners.index(label) for label in world.geom_address])
-        object_of = {label: owner_of(label) for label in owners}
-        names = sorted(set(object_of.values()))
-        self._label_object = np.array([names.index(object_of[label]) for label in owners])
+        self._labels = sorted(set(world.geom_address))
+        number = {label: index for index, label in enumerate(self._labels)}
+        self._geom_label = np.array([number[label] for label in world.geom_address])
         self.start_time = float(data.time)
-        self._last_time = self.start_time
-        self._origin = data.xpos[self._bodies].copy()
-        self._farthest_squared = np.zeros(len(self._names))
-        self._trail_end = self._origin.copy()
-        self._trails = [[(float(x), float(y))] for x, y, _ in self._origin]
-        self._peak = np.zeros(len(owners) ** 2)
-        self._impulse = np.zeros(len(owners) ** 2)
-        self._first_time = np.zeros(len(owners) ** 2)
+        self._moments = [self.start_time]
+        self._positions = [data.xpos[self._bodies]]
+        self._contacts: list[_Contacts] = []
         self._keep_frames = keep_frames
         self._times: list[float] = []
         self._frames: list[NDArray[np.float32]] = []
-        self._baseline = self._touching(data)
+        self._baseline = set(self._pairs(data.contact.geom).tolist()) if data.ncon else set()
         self._frame(data)
 
-    def _touching(self, data: mujoco.MjData) -> set[int]:
-        if data.ncon == 0:
-            return set()
-        pairs = self._pairs(data)
-        return {int(pair) for pair in pairs}
-
-    def _pairs(self, data: mujoco.MjData) -> NDArray[np.int64]:
-        labels = self._geom_label[data.contact.geom]
-        labels.sort(axis=1)
-        return np.asarray(labels[:, 0] * len(self._labels) + labels[:, 1])
+    def _pairs(self, geoms: NDArray[np.int64]) -> NDArray[np.int64]:
+        """One number (k,) for the two labels of each contact of geoms (k, 2)."""
+        labels = self._geom_label[geoms]
+        return np.asarray(labels.min(axis=1) * len(self._labels) + labels.max(axis=1))
 
     def observe(self, data: mujoco.MjData) -> None:
         """Takes note of the current contacts and positions."""
         now = float(data.time)
-        elapsed, self._last_time = now - self._last_time, now
         if data.ncon and data.nefc:
-            self._observe_contacts(data, now, elapsed)
-        positions = data.xpos[self._bodies]
-        offset = positions - self._origin
-        np.maximum(self._farthest_squared, np.vecdot(offset, offset), out=self._farthest_squared)
-        offset = positions - self._trail_end
-        strayed = np.vecdot(offset, offset) > TRAIL_STEP**2
-        if strayed.any():
-            self._extend_trails(positions, strayed)
-        if self._keep_frames and (not self._times or now - self._times[-1] >= FRAME_PERIOD - 1e-6):
+            contact = data.contact
+            rows = contact.efc_address.copy()
+            self._contacts.append(
+                _Contacts(len(self._moments), contact.geom.copy(), rows, data.efc_force[rows])
+            )
+        self._moments.append(now)
+        self._positions.append(data.xpos[self._bodies])
+        if self._keep_frames and now - self._times[-1] >= FRAME_PERIOD - 1e-6:
             self._frame(data)
-
-    def _extend_trails(self, positions: NDArray[np.float64], strayed: NDArray[np.bool_]) -> None:
-        desk_top = self._world.scene.desk.top
-        for index in np.nonzero(strayed)[0]:
-            self._trail_end[index] = positions[index]
-            if positions[index][2] > desk_top:
-                self._trails[index].append((float(positions[index][0]), float(positions[index][1])))
-
-    def _observe_contacts(self, data: mujoco.MjData, now: float, elapsed: float) -> None:
-        contact = data.contact
-        address = contact.efc_address
-        force = data.efc_force[address]
-        force[address < 0] = 0.0
-        labels = self._geom_label[contact.geom]
-        first, second = labels[:, 0], labels[:, 1]
-        pairs = np.minimum(first, second) * len(self._labels) + np.maximum(first, second)
-        total = np.bincount(pairs, weights=force, minlength=self._peak.size)
-        # Few of all pairs touch at a time.
-        pressed = np.flatnonzero(total >= FORCE_THRESHOLD)
-        total, peak = total[pressed], self._peak[pressed]
-        self._first_time[pressed[peak == 0.0]] = now - self.start_time
-        self._peak[pressed] = np.maximum(peak, total)
-        self._impulse[pressed] += total * elapsed
 
     def _frame(self, data: mujoco.MjData) -> None:
         self._times.append(float(data.time))
@@ -131,33 +107,46 @@ class Recorder:
 
     def contacts(self) -> tuple[ContactEvent, ...]:
         """Contacts that began during the action or pressed notably, in order of time."""
+        if not self._contacts:
+            return ()
+        seen = np.repeat(
+            [item.observation for item in self._contacts],
+            [len(item.rows) for item in self._contacts],
+        )
+        pairs = self._pairs(np.concatenate([item.geoms for item in self._contacts]))
+        rows = np.concatenate([item.rows for item in self._contacts])
+        forces = np.concatenate([item.forces for item in self._contacts])
+        # What belongs to one pair at one moment is one contact.
+        count = len(self._labels) ** 2
+        keys, index = np.unique(seen * count + pairs, return_inverse=True)
+        total = np.bincount(index, weights=np.where(rows < 0, 0.0, forces))
+        pressed = total >= FORCE_THRESHOLD
+        total, (when, pairs) = total[pressed], np.divmod(keys[pressed], count)
+        elapsed = np.diff(self._moments)[when - 1]
         events = []
-        for pair in np.nonzero(self._peak)[0]:
-            first, second = divmod(int(pair), len(self._labels))
-            if self._label_object[first] == self._label_object[second]:
+        for pair in np.unique(pairs):
+            first, second = (self._labels[label] for label in divmod(int(pair), len(self._labels)))
+            own = pairs == pair
+            peak = float(total[own].max())
+            if owner_of(first) == owner_of(second) or (pair in self._baseline and peak < PRESSED):
                 continue
-            peak = float(self._peak[pair])
-            if int(pair) in self._baseline and peak < PRESSED:
-                continue
+            began = self._moments[when[own][0]] - self.start_time
+            impulse = float((total[own] * elapsed[own]).sum())
             events.append(
-                ContactEvent(
-                    round(float(self._first_time[pair]), 3),
-                    self._labels[first],
-                    self._labels[second],
-                    round(peak, 3),
-                    round(float(self._impulse[pair]), 4),
-                )
+                ContactEvent(round(began, 3), first, second, round(peak, 3), round(impulse, 4))
             )
         return tuple(sorted(events, key=lambda event: (event.time_s, event.first, event.second)))
 
-    @property
     def _farthest(self) -> NDArray[np.float64]:
-        return np.sqrt(self._farthest_squared)
+        """Largest distance of each object from where it was (n,) [m]."""
+        offset = np.array(self._positions) - self._positions[0]
+        return np.asarray(np.sqrt(np.vecdot(offset, offset).max(axis=0)))
 
     def displacement(self) -> dict[str, float]:
         """Largest distance of each free object from where it was [m]."""
+        farthest = self._farthest()
         return {
-            name: round(float(self._farthest[i]), 5)
+            name: round(float(farthest[i]), 5)
             for i, name in enumerate(self._names)
             if self._free[i]
         }
@@ -165,13 +154,27 @@ class Recorder:
     def swept(self, held: str | None = None) -> tuple[Swept, ...]:
         """Discs along the ways of displaced objects over the desk, ``held`` excepted."""
         discs = []
-        for index, name in enumerate(self._names):
-            if not self._free[index] or name == held or self._farthest[index] < MOVED:
+        for index, (name, farthest) in enumerate(zip(self._names, self._farthest(), strict=True)):
+            if not self._free[index] or name == held or farthest < MOVED:
                 continue
             own = max(self._world.entries[name].info.size[:2]) / 2
-            for x, y in self._trails[index][:MAX_TRAIL]:
+            for x, y in self._trail(index):
                 discs.append(Swept(name, round(x, 4), round(y, 4), round(own, 4)))
         return tuple(discs)
+
+    def _trail(self, index: int) -> list[tuple[float, float]]:
+        """Points of an object's way over the desk, from its start."""
+        way = np.array([positions[index] for positions in self._positions])
+        trail, here = [(float(way[0][0]), float(way[0][1]))], 0
+        while len(trail) < MAX_TRAIL:
+            offset = way[here:] - way[here]
+            strayed = np.flatnonzero(np.vecdot(offset, offset) > TRAIL_STEP**2)
+            if not len(strayed):
+                break
+            here += int(strayed[0])
+            if way[here][2] > self._world.scene.desk.top:
+                trail.append((float(way[here][0]), float(way[here][1])))
+        return trail
 
     def trajectory(self, key_times: Iterable[float] = ()) -> Trajectory | None:
         """The stored configurations, or None when none were kept.

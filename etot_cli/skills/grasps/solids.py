@@ -134,14 +134,14 @@ class Solids:
         along, across = (normals[:, :2] @ side for side in sides)
         rise = normals[:, 2]
 
-        def inside(planes: NDArray[np.bool_], scale: Vector | float) -> Vector:
-            a, b, c = ((term[planes] / scale)[:, None, None] for term in (first, along, across))
-            return np.asarray(a - b * rows - c * columns)
-
         below, above = rise < -PARALLEL, rise > PARALLEL
-        low = inside(below, rise[below]).max(axis=0, initial=-np.inf)
-        high = inside(above, rise[above]).min(axis=0, initial=np.inf)
-        outside = (inside(~(below | above), 1.0) < 0.0).any(axis=0)
+        upright = ~(below | above)
+        scale = np.where(upright, 1.0, rise)
+        a, b, c = ((term / scale)[:, None, None] for term in (first, along, across))
+        inside = a - b * rows - c * columns
+        low = inside[below].max(axis=0, initial=-np.inf)
+        high = inside[above].min(axis=0, initial=np.inf)
+        outside = (inside[upright] < 0.0).any(axis=0)
         return low + pose.position[2], np.where(outside, low, high) + pose.position[2]
 
     def _crossings(

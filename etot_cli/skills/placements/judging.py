@@ -195,8 +195,12 @@ class Judge:
             gap=least(self._free, 1.0, underside, cells) - relief.cell,
         )  # fmt: skip
         kind = self._kinds(turned)
-        cost = self._costs(turned, kind)
-        return Judged(turned, self._forbid(turned, kind, cost), cost)
+        if relief.reserved.any():
+            to_sweep = least(self._to_sweep, 1.0, underside, cells) - relief.cell
+        else:
+            to_sweep = np.full(len(cells), np.inf)
+        cost = self._costs(turned, kind, to_sweep)
+        return Judged(turned, self._forbid(turned, kind, cost, to_sweep), cost)
 
     def _kinds(self, turned: Turned) -> Cells:
         support, relief = self._support, self.relief
@@ -227,7 +231,8 @@ class Judge:
             kind[lift + turned.height > support.room] = -1
         return kind
 
-    def _costs(self, turned: Turned, kind: Cells) -> Vector:
+    def _costs(self, turned: Turned, kind: Cells, to_sweep: Vector) -> Vector:
+        """The costs; ``to_sweep``: distance from where doors and drawers pass (m,) [m]."""
         belief, support, points = self._belief, self._support, turned.points
         away = np.linalg.norm(points - support.center[:2], axis=1)
         if self._on_desk:
@@ -237,7 +242,7 @@ class Judge:
                 np.hypot(*points.T) - belief.arm.comfortable_radius(support.center[2] + HAND_ABOVE)
             )
             cost += 0.3 * np.linalg.norm(points - near, axis=1)
-            cost += NEARLY_SWEPT * self._too_near_sweeps(turned)
+            cost += NEARLY_SWEPT * np.maximum(self._sweep_error - to_sweep, 0.0)
         else:
             cost = -4 * np.minimum(turned.gap, COMFORT) + 0.5 * away + 2 * turned.drop
             if support.from_front:
@@ -254,43 +259,44 @@ class Judge:
             cost = cost + 0.03 * discomfort(belief, attached, turned.rotation, points)
         return np.asarray(cost)
 
-    def _too_near_sweeps(self, turned: Turned) -> Vector | float:
-        """By how much a door or drawer may get at places if it is not where it is seen [m] (m,)."""
-        if not self.relief.reserved.any():
-            return 0.0
-        error = self._belief.world.scene.perception
-        levers = [np.hypot(*entry.info.size[:2]) for entry in self._belief.world.entries.values()
-                  if entry.parts]  # fmt: skip
-        margin = error.position_m + np.radians(error.yaw_deg) * max(levers)
-        away = least(self._to_sweep, 1.0, turned.object, turned.cells) - self.relief.cell
-        return np.asarray(np.maximum(margin - away, 0.0))
-
-    def _forbid(self, turned: Turned, kind: Cells, cost: Vector) -> Cells:
+    def _forbid(self, turned: Turned, kind: Cells, cost: Vector, to_sweep: Vector) -> Cells:
         """The kinds, with regard to keepouts, sweeps and preferences."""
         request, relief = self._request, self.relief
         radius = float(np.hypot(*turned.object.cells.T).max()) * relief.cell
         for disc in request.keepout:
             distance = np.hypot(turned.points[:, 0] - disc.x, turned.points[:, 1] - disc.y)
             kind = np.where(distance < disc.radius + radius + DESK_GAP, -1, kind)
-        if relief.reserved.any():
-            swept = least(self._to_sweep, 1.0, turned.object, turned.cells) - relief.cell < DESK_GAP
-            kind = np.where(swept & (kind >= 0), -1 if request.strict else Quality.SWEPT, kind)
+        swept = to_sweep < DESK_GAP
+        kind = np.where(swept & (kind >= 0), -1 if request.strict else Quality.SWEPT, kind)
         return np.where(np.isfinite(cost), kind, -1)
 
     @cached_property
     def _free(self) -> Vector:
         """Distance of each cell from what stands on the floor [m]."""
-        return free_distance(self.relief.occupied, self.relief.cell)
+        return self._distance(self.relief.occupied, max(DESK_COMFORT, COMFORT))
 
     @cached_property
     def _to_edge(self) -> Vector:
         """Distance of each cell of the floor from its edge [m]; 0 beyond."""
-        return free_distance(~self.relief.on_floor, self.relief.cell)
+        return self._distance(~self.relief.on_floor, FRONT_MARGIN)
 
     @cached_property
     def _to_sweep(self) -> Vector:
         """Distance of each cell from where doors and drawers pass [m]."""
-        return free_distance(self.relief.reserved, self.relief.cell)
+        return self._distance(self.relief.reserved, max(DESK_GAP, self._sweep_error))
+
+    def _distance(self, blocked: NDArray[np.bool_], telling: float) -> Vector:
+        """Distance of each cell from blocked ones [m], exact as far as differences tell."""
+        cell = self.relief.cell
+        return free_distance(blocked, cell, telling + 2 * cell)
+
+    @cached_property
+    def _sweep_error(self) -> float:
+        """By how much a door or drawer may get nearer than where it is seen to pass [m]."""
+        world = self._belief.world
+        error = world.scene.perception
+        levers = [np.hypot(*entry.info.size[:2]) for entry in world.entries.values() if entry.parts]
+        return float(error.position_m + np.radians(error.yaw_deg) * max(levers, default=0.0))
 
     @cached_property
     def _is_drawer(self) -> bool:

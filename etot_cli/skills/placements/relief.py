@@ -288,8 +288,10 @@ def under(field: Vector | Cells, outside: float, stamp: Stamp, place: Cells) -> 
     return np.asarray(np.where(within, seen, outside))
 
 
-def free_distance(blocked: NDArray[np.bool_], cell: float) -> Vector:
+def free_distance(blocked: NDArray[np.bool_], cell: float, enough: float = np.inf) -> Vector:
     """Distance (a, b) of cells from the nearest blocked one [m]; large where none is.
+
+    Where it is ``enough`` [m] or more, what is told may be more than it is.
 
     Exact, along the rows first and then across them. It takes as long as scipy's, whose import
     takes as long as seventy of them, in every process.
@@ -304,7 +306,7 @@ def free_distance(blocked: NDArray[np.bool_], cell: float) -> Vector:
     squared = np.minimum(steps - before, behind - steps) ** 2
     nearest, shifted = squared.copy(), np.empty_like(squared)
     for step in range(1, rows):
-        if step**2 >= nearest.max():
+        if step * cell >= enough or step**2 >= nearest.max():
             break
         np.add(squared, step**2, out=shifted)
         np.minimum(nearest[step:], shifted[:-step], out=nearest[step:])
