@@ -1081,3 +1081,19 @@ def grocer() -> SceneState:
         item("plate", "cylinder", (0.55, -0.35), size=(0.2, 0.2, 0.015), color="white"),
         item("mug", "cup", (0.35, 0.36), size=(0.08, 0.08, 0.09), label="coffee mug"),
     )
+
+
+def post_room() -> SceneState:
+    """Trays called in and out, lettered blocks, two rulers, a stapler, a flat board, a flask."""
+    return scene(
+        item("in_tray", "box", (0.30, 0.30), size=(0.24, 0.20, 0.02), label="in tray"),
+        item("out_tray", "box", (0.30, -0.30), size=(0.24, 0.20, 0.02), label="out tray"),
+        item("a", "box", (0.45, 0.10), size=CUBE, label="block A", color="red"),
+        item("b", "box", (0.45, 0.00), size=CUBE, label="block B", color="green"),
+        item("c", "box", (0.45, -0.10), size=CUBE, label="block C", color="blue"),
+        item("ruler_1", "box", (0.55, 0.15), size=(0.20, 0.03, 0.01), label="ruler"),
+        item("ruler_2", "box", (0.55, -0.15), size=(0.10, 0.03, 0.01), label="ruler"),
+        item("stapler", "box", (0.30, 0.00), size=(0.12, 0.04, 0.05), color="black"),
+        item("board", "box", (0.65, 0.30), size=(0.20, 0.16, 0.02), color="brown"),
+        item("flask", "cylinder", (0.65, -0.30), size=(0.05, 0.05, 0.15), color="white"),
+    )

@@ -120,6 +120,23 @@ def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> No
                 context.constraints.append(Constraint(keep, (name,)))
 
 
+def leave_out(context: Context, index: int, word: str) -> None:
+    """Of several that "the drawer" may mean, what is open or closed anyway is not spoken of."""
+    so = is_open if word == "open" else is_closed
+    referent = context.discourse.referents[index]
+    options = tuple(
+        option
+        for option in referent.options
+        if not all(
+            so(context.scene, part)
+            for thing in option
+            for part in context.scene.infos[thing.name].parts
+            if thing.part in (None, part.name)
+        )
+    )
+    context.discourse.referents[index] = replace(referent, options=options or referent.options)
+
+
 def _address(thing: Thing, role: Role) -> str:
     if role is Role.PART and thing.part is not None:
         return f"{thing.name}.{thing.part}"

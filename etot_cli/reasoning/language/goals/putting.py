@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step
+from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
@@ -23,7 +25,7 @@ from etot_cli.reasoning.language.goals.pairing import (
     one_each,
 )
 from etot_cli.reasoning.language.goals.placing import add_put, add_puts, put_back, spread
-from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, rule_out
+from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, leave_out, rule_out
 from etot_cli.reasoning.language.goals.standing import upright
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -39,6 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     Turns,
 )
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.words.lexicon import same_noun
@@ -50,7 +53,7 @@ def put(context: Context, clause: PutClause) -> None:
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = " and ".join(phrase.text for phrase in clause.groups[-1].things.phrases)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
-    placed: set[int] = set()
+    placed: set[Thing | int] = set()
     for group in clause.groups:
         if clause.by_color or is_by_color(group):
             by_color(context, group)
@@ -61,10 +64,10 @@ def put(context: Context, clause: PutClause) -> None:
         away = context.places.no_themes(group.destinations)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
-        if twice := placed & {*themes}:
-            text = context.discourse.referents[min(twice)].text
-            raise ReferenceProblem(text, "it cannot go to two places at once", 1)
-        placed |= {*themes}
+        own = _certain(context, themes)
+        if placed & own:
+            _set_upon(context, group, themes)
+        placed |= own
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, clause.ruled_out)
             continue
@@ -96,6 +99,32 @@ def put(context: Context, clause: PutClause) -> None:
             rule_out(context, themes, clause.ruled_out)
 
 
+def _certain(context: Context, themes: Sequence[int]) -> set[Thing | int]:
+    """The things that are moved, and the referents of which it is open which they are."""
+    options = {index: context.discourse.referents[index].options for index in themes}
+    return {item for i, o in options.items() for item in (o[0] if len(o) == 1 else (i,))}
+
+
+def _set_upon(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
+    """Things go on what goes somewhere with them ("the cup and the saucer on the tray, the cup on
+    the saucer"): they have that place alone.
+    """
+    own = _certain(context, themes)
+    places = context.places.of(group.destinations, themes)
+    under = _certain(context, [place.where for place in places if place.where is not None])
+    for number, step in enumerate(context.steps):
+        moved = _certain(context, step.what) if isinstance(step, Put) else set()
+        if isinstance(step, Put) and own < moved and under and under <= moved - own:
+            rest = [
+                item if isinstance(item, int) else context.single(item, item.name)
+                for item in sorted(moved - own, key=str)
+            ]
+            context.steps[number] = replace(step, what=tuple(rest))
+            return
+    text = context.discourse.referents[themes[0]].text
+    raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+
+
 def ensure(context: Context, state: State) -> None:
     """Adds the steps after which something is as it is said to be."""
     if state.word:
@@ -103,6 +132,8 @@ def ensure(context: Context, state: State) -> None:
             if phrase.determiner in ("a", "an"):
                 phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
             for index in context.phrases.refer(phrase, Role.PART):
+                if state.denied:
+                    leave_out(context, index, state.word)
                 if state.kept:
                     all_of_them = quantity_of(phrase.determiner).every
                     keep_as_it_is(context, index, state.word, every=all_of_them)
@@ -240,6 +271,17 @@ def _shared(
     return replace(group, destinations=tuple(destinations)), grouping
 
 
+def _is_there(
+    context: Context, subjects: Sequence[int], places_of: dict[int, tuple[Place, ...]]
+) -> bool:
+    """Whether things are in or on what others go to ("onto the book with the cup on it")."""
+    discourse = context.discourse
+    marks = [p.where for places in places_of.values() for p in places if p.where is not None]
+    below = {thing.name for index in marks for thing in discourse.things(index)}
+    things = [thing for index in subjects for thing in discourse.things(index)]
+    return any(below & bearers(context.scene, thing.name) for thing in things)
+
+
 def _condition(
     context: Context,
     condition: State,
@@ -259,8 +301,10 @@ def _condition(
     vessels = [theme for theme in themes if theme not in subjects]
     if not set(subjects) & set(themes):
         # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
-        along = [p.where for p in context.places.of(condition.destinations, subjects, vessels)]
-        if not set(along) & set(themes):
+        along: list[int | None] = []
+        with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
+            along = [p.where for p in context.places.of(condition.destinations, subjects, vessels)]
+        if _is_there(context, subjects, places_of) or not set(along) & set(themes):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     places = context.places.of(condition.destinations, subjects, prefer=vessels)

@@ -149,6 +149,8 @@ def _said(node: object) -> Iterator[str]:
             yield from (_DENIAL, "other", "any", "after", "afterwards")
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
+        case State(denied=True):
+            yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects):
             yield from ("both", "each", "all") if len(subjects) > 1 else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
@@ -170,7 +172,7 @@ def _said(node: object) -> Iterator[str]:
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
-            yield from ("either", "any") if either else ()
+            yield from ("either", "any", "both", "not") if either else ()
             yield from ("both", _ORDER) if len(phrases) > 1 else ()
         case _:
             return

@@ -47,6 +47,7 @@ EXTRA = sequence(
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
+        phrase("[but|though|and] not both [of them]", ("one", ())),
         sequence(
             either(
                 phrase("(that|which) is [currently]", False),
@@ -76,7 +77,8 @@ def put_of(
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
         return None
-    if len(groupings) > 1 or turns is None:
+    chosen = len(groups) == 1 and groups[0].things.either
+    if len(groupings) > 1 or turns is None or ("one" in named and not chosen):
         return None
     grouping = groupings[0] if groupings else grouping
     described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]

@@ -24,6 +24,9 @@ from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, 
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE
 from etot_cli.reasoning.language.grammar.syntax import (
+    Avoid,
+    AvoidClause,
+    Clause,
     MoveClause,
     Order,
     PutClause,
@@ -106,7 +109,32 @@ def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
     return (Spoken(clause, at, when), *(Spoken(item, at) for item in avoided))
 
 
-LED_CLAUSE = Rule(sequence(LEAD, CLAUSE, build=_spoken))
+def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
+    """What is not to go somewhere, and what is ("…, only the green one")."""
+    only = all(np.determiner.startswith("only") for np in meant.phrases)
+    avoided = AvoidClause(Avoid.PUT, out, where, negated=True)
+    return (avoided, PutClause((PutGroup(meant, where),))) if joint or only else None
+
+
+_ONLY_THESE = located(
+    sequence(
+        silent(phrase(verbs.DO_NOT)),
+        silent(phrase(verbs.PUT)),
+        THINGS,
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        optional(phrase("but, just, but just"), ""),
+        THINGS,
+        build=_only_these,
+    ),
+    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
+)
+LED_CLAUSE = Rule(
+    either(
+        sequence(LEAD, CLAUSE, build=_spoken),
+        sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
+    )
+)
 
 
 GONE = located(

@@ -26,7 +26,8 @@ from etot_cli.reasoning.language.words import places
 from etot_cli.world.spatial import Nearby
 
 TOP = "top"
-"""The word of a destination on top of something: of a shelf, its top board."""
+"""The word of a destination on top of something: of a shelf, its top board. What is "at the top"
+or the bottom has boards."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -98,6 +99,11 @@ ONTO = sequence(
     TARGETS,
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
+_AT_END = sequence(
+    one_of(places.AT_END),
+    TARGETS,
+    build=lambda end, targets: Destination(Toward.ON, targets, end),
+)
 OVER = sequence(
     silent(phrase(places.OVER)),
     TARGETS,
@@ -115,6 +121,7 @@ destination = Rule(
     either(
         INTO,
         ONTO,
+        _AT_END,
         OVER,
         _to,
         _top_of,

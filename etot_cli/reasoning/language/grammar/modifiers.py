@@ -107,7 +107,21 @@ def _contents_with(having: Parser, denied: bool) -> Parser:
     )
 
 
+HERE_BEFORE = "before"
+"""The word of a modifier that tells by what was in or on a thing before anything was moved."""
+_CAME_FROM = """
+    (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of)
+"""
 _contents = either(
+    sequence(
+        silent(optional(phrase("that, which"), None)),
+        phrase(_CAME_FROM),
+        build=lambda said: Modifier(
+            Prep.WITH,
+            (NounPhrase(HERE_BEFORE, pronoun=said.split()[0], text=said),),
+            (HERE_BEFORE,),
+        ),
+    ),
     _contents_with(_HAVING, denied=False),
     _contents_with(_WITHOUT, denied=True),
     sequence(

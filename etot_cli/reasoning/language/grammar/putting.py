@@ -14,7 +14,13 @@ from etot_cli.reasoning.language.grammar.additions import (
     put_of,
 )
 from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, INTO, ONTO
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+    DIRECTED,
+    INTO,
+    ONTO,
+    destination,
+)
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
@@ -159,6 +165,16 @@ _SO_THAT_IT_IS = sequence(
     DESTINATIONS,
     build=PutGroup,
 )
+_NEITHER = quiet(
+    sequence(
+        silent(phrase("neither")),
+        separated(destination, silent(phrase("nor, or")), most=4),
+        OPTIONAL_COMMA,
+        silent(phrase("but [rather|instead]")),
+        DESTINATIONS,
+        build=lambda out, where: (out, where) if len(out) > 1 else None,
+    )
+)
 _INSTEAD = sequence(
     DESTINATIONS,
     OPTIONAL_COMMA,
@@ -227,8 +243,7 @@ PUT = either(
     sequence(
         silent(phrase(verbs.PUT)),
         THINGS,
-        silent(phrase("not")),
-        _INSTEAD,
+        either(_NEITHER, sequence(silent(phrase("not")), _INSTEAD, build=lambda places: places)),
         build=lambda things, places: _elsewhere(things, *places),
     ),
     sequence(

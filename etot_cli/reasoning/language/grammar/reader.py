@@ -42,6 +42,9 @@ from etot_cli.reasoning.language.words.small_words import WITHOUT_MEANING
 
 _POLITE = frozenset(spellings(WITHOUT_MEANING))
 """Sentences that ask for nothing."""
+_BEFORE_NOUNS = [(word,) for word in ("the", "a", "an", "my", "this", "that", "both", "all")]
+"""Before what a verb is about; a noun has none of them behind it."""
+_NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
 SHOWN_WORDS = 4
 MAX_READINGS = 200
 """Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
@@ -112,9 +115,12 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
         if part in _POLITE and len(parts) > 1:
             continue
         before = ". ".join(parts[: len(sentences)])
-        words = []
-        for word in words_in(part):
-            known_one = _is_known(word, vocabulary)
+        words: list[str] = []
+        plain = words_in(part)
+        for word in plain:
+            # What stands before "the" is a verb, and no noun of the scene.
+            verb = not words and plain[1:2] in _BEFORE_NOUNS
+            known_one = verb or _is_known(word, vocabulary)
             meant = None if known_one else corrected(word, spelled)
             if common and meant is None and not known_one:
                 meant = exchanged(word, known.ALL_WORDS) or corrected(word, known.ALL_WORDS)
@@ -182,13 +188,19 @@ def _stopped(given: Input, before: str) -> UnreadableError:
             why = known.REASONS["what"]
         if not why and word not in given.nouns and known.is_adverb(word):
             why = "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
-        if not why and word not in given.nouns and word in known.OTHER_VERBS:
-            why = "no skill does that; things can be picked up, put somewhere, opened and closed"
+        switched = word in ("turn", "switch") and words[index + 1 : index + 2] in (
+            ("on",),
+            ("off",),
+        )
+        if not why and word not in given.nouns and (switched or word in known.OTHER_VERBS):
+            why = _NO_SKILL
         blamed = word in known.BLAMED or word not in known.ALL_WORDS
         if why and (index >= stop - 1 or blamed):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(_some(words[index:]), understood, why, without)
+    if words[0] in given.nouns and words[1:2] in _BEFORE_NOUNS and stop <= 2:
+        return UnreadableError(_some(words), before, _NO_SKILL)
     strange = words[0] not in known.ALL_WORDS and words[0] not in given.nouns
     if strange and stop <= 1 < len(words):
         why = f"{words[0]!r} is no verb that is known"

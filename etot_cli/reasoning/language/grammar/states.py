@@ -29,27 +29,54 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, nouns, verbs
 
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
-PREDICATE = either(OPEN_OR_CLOSED, DESTINATIONS)
+_NOT_SO = sequence(
+    silent(phrase("not [left|kept]")), OPEN_OR_CLOSED, build=lambda word: ("not", word)
+)
+PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 
 
-def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State:
+def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     """What is to be so: a word for a state, or where things are to be."""
     if isinstance(predicate, str):
         return State(subjects, word=predicate)
-    return State(subjects, predicate)
+    return opposite(subjects, predicate[1]) if "not" in predicate else State(subjects, predicate)
+
+
+def opposite(subjects: tuple[NounPhrase, ...], word: str) -> State | None:
+    """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
+    several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
+    return None if several else _opposite(subjects, word)
+
+
+def _opposite(subjects: tuple[NounPhrase, ...], word: str) -> State:
+    return State(subjects, word="closed" if word == "open" else "open", denied=True)
 
 
 _STAYS = sequence(
     NP_LIST,
     silent(phrase(verbs.STAY)),
     PREDICATE,
-    build=lambda nps, predicate: replace(state_of(nps, predicate), kept=True),
+    build=lambda nps, predicate: (
+        None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
+    ),
 )
 STATE = either(sequence(NP_LIST, BE, PREDICATE, build=state_of), _STAYS)
 states = Rule(separated(STATE, LIST, most=6))
+
+
+def _ensured(*said_states: State | None) -> EnsureClause | None:
+    said = tuple(state for state in said_states if state is not None)
+    return EnsureClause(said) if len(said) == len(said_states) else None
+
+
+def _not_left(subjects: tuple[NounPhrase, ...], word: str) -> State | None:
+    """What is not to be left so; "any drawer" is all of them."""
+    if all(np.determiner in ("a", "an", "any") for np in subjects):
+        return _opposite(tuple(replace(np, determiner="all") for np in subjects), word)
+    return opposite(subjects, word)
 
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
@@ -123,6 +150,21 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
+    sequence(
+        silent(phrase(verbs.DO_NOT)),
+        silent(phrase(verbs.KEEP)),
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=lambda nps, word: _ensured(_not_left(nps, word)),
+    ),
+    quiet(
+        sequence(
+            NP_LIST,
+            silent(phrase("(should|must|shall|may) not (be|stay|remain) [left|kept]")),
+            OPEN_OR_CLOSED,
+            build=lambda nps, word: _ensured(opposite(nps, word)),
+        )
+    ),
     valued(_STAYS, lambda state: EnsureClause((state,))),
     sequence(
         silent(phrase("there (should|must|has to|have to|needs to|need to|shall) be")),
@@ -137,7 +179,7 @@ ENSURE = either(
         PREDICATE,
         # "…, the ball in the cup": the verb is left out.
         some(sequence(LIST, NP_LIST, DESTINATIONS, build=state_of), most=4),
-        build=lambda nps, predicate, more: EnsureClause((state_of(nps, predicate), *more)),
+        build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
     sequence(
         silent(phrase(verbs.WANT)),
@@ -148,6 +190,6 @@ ENSURE = either(
             sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of),
             most=4,
         ),
-        build=lambda nps, predicate, more: EnsureClause((state_of(nps, predicate), *more)),
+        build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
 )

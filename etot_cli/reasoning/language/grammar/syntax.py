@@ -95,12 +95,14 @@ class State:
     """What is to hold, as in "the plum is inside the cup".
 
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
+    ``denied``: it was said that the opposite must not be ("is not open").
     """
 
     subjects: tuple[NounPhrase, ...]
     destinations: tuple[Destination, ...] = ()
     word: str = ""
     kept: bool = False
+    denied: bool = False
 
 
 @dataclass(frozen=True, slots=True)

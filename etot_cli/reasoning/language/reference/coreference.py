@@ -67,7 +67,12 @@ def meant_by_it(discourse: Discourse, role: Role, text: str, excluded: Sequence[
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):
-                rivals += [i for i in landmarks if not own & {t.name for t in discourse.things(i)}]
+                rivals += [
+                    i
+                    for i in landmarks
+                    if not own & {t.name for t in discourse.things(i)}
+                    and not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
+                ]
             found = (*acted_on, *rivals)
         else:
             # One of several things that were acted on together is not "it".
@@ -103,13 +108,17 @@ def openable(discourse: Discourse) -> tuple[int, ...]:
     )
 
 
-def candidates(discourse: Discourse) -> tuple[int, ...]:
-    """All that "it" may mean where only what is said about it tells which."""
+def candidates(discourse: Discourse, *, everywhere: bool = False) -> tuple[int, ...]:
+    """All that "it" may mean where only what is said about it tells which: what the latest clause
+    spoke of, or all that anything was done with.
+    """
+    acted: dict[int, None] = {}
     for clause in _clauses(discourse):
         acted_on, places, landmarks = _mentioned_in(discourse, clause, Role.ANY, ())
-        if found := (*acted_on, *places) or landmarks:
+        if not everywhere and (found := (*acted_on, *places) or landmarks):
             return found
-    return ()
+        acted.update(dict.fromkeys(acted_on))
+    return tuple(acted)
 
 
 def _clauses(discourse: Discourse) -> list[int]:
@@ -160,6 +169,16 @@ def _rivals(discourse: Discourse, place: int, theme: int, role: Role) -> bool:
     if role is Role.CONTAINER:
         return discourse.put_into.get(theme) == place
     return all(discourse.scene.infos[thing.name].movable for thing in things)
+
+
+def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
+    """Whether one thing is a support by its looks, and another one neither that nor a vessel."""
+    infos = discourse.scene.infos
+    own, rivals = (
+        [infos[thing.name] for thing in discourse.things(index) if thing.name in infos]
+        for index in (referent, other)
+    )
+    return all(map(is_flat, own)) and not any(is_flat(info) or info.container for info in rivals)
 
 
 def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:

@@ -29,7 +29,7 @@ def usable_ones(
     if not usable and role is Role.CONTAINER:
         # "In the tray" is said of what lies on it.
         flat = [thing for thing in things if can_be(thing, Role.SURFACE, scene)]
-        named = phrase.words and matches_any(phrase.words[-1], OPEN_SURFACES)
+        named = phrase.words and matches_any(phrase.words[-1].split("_")[-1], OPEN_SURFACES)
         usable = [
             thing
             for thing in flat

@@ -9,6 +9,7 @@ from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
@@ -32,6 +33,8 @@ from etot_cli.reasoning.language.reference.narrowing import (
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import (
+    SIDES,
+    SIZES,
     THING_NOUNS,
     is_descriptive,
     matches_any,
@@ -75,11 +78,10 @@ class Meanings:
                 phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
             )
         possessor = {"its": "it", "their": "them"}.get(phrase.determiner.split(" ")[0])
+        noun_before = discourse.last_noun(role)
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
-            owner = Modifier(Prep.OF, (pronoun,))
-            phrase = replace(phrase, modifiers=(owner, *phrase.modifiers))
-        noun_before = discourse.last_noun(role)
+            phrase = self._possessed(phrase, pronoun, role, noun_before)
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
@@ -125,6 +127,20 @@ class Meanings:
         """Whether anything is called by the last of some words."""
         return bool(words) and self.resolver.names(words[-1])
 
+    def _possessed(
+        self, phrase: NounPhrase, owner: NounPhrase, role: Role, noun: str | None
+    ) -> NounPhrase:
+        """What is "its": a part of it, else what it is in or on, or what is in or on it."""
+        ways = [
+            replace(phrase, modifiers=(Modifier(prep, (owner,)), *phrase.modifiers))
+            for prep in (Prep.OF, Prep.WITH, Prep.FROM)
+        ]
+        for way in ways:
+            with suppress(ReferenceProblem):
+                self._with_noun(way, role, noun)
+                return way
+        return ways[0]
+
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
         """A phrase that may leave its noun to an earlier one: to the latest, else to the only
         other one that makes sense ("both cups on the tray, then the plum in the yellow one").
@@ -132,21 +148,46 @@ class Meanings:
         if phrase.determiner.isdigit() and not phrase.words:
             why = "a number alone is a count or a name; say which thing"
             raise ReferenceProblem(phrase.text, why, 3)
+        elliptic = phrase.words[-1:] in (("one",), ("ones",))
+        resolved: Resolved | None = None
+        problem: ReferenceProblem | None = None
         try:
-            return self.resolved_as(phrase, role, noun)
-        except ReferenceProblem:
+            resolved = self.resolved_as(phrase, role, noun)
+            if not self._is_single(phrase, role, noun):
+                return resolved
+        except ReferenceProblem as error:
             others = quantity_of(phrase.determiner).other
-            if phrase.words[-1:] not in (("one",), ("ones",)) and (phrase.words or not others):
+            if not elliptic and (phrase.words or not others):
                 raise
-            found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
-            for other in self.discourse.nouns():
-                if noun is not None and not same_noun(other, noun):
-                    with suppress(ReferenceProblem):
-                        resolved = self.resolved_as(phrase, role, other)
-                        found.setdefault(resolved.options, resolved)
-            if len(found) != 1:
-                raise
-            return next(iter(found.values()))
+            problem = error
+        found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
+        for other in self.discourse.nouns():
+            if noun is not None and not same_noun(other, noun):
+                with suppress(ReferenceProblem):
+                    way = self.resolved_as(phrase, role, other)
+                    if not self._is_single(phrase, role, other):
+                        found.setdefault(way.options, way)
+        # "The two wrenches on the vise and the nut on the big one": of those that were several.
+        sure = [way for way in found.values() if problem or singular(way.noun) != way.noun]
+        if len(found) == len(sure) == 1:
+            return sure[0]
+        if problem is not None:
+            raise problem
+        if found or resolved is None:
+            ways = [thing.name for options in found for option in options for thing in option]
+            raise AmbiguousReference(phrase.text, ways)
+        return resolved
+
+    def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
+        """Whether "the big one" would tell one thing by its size or side of which there is one."""
+        words = phrase.words
+        told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
+        if words[-1:] != ("one",) or not told or noun is None:
+            return False
+        every = replace(phrase, determiner="all", words=("ones",), modifiers=())
+        with suppress(ReferenceProblem):
+            return [len(option) for option in self.resolved_as(every, role, noun).options] == [1]
+        return False
 
     def resolved_as(
         self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
@@ -184,7 +225,9 @@ class Meanings:
         if not phrase.pronoun:
             return list(self.meaning(phrase, Role.ANY).options)
         if phrase.pronoun not in PLURAL_PRONOUNS:
-            found = [self.discourse.things(index) for index in candidates(self.discourse)]
+            before = phrase.determiner == HERE_BEFORE
+            indices = candidates(self.discourse, everywhere=before)
+            found = [self.discourse.things(index) for index in indices]
             if not found:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)
             return found

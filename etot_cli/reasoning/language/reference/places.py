@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     holds_things,
     matches_any,
 )
-from etot_cli.reasoning.language.words.places import OVER
+from etot_cli.reasoning.language.words.places import AT_END, OVER
 from etot_cli.world.state import DESK, SceneState
 
 _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
@@ -97,8 +97,8 @@ class Places:
                 if inside and destination.word == OVER:
                     text = destination.targets[0].text
                     raise ReferenceProblem(text, "it is no lid; say into or onto it", 3)
-                if destination.word == TOP:
-                    found = [self._uppermost(place) for place in found]
+                if destination.word in (TOP, *AT_END):
+                    found = [self._at_end(place, destination.word) for place in found]
                 if destination.beside:
                     found = self._narrowed(found, destination, themes)
             places.update(dict.fromkeys(found))
@@ -143,14 +143,18 @@ class Places:
         self.discourse.notes.append(f"'to {phrase.text}': on it, or else into it")
         return places[::-1]
 
-    def _uppermost(self, place: Place) -> Place:
+    def _at_end(self, place: Place, word: str) -> Place:
         """On top of a shelf is on its top board."""
         assert place.where is not None  # what has a target
         referent = self.discourse.referents[place.where]
         options = tuple(
-            tuple(space.top_of(thing, self._scene) for thing in option)
+            tuple(
+                space.top_of(thing, self._scene, bottom=word.endswith("bottom")) for thing in option
+            )
             for option in referent.options
         )
+        if word != TOP and any(thing.board is None for option in options for thing in option):
+            raise ReferenceProblem(referent.text, "it has no boards; say into it or on it", 2)
         if place.relation is not Relation.ON or options == referent.options:
             return place
         self.discourse.referents.append(replace(referent, options=options))

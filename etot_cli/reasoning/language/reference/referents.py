@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -117,6 +118,9 @@ class Phrases(Meanings):
             found = self._both(role, phrase.text, excluded)
             if found:
                 return found
+            openable = [part for info in self.scene.infos.values() for part in info.parts]
+            if role is Role.PART and len(openable) == 2 and not self.discourse.mentions:
+                phrase = replace(phrase, words=("objects",))
         if "same" in phrase.determiner.split():
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
@@ -190,7 +194,8 @@ class Phrases(Meanings):
         """What "the box with the pen in it" means once the pen has been put into it; None where
         nothing has been moved that tells it.
         """
-        inner = [i for item in phrase.modifiers if item.prep in _HOLDING for i in item.phrases]
+        held = [item for item in phrase.modifiers if item.prep in _HOLDING]
+        inner = [i for item in held if HERE_BEFORE not in item.words for i in item.phrases]
         for landmark in inner:
             meant: set[Thing] = set()
             if landmark.words and not quantity_of(landmark.determiner).other:

@@ -81,7 +81,8 @@ def select(
             word = (*ordinals[1:], *others, "the side")[0]
             why = f"{word!r} does not go together with {ordinals[0]!r}"
             raise ReferenceProblem(phrase, why, 2, word=word)
-        return [_nth(ordinals[0], sides[0] if sides else None, things, scene, phrase)]
+        many = max(count or 1, 1)
+        return _nth(ordinals[0], sides[0] if sides else None, things, scene, phrase, many)
     for word in words:
         if word in SIZES:
             things = _by_size(word, things, count, scene, phrase)
@@ -152,9 +153,16 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
 
 
 def _nth(
-    ordinal: str, origin: str | None, things: list[Thing], scene: SceneState, phrase: str
-) -> Thing:
-    """The n-th from the left unless another side is said; parts count from the top."""
+    ordinal: str,
+    origin: str | None,
+    things: list[Thing],
+    scene: SceneState,
+    phrase: str,
+    many: int,
+) -> list[Thing]:
+    """The n-th from the left unless another side is said, or the first or last so many of them;
+    parts count from the top.
+    """
     if all(thing.part is not None or thing.board is not None for thing in things):
         owners = list(dict.fromkeys(thing.name for thing in things))
         if len(owners) > 1:
@@ -173,16 +181,20 @@ def _nth(
             raise ReferenceProblem(phrase, why, 2, word=ordinal)
         ordered = space.by_side(SIDES[origin or "left"], things, scene)
     index = ORDINALS[ordinal]
-    if index >= len(ordered):
+    if index >= len(ordered) or many > len(ordered):
         names = ", ".join(thing.name for thing in things)
         raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
-    found = ordered[index]
+    if many > 1 and index not in (0, -1):
+        raise ReferenceProblem(phrase, f"say which {many} they are", 2, word=ordinal)
+    chosen = [ordered[index]] if many == 1 else ordered[:many] if index == 0 else ordered[-many:]
     side = "" if origin in ("top", "bottom") else SIDES[origin or "left"]
-    for other in () if found.part or found.board or not side else things:
-        if other != found and space.are_level(side, found, other, scene):
-            why = f"{found.name} and {other.name} are as far to that side"
-            raise ReferenceProblem(phrase, why, 2, word=ordinal)
-    return found
+    level = not (chosen[0].part or chosen[0].board or not side)
+    for other in [thing for thing in things if level and thing not in chosen]:
+        for found in chosen:
+            if space.are_level(side, found, other, scene):
+                why = f"{found.name} and {other.name} are as far to that side"
+                raise ReferenceProblem(phrase, why, 2, word=ordinal)
+    return chosen
 
 
 def _by_size(

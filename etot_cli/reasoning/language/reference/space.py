@@ -77,10 +77,11 @@ def rests_on(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     return any(is_on(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
-def top_of(thing: Thing, scene: SceneState) -> Thing:
+def top_of(thing: Thing, scene: SceneState, *, bottom: bool = False) -> Thing:
     """What is meant by the top of a thing: of what has boards the uppermost, else the thing."""
     boards = () if thing.name == DESK else scene.infos[thing.name].boards
-    return Thing(thing.name, board=boards[-1]) if boards and not thing.board else thing
+    end = 0 if bottom else -1
+    return Thing(thing.name, board=boards[end]) if boards and not thing.board else thing
 
 
 def with_what_lies_on_them(

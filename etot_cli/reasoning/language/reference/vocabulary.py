@@ -147,14 +147,18 @@ def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
     for words in names:
         text = re.sub(rf"\b{' '.join(words[:-1])}e?s {words[-1]}\b", "_".join(words), text)
     for letter in {words[-1] for words in names}:
+        called = [words for words in names if words[-1] == letter]
         spoken = [
             words
-            for words in names
-            if words[-1] == letter
-            and re.search(rf"\b(?:{'_'.join(words[:-1])}_|{' '.join(words[:-1])}e?s\b)", text)
-        ]
+            for words in called
+            if re.search(rf"\b(?:{'_'.join(words[:-1])}_|{' '.join(words[:-1])}e?s\b)", text)
+        ] or called
         if len(spoken) == 1:
-            end = r"(?=,|[.;]|$| (?:and|or|in|into|on|onto|to)\b)" if letter in "adist" else ""
+            end = (
+                r"(?=,|[.;]|$| (?:and|or|in|into|on|onto|to|at|with|then|behind|beside|from|off)\b)"
+                if letter in "adist"
+                else ""
+            )
             text = re.sub(rf"(?<![\w'-]){letter}(?![\w'-]){end}", "_".join(spoken[0]), text)
     return text
 

@@ -6,6 +6,7 @@ from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _COUNT = "|".join(NUMBERS)
 _THE = "the|these|those|my|your|its|their|our"
+THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
 DETERMINERS = (
     f"({_THE}|this|that|a|an|another|only the)",
     f"(the|my|your|this|that) (other|same|single|only|remaining|{_COUNT})",

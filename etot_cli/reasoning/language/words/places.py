@@ -52,7 +52,7 @@ SIDE = """
     on the far (left|right), in front, (furthest|farthest) (left|right|back),
     (furthest|farthest|closest|nearest|most) (to|on|at) the (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
-    (at|from|on) the (top|bottom)
+    (at|from|on) the (top|bottom), on top
 """
 NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
@@ -82,6 +82,7 @@ PREPOSITIONS: dict[Prep, str] = {
 INTO = "in to, into, inside [of], in, within"
 ON_TOP_OF = "on [the] top of, atop"
 ONTO = f"onto, on to, on, upon, {ON_TOP_OF}"
+AT_END = {"at the top": "at the top of", "at the bottom": "(at|on|to) the bottom of"}
 OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
 ONTO_DIRECTED = "onto, on to, on top of, over"
