@@ -46,6 +46,26 @@ def test_what_lies_is_stood_up_where_that_is_asked_for() -> None:
     assert after.on == ("desk",) and not after.toppled
 
 
+def test_a_standing_rod_is_laid_down_by_a_hand_thicker_than_it() -> None:
+    """The hand points down along the pen, so that flat on the desk it would have to be level."""
+    # It leans on the rim: 10° in a cup of 70 mm.
+    leaning = {"inside": "cup", "quaternion": [0.643, 0, 0.766, 0], "at": [0.415, 0.10, 0.219]}
+    cup = CUP | {"at": [0.42, 0.10], "diameter": 0.07, "height": 0.10, "mass": 0.35}
+    run = episode(cup=cup, pen=PEN | leaning)
+    after = run.must("[PICK UP, pen]", "[PUT ON, desk]").states["pen"]
+    assert after.on == ("desk",) and abs(long_axis(after)[2]) < 0.1
+
+
+def test_what_a_level_hand_took_from_a_board_is_let_go_just_above_the_desk() -> None:
+    """Its wrist is thicker than half the mug is high."""
+    shelf = {"kind": "shelf", "size": [0.22, 0.32, 0.36], "mass": 4.0, "at": [0.6, 0.0],
+             "yaw_deg": 180, "boards": ["lower", "middle", "top"]}  # fmt: skip
+    mug = {"kind": "cup", "diameter": 0.07, "height": 0.08, "mass": 0.2, "on": "shelf.middle"}
+    run = episode(shelf=shelf, mug=mug)
+    after = run.must("[PICK UP, mug] (horizontal)", "[PUT ON, desk]").states["mug"]
+    assert after.on == ("desk",) and not after.toppled
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("thing", [BOX, PEN, CUP], ids=lambda item: str(item["kind"]))
 def test_put_on_furniture(thing: dict[str, object], seed: int) -> None:
@@ -186,7 +206,11 @@ RACK = {"kind": "shelf", "size": [0.22, 0.36, 0.45], "mass": 6.0, "at": [0.52, 0
 
 
 @pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize("thing", [MUG, BOX | {"size": [0.05, 0.05, 0.12]}], ids=["mug", "box"])
+@pytest.mark.parametrize(
+    "thing",
+    [MUG, BOX | {"size": [0.05, 0.05, 0.12]}, BOX | {"size": [0.05, 0.05, 0.035]}],
+    ids=["mug", "box", "lower than half a wrist"],
+)
 def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) -> None:
     run = episode(seed, oven=FURNACE, thing=thing | {"at": [0.42, -0.15]})
     after = run.must("[PICK UP, thing] (horizontal)", "[PUT INTO, oven]")

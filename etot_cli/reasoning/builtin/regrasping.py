@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.relations import has_front
+from etot_cli.reasoning.builtin.relations import carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction
 from etot_cli.reasoning.protocol import FailedStep
-from etot_cli.skills.action import GraspPose, Verb
-from etot_cli.world.state import CauseKind
+from etot_cli.skills.action import GraspPose
+from etot_cli.world.state import CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
 """Causes that a roof above the place may be behind."""
@@ -39,10 +39,12 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
 
 
 def _is_roofed(failed: FailedStep) -> bool:
-    """Whether the place that the action puts to or takes from is got at through a front."""
-    scene, action = failed.record.before, failed.branch.actions[failed.index]
-    places = {action.target}
-    if action.verb is Verb.PICK_UP:
-        state = scene.states.get(action.target)
-        places = {*state.on, state.inside or ""} if state is not None else set()
+    """Whether the place that the action puts to or takes from is got at through a front: its own or
+    that of what bears it.
+    """
+    scene, target = failed.record.before, failed.branch.actions[failed.index].target
+    places = {target}
+    if owner_of(target) in scene.states:
+        for name in (owner_of(target), *carriers(scene, owner_of(target))):
+            places |= {*scene.states[name].on, scene.states[name].inside or name}
     return any(has_front(scene, place) for place in places)

@@ -39,8 +39,9 @@ MAX_TRIED_AGAIN = 48
 """... and the grasps that are then looked at again."""
 GRAVITY = 9.81
 """[m/s²]"""
-TILTS = (-0.3, 0.3, -0.6, 0.6)
-"""Leans of the hand about the closing direction [rad]."""
+TILTS = {GraspPose.VERTICAL: (-0.3, 0.3, -0.6, 0.6), GraspPose.HORIZONTAL: (0.25, 0.5)}
+"""Leans of the hand about the closing direction [rad]. A level one only dips: its wrist is thicker
+than what lies low on a desk is high, and up to 30° it still goes in and out through fronts."""
 
 
 def pick_motions(
@@ -184,7 +185,7 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
     order = [
         (grasp.score + LEAN_COST * abs(tilt), abs(tilt), rank, tilt)
         for rank, grasp in enumerate(ranked)
-        for tilt in (0.0, *(TILTS if grasp.pose is GraspPose.VERTICAL else ()))
+        for tilt in (0.0, *TILTS[grasp.pose])
     ]
     for *_, rank, tilt in sorted(order)[:MAX_PREPARED]:
         yield tilted(ranked[rank], tilt) if tilt else ranked[rank]

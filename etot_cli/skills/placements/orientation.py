@@ -23,6 +23,9 @@ LYING = 0.5
 """What is long lies as long as it rises by less than this (sine)."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
+TIPPED = np.radians(40)
+"""Slope at which a rod is let go that would bring the hand down level: half a hand is thicker than
+a rod, and one that stands on its end so leans far beyond it and falls flat."""
 INWARD_TURNS = tuple(np.radians((0, 20, -20, 40, -40)))
 TURNS = tuple(np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)))
 """Turns about the vertical that are tried, 30° apart; and of a hand that reaches in, smaller
@@ -120,6 +123,11 @@ def orientations(
         stood = stood_up(belief, attached, support)
         found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
     found += _turned(belief, attached, support, base, laid=False)
+    approach = base @ attached.in_tool.rotation.T[:, 2]
+    if entry.axis is not None and not support.from_front and approach[2] > -DOWN:
+        across = np.cross(UP, approach)
+        tipped = turn_about(across / np.linalg.norm(across), TIPPED) @ base
+        found += _turned(belief, attached, support, tipped, laid=False)
     if entry.upright_matters and not entry.info.container:
         for rotation in laid_rotations(belief, attached, base)[:MAX_LAID]:
             found += _turned(belief, attached, support, rotation, laid=True)

@@ -9,12 +9,13 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import Blockers
-from etot_cli.skills.placements.judging import Quality, Request
+from etot_cli.skills.placements.judging import SHORT_DROP, Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.pose import UP, Pose, straight
+from etot_cli.world.state import DESK, owner_of
 
 HOVER = 0.06
 """Height above a surface from which an object is lowered straight [m]."""
@@ -35,7 +36,8 @@ side are clear of what leans over; 1.5 mm a side still let go."""
 CLEARANCE = 0.001
 """Distance that hand and object keep from everything on the way down [m]."""
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
-"""Higher up the hand may be able to open where it cannot at the bottom [m]."""
+"""Higher up the hand may be able to open where it cannot at the bottom, and the wrist of a level
+hand may clear the floor [m]."""
 MAX_TRIES, TRIES_AGAIN = 40, 8
 """Places of one action that are looked at exactly, and when somebody is thought away."""
 SAME_PLACE = 0.012
@@ -153,6 +155,7 @@ class _Way:
         self._target = place.pose.moved(UP * (gap + place.drop))
         self._let_go = self._target
         self._bearers: set[str] = set()
+        self._met: list[str] = []
         if not self._support.is_container or self._support.from_front:
             self._bearers = {self._support.address, *place.bearers}
         elif place.quality >= Quality.PILED:
@@ -162,18 +165,26 @@ class _Way:
 
     def from_above(self) -> Placement | None:
         """Straight down to the place, or to as little above it as the hand needs to open."""
-        support, lift = self._support, 0.0
+        support = self._support
         hover = support.room + MOUTH_CLEARANCE if support.is_container else HOVER
-        for raised in RAISES if support.is_container else RAISES[:1]:
-            placement = self._down(lift + raised, max(hover - self._place.drop, HOVER))
+        for raised in RAISES:
+            if not support.is_container and raised and not self._may_be_raised(raised):
+                return None
+            placement = self._down(raised, max(hover - self._place.drop, HOVER))
             if placement is not None or not self.reached:
                 return placement
         return None
+
+    def _may_be_raised(self, raised: float) -> bool:
+        """Whether it is the floor that hand or arm met, and what falls from so high stays there."""
+        floor = self._support.owner or DESK
+        return self._place.drop + raised <= SHORT_DROP and floor in map(owner_of, self._met)
 
     def _down(self, raised: float, hover: float) -> Placement | None:
         belief, attached = self._belief, self._attached
         checker, arm = belief.checker, belief.arm
         checker.set_fingers(belief.opening)
+        self._met = []
         self._let_go = self._target.moved(UP * raised)
         tool = self._let_go @ attached.in_tool.inverse()
         at_place = arm.reach(tool, belief.commanded)
@@ -228,6 +239,7 @@ class _Way:
             joints, self._attached, clearance=CLEARANCE, allow_attached=touching
         )
         self._tally.blockers.add(hits)
+        self._met = hits
         return bool(hits)
 
     def _release(self, tool: Pose, joints: Vector) -> tuple[Vector, float] | None:
