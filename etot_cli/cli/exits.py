@@ -13,4 +13,4 @@ MISSING = 3
 INTERNAL = 70
 """A defect of this program (EX_SOFTWARE of sysexits.h)."""
 INTERRUPTED = 130
-"""Stopped by Ctrl-C, SIGTERM or SIGHUP."""
+"""Stopped by Ctrl-C, SIGTERM or SIGHUP: 128 + SIGINT, as shells say of the first."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.document import read_document
 from etot_cli.specs.load import load_scene, load_task
 
@@ -32,10 +33,10 @@ def run_capture(path: Path, folder: Path, *, noisy: bool, seed: int, vary: bool)
         from etot_cli.specs.vary import vary as varied
 
         scene = varied(scene, seed)
-    from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
+    from etot_cli.world.capture import KINECT, add_noise, capture, write_capture
 
     picture = capture(scene)
     if noisy:
         picture = add_noise(picture, KINECT, np.random.default_rng(seed))
-    write_capture(picture, folder, scale=KINECT.scale if noisy else CLEAN_SCALE)
+    write_capture(picture, folder, scale=KINECT.scale if noisy else DEPTH_UNIT)
     return folder

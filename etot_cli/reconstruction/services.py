@@ -18,21 +18,22 @@ from numpy.typing import NDArray
 from etot_cli.errors import EtotError, ServiceError
 from etot_cli.reconstruction.capture.folder import LEAST_MASK, mask_of, safe_name, unique_name
 from etot_cli.reconstruction.capture.pictures import (
-    DEPTH_UNIT,
     decode_png_text,
     depth_text,
     png_text,
 )
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.services.endpoint import SHOWN, Endpoint
+from etot_cli.specs.bounds import DEPTH_UNIT
+from etot_cli.specs.scene import MAX_OBJECTS
 from etot_cli.world.pose import is_rigid
 
 DEADLINE = 120.0
 """A whole stage, retries included, takes no longer [s]."""
 MAX_REPLY = 64 * 1024 * 1024
 """Largest reply in bytes."""
-MAX_MESH = 32 * 1024 * 1024
-"""Largest mesh [bytes], half of what a reply may hold."""
+MAX_MESH = MAX_REPLY // 2
+"""Largest mesh [bytes]: as base64 it takes two thirds of a reply."""
 
 
 @dataclass(frozen=True)
@@ -125,8 +126,8 @@ def ask_masks(
     server = Server(url, "mask", deadline)
     reply = server.ask({"color": picture(color), "prompts": prompts})
     entries = reply.get("masks")
-    if not isinstance(entries, list) or len(entries) > 64:
-        raise server.error("the answer has no list 'masks' of at most 64")
+    if not isinstance(entries, list) or len(entries) > MAX_OBJECTS:
+        raise server.error(f"the answer has no list 'masks' of at most {MAX_OBJECTS}")
     found: dict[str, Mask] = {}
     for index, entry in enumerate(entries):
         if not isinstance(entry, dict) or not isinstance(entry.get("png"), str):

@@ -27,7 +27,7 @@ FIRST_PAUSE = 0.5
 TRANSIENT = frozenset({408, 409, 425, 429, 500, 502, 503, 504})
 """Statuses that may be others next time."""
 SHOWN = 200
-"""Characters of a server's text in a message."""
+"""Characters of a server's text in a message: three lines of a terminal."""
 
 
 def check_address(url: str, option: str) -> None:

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from etot_cli.errors import SpecError
 from etot_cli.specs.base import Spec
+from etot_cli.specs.bounds import MAX_PICTURE_SIDE
 from etot_cli.specs.document import Node, read_document
 from etot_cli.specs.problems import validate
 from etot_cli.specs.scene import Finite
@@ -32,12 +33,12 @@ Row = tuple[Finite, Finite, Finite, Finite]
 class Intrinsics(Spec):
     """A pinhole camera [px]; with them the camera's own are overruled."""
 
-    width: Annotated[int, Field(ge=64, le=4096)]
-    height: Annotated[int, Field(ge=64, le=4096)]
+    width: Annotated[int, Field(ge=64, le=MAX_PICTURE_SIDE)]
+    height: Annotated[int, Field(ge=64, le=MAX_PICTURE_SIDE)]
     fx: Annotated[float, Field(gt=10.0, le=20000.0)]
     fy: Annotated[float, Field(gt=10.0, le=20000.0)]
-    cx: Annotated[float, Field(ge=0.0, le=4096.0)]
-    cy: Annotated[float, Field(ge=0.0, le=4096.0)]
+    cx: Annotated[float, Field(ge=0.0, le=float(MAX_PICTURE_SIDE))]
+    cy: Annotated[float, Field(ge=0.0, le=float(MAX_PICTURE_SIDE))]
 
     def matrix(self) -> Array:
         """The same as a matrix (3, 3)."""

@@ -296,6 +296,7 @@ SceneObject = Annotated[
 ]
 
 ROLLING_DEFAULT = 0.0005
-"""Rolling friction of balls on a hard desk [m]."""
+"""Rolling friction of balls on a hard desk [m]: one of 7 cm that rolls at 0.2 m/s stops after
+20 cm."""
 FURNITURE = (DrawerUnit, Cabinet, Shelf)
 """Kinds that are fastened to the desk unless ``fixed: false``."""

@@ -12,6 +12,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from etot_cli.specs.bounds import MAX_PICTURE_SIDE
+
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
@@ -39,9 +41,11 @@ Travel = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False), _LENGTH]
 Coordinate = Annotated[float, Field(ge=-3.0, le=3.0, allow_inf_nan=False), _COORDINATE]
 Mass = Annotated[float, Field(gt=0.0001, le=100.0, allow_inf_nan=False), _MASS]
 Friction = Annotated[float, Field(ge=0.01, le=3.0, allow_inf_nan=False), _FRICTION]
+MAX_ROLLING = 0.1
+"""Nothing rolls worse [m]: a ball of this radius would stand on a slope of 45°."""
 RollingFriction = Annotated[
     float,
-    Field(ge=0.0, le=0.1, allow_inf_nan=False),
+    Field(ge=0.0, le=MAX_ROLLING, allow_inf_nan=False),
     Meaning("a coefficient of rolling friction in metres", _METRES),
 ]
 Degrees = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False), _ANGLE]
@@ -74,4 +78,4 @@ FocalLength = Annotated[
     float, Field(gt=1, le=20000, allow_inf_nan=False), Meaning("a focal length in pixels")
 ]
 Pixel = Annotated[float, Field(ge=0, le=8192, allow_inf_nan=False), Meaning("a position in pixels")]
-PixelCount = Annotated[int, Field(ge=16, le=4096), Meaning("a whole number of pixels")]
+PixelCount = Annotated[int, Field(ge=16, le=MAX_PICTURE_SIDE), Meaning("a whole number of pixels")]

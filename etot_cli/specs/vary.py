@@ -14,6 +14,7 @@ from etot_cli.specs.checks import placement_problems
 from etot_cli.specs.footprint import turned
 from etot_cli.specs.objects import FURNITURE, ROLLING_DEFAULT, Cup, Mjcf, ObjectBase
 from etot_cli.specs.placement import Placed, place_all
+from etot_cli.specs.quantity import MAX_ROLLING
 from etot_cli.specs.references import DESK, support_of
 from etot_cli.specs.resize import resize
 from etot_cli.specs.scene import Actuation, Scene
@@ -28,8 +29,6 @@ OWN_SHARE = 0.3
 """Part of the bounds by which an object moves relative to the object that carries it."""
 FRICTION_BOUNDS = (0.01, 3.0)
 MASS_BOUNDS = (0.0002, 100.0)
-MAX_ROLLING = 0.1
-"""What the models accept; draws are clipped to it."""
 MAX_JOINTS = 12
 """Of a robot."""
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.scene import Camera, Scene
 from etot_cli.world.build.surroundings import camera_rotation
 from etot_cli.world.model import World, build_world
@@ -29,8 +30,6 @@ DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
 CAMERA_NAME = "capture"
 SETTLE_SECONDS = 1.5
 """Simulated time for everything to come to rest before the picture is taken [s]."""
-CLEAN_SCALE = 0.0001
-"""Metres per unit of a clean depth picture."""
 MAX_PICTURE = (1920, 1440)
 """Largest picture that the off-screen buffer holds, width and height."""
 
@@ -236,7 +235,7 @@ def add_noise(picture: Picture, noise: Noise, rng: np.random.Generator) -> Pictu
 
 
 def write_capture(
-    picture: Picture, folder: Path, *, scale: float = CLEAN_SCALE, masks: bool = True
+    picture: Picture, folder: Path, *, scale: float = DEPTH_UNIT, masks: bool = True
 ) -> None:
     """Writes a capture folder.
 

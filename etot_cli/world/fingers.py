@@ -25,7 +25,7 @@ SETTLE_S = 0.6
 LINEAR = 1e-4
 """Openings this close to a line in the joints' values are taken to be on it [m]."""
 HEAVY = 1e6
-"""Inertia of joints that are not to move [kg m²]."""
+"""Inertia of joints that are not to move [kg m²]: 100 N m turn them by 0.02 mrad meanwhile."""
 FAR = 1.0
 """Distances between pads are looked for up to this [m]."""
 OPENING_TOLERANCE = 0.005

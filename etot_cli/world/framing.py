@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from etot_cli.specs import scene as specs
 from etot_cli.world.model import World
+from etot_cli.world.surface import SEEN_GROUPS
 
 FOV_DEG = 36.0
 """Vertical opening: as a photographer at a table would take, little distorted."""
@@ -88,7 +89,7 @@ def _points(world: World, data: mujoco.MjData) -> NDArray[np.float64]:
     desk = world.scene.desk
     low, high = [], []
     for geom, owner in enumerate(world.geom_object):
-        if model.geom_group[geom] > 2 or owner in ("desk", "floor", "stand", ""):
+        if model.geom_group[geom] >= SEEN_GROUPS or owner in ("desk", "floor", "stand", ""):
             continue
         if owner not in world.entries and int(model.geom_bodyid[geom]) == 0:
             continue

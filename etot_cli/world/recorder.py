@@ -24,7 +24,7 @@ MAX_TRAIL = 24
 PRESSED = 2.0
 """A contact that existed before the action matters only when it is pressed harder than this [N]."""
 FORCE_THRESHOLD = 0.05
-"""Normal forces below this do not matter [N]."""
+"""Normal forces below this do not matter [N]: the weight of 5 g."""
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,9 @@ from etot_cli.world.arrays import Vector
 
 Faces = NDArray[np.int64]
 
+SEEN_GROUPS = 3
+"""Geom groups below this number are drawn, as MuJoCo does unless it is told otherwise; shapes that
+only collide are in this one."""
 SUBDIVISIONS, SECTIONS = 3, 48
 """Of a ball and about a cylinder: on a ball of 8 cm, faces stray from it by less than 0.2 mm."""
 

@@ -96,7 +96,7 @@ def test_bounds_of_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(video_endpoint, "MAX_FRAMES", FRAMES - 1)
     with pytest.raises(ValueError, match="more than 11 frames"):
         frames_of(film(), 3)
-    monkeypatch.setattr(video_endpoint, "MAX_SIDE", 63)
+    monkeypatch.setattr(video_endpoint, "MAX_PICTURE_SIDE", 63)
     with pytest.raises(ValueError, match="64 × 48"):
         frames_of(film(), 3)
     with pytest.raises(EtotError, match="expected http"):

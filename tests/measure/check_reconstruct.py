@@ -28,9 +28,10 @@ from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.capture.folder import read_masks
 from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.pipeline import Twin, reconstruct
+from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.load import load_task
 from etot_cli.specs.scene import Scene
-from etot_cli.world.capture import CLEAN_SCALE, KINECT, add_noise, capture, write_capture
+from etot_cli.world.capture import KINECT, add_noise, capture, write_capture
 from tests.measure.markdown import replace_section, table
 from tests.reconstruction.random_scenes import SHOWN, random_scene
 from tests.reconstruction.scenes import free_forms, others
@@ -126,7 +127,7 @@ def render(scene: Scene, folder: Path, *, noisy: bool, seed: int = 0) -> None:
     picture = capture(scene)
     if noisy:
         picture = add_noise(picture, KINECT, np.random.default_rng(seed))
-    write_capture(picture, folder, scale=KINECT.scale if noisy else CLEAN_SCALE)
+    write_capture(picture, folder, scale=KINECT.scale if noisy else DEPTH_UNIT)
 
 
 def rendered_case(

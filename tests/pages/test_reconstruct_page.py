@@ -8,8 +8,9 @@ import pytest
 
 from etot_cli.commands.reconstruct import Options, reconstruct_capture
 from etot_cli.commands.reconstruct_page import write_reconstruct_page
+from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.scene import Scene
-from etot_cli.world.capture import CLEAN_SCALE, capture, write_capture
+from etot_cli.world.capture import capture, write_capture
 from tests.pages.browser import Browser
 
 SCENE = Scene.model_validate(
@@ -29,7 +30,7 @@ SCENE = Scene.model_validate(
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder, out = tmp_path_factory.mktemp("capture"), tmp_path_factory.mktemp("twin")
-    write_capture(capture(SCENE), folder, scale=CLEAN_SCALE)
+    write_capture(capture(SCENE), folder, scale=DEPTH_UNIT)
     reconstruction = reconstruct_capture(Options(capture=folder), out)
     path = write_reconstruct_page(reconstruction, out)
     assert reconstruction.report.timing.phases["render"] > 0

@@ -13,8 +13,9 @@ from etot_cli.reconstruction.masks.automatic import find_segments
 from etot_cli.reconstruction.masks.checks import unmasked, usable_segments
 from etot_cli.reconstruction.masks.fragments import adopt_fringes, join_fragments
 from etot_cli.reconstruction.objects import Segment
+from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.scene import Scene
-from etot_cli.world.capture import CLEAN_SCALE, KINECT, Picture, add_noise, write_capture
+from etot_cli.world.capture import KINECT, Picture, add_noise, write_capture
 from tests.reconstruction.conftest import render
 from tests.reconstruction.scenes import CUP, others, scene, unit
 
@@ -25,7 +26,7 @@ def overlaps(picture: Picture, folder: Path, seed: int | None) -> tuple[dict[str
     """Best IoU by true name, and how many segments were found; a seed adds a sensor's noise."""
     if seed is not None:
         picture = add_noise(picture, KINECT, np.random.default_rng(seed))
-    scale = CLEAN_SCALE if seed is None else KINECT.scale
+    scale = DEPTH_UNIT if seed is None else KINECT.scale
     write_capture(picture, folder, scale=scale, masks=False)
     found = [s.mask for s in find_segments(calibrate(read_capture(folder)))]
     best = {

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import ServiceError
 from etot_cli.services.endpoint import Endpoint, check_address
+from etot_cli.specs.bounds import MAX_PICTURE_SIDE
 
 KEY_VARIABLE = "ETOT_VIDEO_KEY"
 """Environment variable with the bearer token that the server wants, if it wants one."""
@@ -28,8 +29,6 @@ MAX_BYTES = 64 * 1024 * 1024
 """Largest video: ten seconds in high definition need a tenth of it."""
 MAX_FRAMES = 1200
 """Decoded at most: forty seconds at 30 Hz."""
-MAX_SIDE = 4096
-"""Longest side of a frame [px]."""
 Frame = NDArray[np.uint8]
 
 
@@ -109,7 +108,7 @@ def _decoded(video: bytes) -> Iterator[av.VideoFrame]:
         if not container.streams.video:
             raise ValueError("there is no picture in it")
         for number, frame in enumerate(container.decode(video=0)):
-            if max(frame.width, frame.height) > MAX_SIDE:
+            if max(frame.width, frame.height) > MAX_PICTURE_SIDE:
                 raise ValueError(f"frames of {frame.width} × {frame.height} pixels")
             if number == MAX_FRAMES:
                 raise ValueError(f"more than {MAX_FRAMES} frames")

@@ -6,9 +6,7 @@ import math
 from random import Random
 
 from etot_cli.benchmark.problems.problem import Document
-
-ROLLING = 5e-4
-"""Coefficient of rolling friction of a ball on a desk [m]."""
+from etot_cli.specs.objects import ROLLING_DEFAULT
 
 
 def mm(value: float) -> float:
@@ -29,7 +27,7 @@ def ball(rng: Random, low: float = 0.045, high: float = 0.070) -> Document:
     """A ball, a little lighter than wood."""
     d = between(rng, low, high)
     mass = _mass(math.pi / 6 * d**3, 400)
-    return {"kind": "sphere", "diameter": d, "mass": mass, "rolling_friction": ROLLING}
+    return {"kind": "sphere", "diameter": d, "mass": mass, "rolling_friction": ROLLING_DEFAULT}
 
 
 def block(rng: Random, low: float = 0.036, high: float = 0.056) -> Document:

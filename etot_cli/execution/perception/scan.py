@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from etot_cli.execution.protocols import Frame
 from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.reconstruction.masks.foreground import TALLEST
 from etot_cli.specs.scene import Desk
 
 STRIDE = 2
@@ -18,8 +19,8 @@ ABOVE = 0.005
 """Readings less than this above the desk are the desk's [m]."""
 BEYOND = 0.10
 """How far beyond the desk's edge things are looked for [m]."""
-HIGHEST = 0.7
-"""... and how high above it [m]."""
+HIGHEST = TALLEST + BEYOND
+"""... and how high above it [m]: as far beyond the tallest thing."""
 VOXEL = 0.012
 """Readings closer than this hang together [m]."""
 FEWEST = 20

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from etot_cli.world.model import World
-from etot_cli.world.surface import area, sampled, triangles
+from etot_cli.world.surface import SEEN_GROUPS, area, sampled, triangles
 
 Array = NDArray[np.float64]
 
@@ -21,8 +21,6 @@ SPACING = 0.004
 LEAST, MOST = 50, 30_000
 """Points of a geom, and of a body at most: so many cover 0.48 m² at that spacing, and the fewest
 leave some that face the camera of what is smaller than 3 cm square."""
-SEEN_GROUPS = 3
-"""Geoms of lower groups are what is drawn."""
 LONG = 3.0
 """Length over width from which a thing is a rod."""
 SYMMETRIC = 0.0015

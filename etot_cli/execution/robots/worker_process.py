@@ -19,6 +19,7 @@ from typing import IO, Any
 
 from etot_cli.errors import EtotError, RobotStoppedError, ServiceError
 from etot_cli.execution.robots.worker_messages import line_of
+from etot_cli.services.endpoint import SHOWN
 from etot_cli.services.redact import redactor_for
 from etot_cli.world.worker import parent_death
 
@@ -32,8 +33,6 @@ KEPT_ERRORS = 20
 """Lines of the worker's standard error that are kept for a message."""
 ENDS_WITHIN = 2.0
 """Time to end by itself, and again once it was told to [s]."""
-SHOWN = 200
-"""Characters of foreign text in a message."""
 
 
 def words_of(command: str) -> list[str]:

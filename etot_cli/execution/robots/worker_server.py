@@ -29,7 +29,8 @@ from etot_cli.execution.robots.worker_messages import (
     line_of,
     rows_of,
 )
-from etot_cli.reconstruction.capture.pictures import DEPTH_UNIT, depth_text, png_text
+from etot_cli.reconstruction.capture.pictures import depth_text, png_text
+from etot_cli.specs.bounds import DEPTH_UNIT
 
 NO_STATE = RobotState(np.zeros(1), np.zeros(1), 0.0, 0.0)
 """Stands where a request carries no state of the robot."""

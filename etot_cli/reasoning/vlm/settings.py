@@ -18,6 +18,7 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from etot_cli.errors import EtotError
 from etot_cli.reasoning.vlm.env_file import ENV_FILE, read_env_file
+from etot_cli.specs.bounds import MAX_PICTURE_SIDE
 
 DEFAULT_URL = "https://api.openai.com/v1"
 DEFAULT_MODEL = "gpt-4o"
@@ -101,7 +102,7 @@ class VlmSettings(BaseSettings):
     """How often a reply that breaks a rule goes back with the reason."""
     images: Annotated[int, Field(ge=0, le=16)] = 4
     """Frames per question at most; 0 sends none."""
-    image_width: Annotated[int, Field(ge=64, le=4096)] = 768
+    image_width: Annotated[int, Field(ge=64, le=MAX_PICTURE_SIDE)] = 768
     """Longest side of a frame [px]."""
     image_format: Literal["jpeg", "png"] = "jpeg"
     image_detail: Literal["auto", "low", "high"] | None = None

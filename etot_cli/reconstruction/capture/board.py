@@ -21,6 +21,7 @@ from etot_cli.reconstruction.capture.folder import read_camera, read_capture
 from etot_cli.reconstruction.capture.pictures import read_png
 from etot_cli.reconstruction.capture.standpoint import DESK_TOP
 from etot_cli.reconstruction.capture.view import Array
+from etot_cli.specs.calibration import FARTHEST
 
 WORST_PX = 1.0
 """Corners of a flat board are found within 0.3 px; beyond this it is bent, or the lens distorts."""
@@ -34,8 +35,6 @@ MOST = 40
 """Inner corners along a side: more are too small to be seen."""
 SQUARES = (0.004, 0.3)
 """Sides of a square [m]: smaller ones are not seen from a metre away, larger ones fill a desk."""
-FARTHEST = 5.0
-"""No board of a robot's desk lies farther from its base [m]."""
 SYNTAX = (
     "COLUMNSxROWS,SQUARE@X,Y,YAW[,Z], such as 9x6,25mm@0.35,-0.1,0, and for a ChArUco board "
     "COLUMNSxROWS,SQUARE,MARKER,DICTIONARY@…, such as 9x6,25mm,18mm,4X4_50@0.35,-0.1,0"

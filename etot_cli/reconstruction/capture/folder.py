@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.pictures import read_png
 from etot_cli.reconstruction.capture.view import Array, Mask, View
+from etot_cli.specs.calibration import FARTHEST as FARTHEST_CAMERA
 from etot_cli.specs.reading import read_utf8
 from etot_cli.specs.scene import MAX_OBJECTS, RESERVED_NAMES
 from etot_cli.world.pose import is_rigid
@@ -166,7 +167,7 @@ def _pose(info: dict[str, Any], path: Path) -> Array:
             "is no rigid pose (a rotation, a position in metres and the row 0 0 0 1)",
             file=str(path), path=where,
         )  # fmt: skip
-    if np.abs(pose[:3, 3]).max() > 5.0:
+    if np.abs(pose[:3, 3]).max() > FARTHEST_CAMERA:
         raise SpecError(
             f"puts the camera {np.linalg.norm(pose[:3, 3]):.4g} m from the base; expected metres",
             file=str(path), path=where,

@@ -13,14 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.bounds import DEPTH_UNIT, MAX_PICTURE_SIDE
 
-MAX_FILE_BYTES = 64 * 1024 * 1024
+MAX_FILE_BYTES = 4 * MAX_PICTURE_SIDE**2
 """What the largest picture takes uncompressed in 32 bits."""
-MAX_SIDE = 4096
-"""Largest width and height of a picture [px]."""
-DEPTH_UNIT = 0.0001
-"""Metres per unit of the depth pictures that are sent: fine enough for any sensor, and 16 bits hold
-depth to 6.55 m."""
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
@@ -52,9 +48,10 @@ def decode_png(data: bytes, shown: str) -> NDArray[Any]:
     if len(data) < 33 or not data.startswith(_SIGNATURE):
         raise SpecError("is no PNG picture", file=shown)
     width, height = struct.unpack(">II", data[16:24])
-    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+    if not (1 <= width <= MAX_PICTURE_SIDE and 1 <= height <= MAX_PICTURE_SIDE):
         raise SpecError(
-            f"is {width} × {height}; expected at most {MAX_SIDE} × {MAX_SIDE}", file=shown
+            f"is {width} × {height}; expected at most {MAX_PICTURE_SIDE} × {MAX_PICTURE_SIDE}",
+            file=shown,
         )
     image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
     if image is None:
@@ -76,7 +73,7 @@ def png_text(image: NDArray[Any]) -> str:
 
 
 def depth_text(depth: NDArray[np.float64]) -> str:
-    """Depth (h, w) [m] as base64 of a PNG in units of :data:`DEPTH_UNIT`; 0 where it is farther."""
+    """Depth (h, w) [m] as base64 of a PNG, in depth units; 0 where it is farther than they tell."""
     units = np.where(depth < np.iinfo(np.uint16).max * DEPTH_UNIT, depth / DEPTH_UNIT, 0.0)
     return png_text(np.round(units).astype(np.uint16))
 

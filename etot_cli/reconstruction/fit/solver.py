@@ -20,7 +20,8 @@ ROBUST = 2.0
 DIFFERENCE = 5e-5
 """Step of the numeric derivatives, as a share of a parameter's scale."""
 FIRST_RADIUS = 2.0
-"""Length of the longest first step, in scales of the parameters."""
+"""Length of the longest first step, in scales of the parameters: twice as far as any is expected to
+go."""
 TOLERANCE = 1e-7
 """A step that lowers the cost by a smaller share is the last one."""
 STEP_TOLERANCE = 1e-7

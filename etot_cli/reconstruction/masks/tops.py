@@ -8,6 +8,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import Surfaces
 from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.foreground import TALLEST
 from etot_cli.reconstruction.masks.fragments import ONE_COLOR, join_fragments
 from etot_cli.reconstruction.masks.labels import (
     grow_labels,
@@ -16,8 +17,6 @@ from etot_cli.reconstruction.masks.labels import (
     opened,
 )
 
-TALLEST = 0.6
-"""No top is higher above the desk [m]."""
 LEVEL_AREA = 0.0012
 """A level top is at least this large [m²]."""
 NARROWEST = 5

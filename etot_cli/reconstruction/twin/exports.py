@@ -15,7 +15,7 @@ from etot_cli.reconstruction.shapes.free import FreeForm
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import place_objects
-from etot_cli.world.surface import mesh_of, triangles
+from etot_cli.world.surface import SEEN_GROUPS, mesh_of, triangles
 
 GEOM_NAMES = {
     mujoco.mjtGeom.mjGEOM_SPHERE: "sphere",
@@ -46,7 +46,7 @@ def object_mesh(world: World, data: mujoco.MjData, name: str, color: Any) -> Any
         owner == name and model.geom_group[i] == 2 for i, owner in enumerate(world.geom_object)
     )
     for geom, owner in enumerate(world.geom_object):
-        if owner != name or (shell and model.geom_group[geom] == 3):
+        if owner != name or (shell and model.geom_group[geom] == SEEN_GROUPS):
             continue
         surface = triangles(model, geom)
         if surface is None:

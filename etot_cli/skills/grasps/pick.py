@@ -37,8 +37,6 @@ MAX_SUSPECTS = 4
 """Objects that are taken away one at a time to see whether that helps ..."""
 MAX_TRIED_AGAIN = 48
 """... and the grasps that are then looked at again."""
-GRAVITY = 9.81
-"""[m/s²]"""
 TILTS = {GraspPose.VERTICAL: (-0.3, 0.3, -0.6, 0.6), GraspPose.HORIZONTAL: (0.25, 0.5)}
 """Leans of the hand about the closing direction [rad]. A level one only dips: its wrist is thicker
 than what lies low on a desk is high, and up to 30° it still goes in and out through fronts."""
@@ -124,7 +122,8 @@ def _friction(belief: Belief, name: str, grasp: Grasp) -> dict[str, float]:
     """The coefficient that a grasp needs, for its slant and the weight, and the share of what there
     is between pads and thing.
     """
-    world, weight = belief.world, belief.world.entries[name].info.mass * GRAVITY
+    world = belief.world
+    weight = world.entries[name].info.mass * -float(world.model.opt.gravity[2])
     needed = grasp.friction + weight / (2.0 * world.robot.spec.gripper.force)
     there = grip_friction(world.model, world.robot.pads[0], world.geoms_of(name))
     return {"friction_needed": needed, "friction_share": needed / there}

@@ -20,8 +20,9 @@ from etot_cli.world.robot import RobotSpec
 
 POSITION_TOLERANCE = 8e-4
 """Accepted position error of a solution [m]."""
-ANGLE_TOLERANCE = 8e-3
-"""Accepted orientation error of a solution [rad]."""
+ANGLE_TOLERANCE = POSITION_TOLERANCE / 0.1
+"""Accepted orientation error of a solution [rad]: what is 10 cm from the tool point is off by as
+much again."""
 MAX_ITERATIONS = 25
 """Of a descent; one that stalls stops earlier."""
 MAX_SOLVED = 8192

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from etot_cli.skills.motion.collision import Attached, CollisionChecker
+from etot_cli.skills.motion.collision import CLEARANCE, Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
@@ -69,7 +69,7 @@ def plan_transit(
     return None if found is None else _shortcut(found, free, rng)
 
 
-CLEARANCES = (0.008, 0.0005)
+CLEARANCES = (CLEARANCE, 0.0005)
 """Wanted clearance, and the one that suffices near what start or goal is already close to [m]."""
 
 

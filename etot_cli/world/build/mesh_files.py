@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.files import MAX_FILE_BYTES
 
 Array = NDArray[np.float64]
 
 MAX_FACES = 200_000
 """A scan of a hand-sized thing has fewer; the collision pieces are made from all of them."""
-MAX_BYTES = 50 * 1024 * 1024
+MAX_BYTES = MAX_FILE_BYTES
 """So many faces take 10 MB as binary STL, and some five times that as text."""
 SUFFIXES = {".glb": "glb", ".obj": "obj", ".stl": "stl"}
 MAX_VALUES = 6 * MAX_FACES

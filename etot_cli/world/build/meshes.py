@@ -15,6 +15,7 @@ from etot_cli.specs.reading import read_bytes
 from etot_cli.world.build.material import Look, add_geom, add_visual
 from etot_cli.world.build.mesh_files import MAX_BYTES, parse_mesh
 from etot_cli.world.build.pieces import convex_pieces, hull_volume
+from etot_cli.world.surface import SEEN_GROUPS
 
 
 def add_mesh(mj: mujoco.MjSpec, body: Any, spec: specs.Mesh, look: Look, name: str,
@@ -47,7 +48,7 @@ def add_mesh(mj: mujoco.MjSpec, body: Any, spec: specs.Mesh, look: Look, name: s
         geom = add_geom(
             body, part, mujoco.mjtGeom.mjGEOM_MESH, [0, 0, 0], mesh=f"{name}/piece{index}"
         )
-        geom.group = 3
+        geom.group = SEEN_GROUPS
     extents: NDArray[np.float64] = vertices.max(axis=0) - vertices.min(axis=0)
     return extents
 

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from etot_cli.errors import SpecError, WorldError
+from etot_cli.specs.bounds import MAX_PICTURE_SIDE
 from etot_cli.specs.reading import read_bytes
 from etot_cli.world.build.mesh_files import MAX_BYTES, check_size
 
@@ -26,7 +27,7 @@ MAX_ELEMENTS = 20_000
 """Elements of a model, the copies of ``replicate`` counted."""
 MAX_GRID = 1024 * 1024
 """Cells of a height field."""
-MAX_PIXELS = 4096 * 4096
+MAX_PIXELS = MAX_PICTURE_SIDE**2
 """Of a texture, its six sides together."""
 MAX_BUILTIN = 200
 """Edges or levels of a mesh that MuJoCo makes itself."""

@@ -11,6 +11,7 @@ import numpy as np
 from etot_cli.specs import scene as specs
 from etot_cli.world.build.material import Look, add_geom, add_visual
 from etot_cli.world.index import Region
+from etot_cli.world.surface import SEEN_GROUPS
 
 STAVES = 24
 """Wall pieces around; enough that a ball on the rim sees a round mouth."""
@@ -50,7 +51,7 @@ def add_cup(mj: mujoco.MjSpec, body: Any, spec: specs.Cup, look: Look, name: str
             body, hidden.with_mass(stave_mass), mujoco.mjtGeom.mjGEOM_MESH, [0, 0, 0],
             mesh=f"{name}/stave{index}",
         )  # fmt: skip
-        geom.group = 3
+        geom.group = SEEN_GROUPS
         geom.rgba = list(look.rgba)
     _add_shell(mj, body, spec, look, name, rim, foot)
 

@@ -18,7 +18,7 @@ from etot_cli.world.viewing.shapes import shapes_of
 HERE = "127.0.0.1"
 """Only this machine may look; from elsewhere by an SSH tunnel."""
 PORT = 8080
-"""Where this one is taken, the next free one is used."""
+"""What viser itself begins with; where this one is taken, the next free one is used."""
 EYE = (1.15, -0.4, 0.75)
 """Of whoever begins to look: before the desk, a little aside, to see the arm bent [m]."""
 

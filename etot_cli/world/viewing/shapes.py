@@ -12,10 +12,8 @@ from numpy.typing import NDArray
 
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
-from etot_cli.world.surface import Faces, triangles
+from etot_cli.world.surface import SEEN_GROUPS, Faces, triangles
 
-SEEN_GROUPS = 3
-"""Geom groups from this number on are for collisions and are not drawn."""
 UNPAINTED = (0.5, 0.5, 0.5, 1.0)
 """MuJoCo's colour of geoms that have none of their own."""
 ENDLESS_M = 4.0
