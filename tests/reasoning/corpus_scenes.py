@@ -1097,3 +1097,19 @@ def post_room() -> SceneState:
         item("board", "box", (0.65, 0.30), size=(0.20, 0.16, 0.02), color="brown"),
         item("flask", "cylinder", (0.65, -0.30), size=(0.05, 0.05, 0.15), color="white"),
     )
+
+
+def craft_table() -> SceneState:
+    """Balls of one stuff, a basket for it, and a box and a dish that are called after others."""
+    return scene(
+        ball("wool_r", (0.30, 0.30), label="wool ball", color="red"),
+        ball("wool_b", (0.30, 0.20), label="wool ball", color="blue"),
+        item("basket", "bowl", (0.48, 0.30), size=(0.20, 0.20, 0.10), label="wool basket"),
+        item("tray", "box", (0.48, 0.02), size=(0.20, 0.26, 0.02), color="gray"),
+        item("soap", "box", (0.30, 0.05), size=(0.08, 0.05, 0.03), label="bar of soap"),
+        item("dish", "bowl", (0.30, -0.10), size=(0.12, 0.12, 0.03), label="soap dish"),
+        item("pencil", "pen", (0.30, -0.22), size=(0.15, 0.01, 0.01), color="yellow"),
+        item("pencil_box", "bowl", (0.48, -0.25), size=(0.20, 0.10, 0.06)),
+        item("shoe_box", "bowl", (0.48, -0.42), size=(0.24, 0.14, 0.10)),
+        item("comb", "box", (0.30, -0.32), size=(0.14, 0.03, 0.01)),
+    )  # fmt: skip

@@ -17,7 +17,15 @@ from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ordering import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.syntax import Order, Spoken, reading_cost
+from etot_cli.reasoning.language.grammar.syntax import (
+    AvoidClause,
+    Clause,
+    Order,
+    PutClause,
+    RemoveClause,
+    Spoken,
+    reading_cost,
+)
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
@@ -131,6 +139,14 @@ def _check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
             raise ReferenceProblem(str(item.order), why, 4)
 
 
+def _check_instead(spoken: Spoken, before: Clause | None) -> None:
+    """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
+    room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+    denied = isinstance(before, AvoidClause) and before.negated
+    if spoken.instead and not (room or denied):
+        raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
+
+
 class _State:
     """What has been understood up to some point of an instruction."""
 
@@ -138,6 +154,7 @@ class _State:
         self._scene, self._resolver = scene, resolver
         self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
+        self._last: Clause | None = None
         self.sentence = 0
 
     @property
@@ -152,7 +169,7 @@ class _State:
         other.context.done = self.context.done
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
-        other.sentence = self.sentence
+        other.sentence, other._last = self.sentence, self._last
         return other
 
     def read(self, reading: Sequence[Spoken]) -> None:
@@ -160,7 +177,9 @@ class _State:
         self.sentence += 1
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
+            _check_instead(spoken, self._last)
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
+            self._last = spoken.clause
         for spoken in reading:
             done = tuple(steps[id(spoken)])
             self.timed.append(Timed(done, spoken.order, self.sentence))

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Order,
     PickClause,
     PutClause,
+    RemoveClause,
     Spoken,
     State,
     SwapClause,
@@ -143,7 +144,7 @@ def _said(node: object) -> Iterator[str]:
                 yield from (_DENIAL, "other")
             if prep is Prep.MATCHING:
                 yield "same"
-        case NounPhrase(without=without) if without:
+        case NounPhrase(without=without) | RemoveClause(without=without) if without:
             yield _DENIAL
         case AvoidClause():
             yield from (_DENIAL, "other", "any", "after", "afterwards")

@@ -28,9 +28,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Clause,
     MoveClause,
+    NounPhrase,
     Order,
     PutClause,
     PutGroup,
+    RemoveClause,
     Spoken,
     Things,
 )
@@ -40,7 +42,7 @@ from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
 LEFT_OUT = either(
-    sequence(silent(phrase(nouns.EXCEPT)), exceptions, build=excepting),
+    sequence(silent(phrase(f"{nouns.EXCEPT}, without")), exceptions, build=excepting),
     sequence(silent(optional(phrase("but"), None)), ONLY_THOSE, build=lambda kept: kept),
     sequence(
         silent(phrase("[but|and] leav(e|ing) [out], [but|and] keep[ing]")),
@@ -55,6 +57,7 @@ _ASKED = Rule(
         *(KEEP_STILL, AGAIN),
     )
 )
+INSTEAD = phrase(small_words.INSTEAD, True)
 CLAUSE = located(
     sequence(
         EMPTY_WORDS,
@@ -67,11 +70,12 @@ CLAUSE = located(
         optional(phrase(small_words.TRAILING_LAST, Order.LAST), None),
         optional(phrase(small_words.TRAILING_THEN, Order.THEN), None),
         EMPTY_WORDS,
+        optional(INSTEAD, False),
         some(WITHOUT, most=3),
-        build=lambda clause, first, last, then, avoided: (
+        build=lambda clause, first, last, then, instead, avoided: (
             None
             if sum(item is not None for item in (first, last, then)) > 1
-            else (clause, first or last or then, avoided)
+            else (clause, first or last or then, instead, avoided)
         ),
     ),
     lambda at, found: (at, *found),
@@ -89,7 +93,7 @@ LEAD = sequence(
         either(
             silent(phrase(small_words.FRAMES)),
             silent(phrase(small_words.WITHOUT_MEANING)),
-            sequence(ORDER_WORDS, OPTIONAL_COMMA, build=lambda order: order),
+            sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA, build=lambda order: order),
             COMMA,
         ),
         most=6,
@@ -98,15 +102,28 @@ LEAD = sequence(
 )
 
 
-def _spoken(orders: tuple[Order, ...], found: Any) -> Reading | None:
+def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
     """A clause with what must not be done on the way."""
-    at, clause, order, avoided = found
-    said = [item for item in dict.fromkeys((*orders, order)) if item is not None]
+    at, clause, order, instead, avoided = found
+    orders = [item for item in (*leading, order) if isinstance(item, Order)]
+    said = list(dict.fromkeys(orders))
     strong = [item for item in said if item is not Order.THEN]
     if len(strong) > 1:
         return None
     when = strong[0] if strong else (said[0] if said else Order.SAID)
-    return (Spoken(clause, at, when), *(Spoken(item, at) for item in avoided))
+    instead = instead or True in leading
+    return (Spoken(clause, at, when, instead), *(Spoken(item, at) for item in avoided))
+
+
+def _bared(
+    orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...]
+) -> Reading | None:
+    """Who puts a mug somewhere "without the pen" takes the pen out of it first."""
+    at, clause = put
+    (theme, *more) = clause.groups[0].things.phrases
+    if orders or more or clause.groups[1:]:
+        return None
+    return (Spoken(RemoveClause(Things(out), theme, without=True), at), Spoken(clause, at))
 
 
 def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
@@ -133,6 +150,14 @@ LED_CLAUSE = Rule(
     either(
         sequence(LEAD, CLAUSE, build=_spoken),
         sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
+        sequence(
+            LEAD,
+            located(PUT, lambda at, clause: (at, clause)),
+            OPTIONAL_COMMA,
+            silent(phrase("without")),
+            NP_LIST,
+            build=_bared,
+        ),
     )
 )
 

@@ -47,7 +47,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import OPTIONAL_SOURCE, from_source
+from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
+from etot_cli.reasoning.language.grammar.throwing import THROWN
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 
@@ -232,6 +233,7 @@ PUT = either(
         build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
     ),
     sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=put_of),
+    THROWN,
     sequence(silent(phrase("leav(e|ing)")), PUT_GROUPS, EXTRAS, build=left),
     sequence(silent(phrase("keep[ing]")), PUT_GROUPS, EXTRAS, build=kept),
     sequence(
@@ -262,9 +264,11 @@ PUT = either(
         silent(phrase(verbs.BRING)),
         separated(
             sequence(
-                valued(sequence(THINGS, OPTIONAL_SOURCE, build=from_source), lambda things: things),
+                THINGS,
+                # "Off the tray and onto the shelf"
+                optional(sequence(SOURCE, silent(optional(LIST)), build=lambda np: np), None),
                 DIRECTED,
-                build=PutGroup,
+                build=lambda things, source, where: PutGroup(from_source(things, source), where),
             ),
             LIST,
             most=5,

@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.wishes import excluding
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import small_words, verbs
 
 
 def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
@@ -174,19 +174,28 @@ _LEFT_SO = located(
     lambda at, state: (Spoken(EnsureClause((state,)), at),),
 )
 """How something is to be in the end, without a verb ("drawer shut")."""
-_TOPIC = located(
-    sequence(
-        silent(optional(phrase(small_words.LOOK_FOR), None)),
-        THINGS,
-        build=lambda things: ReorientClause(things, only_named=True),
-    ),
+_NAMED = located(
+    sequence(THINGS, build=lambda things: ReorientClause(things, only_named=True)),
     lambda at, clause: Spoken(clause, at),
+)
+_TOPIC = sequence(
+    silent(optional(phrase(small_words.LOOK_FOR), None)), _NAMED, build=lambda topic: topic
+)
+_BROUGHT = sequence(
+    silent(phrase(verbs.FETCH)), _NAMED, silent(phrase("over [here], here")), build=lambda np: np
 )
 
 
 def _about(topic: Spoken, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     return (topic, *rest) if next(pronouns(rest[0].clause), None) else None
+
+
+def _set_down(topic: Spoken, rest: Reading) -> Reading | None:
+    """What is brought over is put where the next clause says ("bring it over and set it …")."""
+    put = rest[0].clause
+    taken_up = isinstance(put, PutClause) and put.groups[0].things.phrases[0].pronoun
+    return (topic, *rest) if taken_up else None
 
 
 SENTENCE = either(
@@ -197,6 +206,13 @@ SENTENCE = either(
         either(COMMA, silent(phrase("and, and then"))),
         CHAIN,
         build=lambda orders, topic, rest: None if orders else _about(topic, rest),
+    ),
+    sequence(
+        LEAD,
+        _BROUGHT,
+        either(COMMA, silent(phrase("and, and then, then"))),
+        CHAIN,
+        build=lambda orders, topic, rest: None if orders else _set_down(topic, rest),
     ),
     sequence(
         LEAD,
@@ -238,7 +254,14 @@ SENTENCE = either(
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA, build=lambda: ())
 WHOLE = either(
     sequence(SENTENCE, silent(_END), silent(optional(phrase(QUESTION), None)), build=lambda r: r),
-    sequence(EMPTY_WORDS, _PLACED, some(_JOINED, most=12), silent(_END), build=_verbless),
+    sequence(
+        EMPTY_WORDS,
+        silent(optional(phrase(small_words.TIDY_UP), None)),
+        _PLACED,
+        some(_JOINED, most=12),
+        silent(_END),
+        build=_verbless,
+    ),
     sequence(
         EMPTY_WORDS,
         optional(sequence(_PLACED, LIST, build=lambda put: put), ()),

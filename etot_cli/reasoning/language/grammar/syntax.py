@@ -168,6 +168,8 @@ class RemoveClause:
 
     things: Things
     source: NounPhrase | None = None
+    without: bool = False
+    """It is not to come along with that ("the mug without the pen")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,6 +303,8 @@ class Spoken:
     clause: Clause
     position: int
     order: Order = Order.SAID
+    instead: bool = False
+    """In place of what was taken away before, or is not to be done."""
 
 
 def pronouns(node: object) -> Iterator[str]:

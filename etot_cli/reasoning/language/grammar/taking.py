@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     CoverClause,
+    Destination,
     Modifier,
     NounPhrase,
     PickClause,
@@ -32,10 +33,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     RemoveClause,
     Things,
+    Toward,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
-from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.reasoning.language.words.places import ON_IT, Prep
 from etot_cli.skills.action import GraspPose
 
 POSE = either(
@@ -123,16 +125,23 @@ def _emptied(things: Things, where: Any) -> Clause:
     return PutClause((PutGroup(contents, where),))
 
 
+def _tidied(verb: str, things: Things, where: Any) -> PutClause:
+    """Who tidies a place brings away what is there; several things are tidied away themselves."""
+    plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
+    things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
+    return PutClause((PutGroup(things, where),), far_fetched=0 if things_said else 1)
+
+
 EMPTY = either(
     sequence(
         silent(phrase("empty[ing] [out]")), THINGS, optional(DESTINATIONS, None), build=_emptied
     ),
     sequence(
-        silent(phrase(verbs.TIDY)),
+        phrase(verbs.TIDY),
         THINGS,
         silent(optional(phrase("away, up"), None)),
         DESTINATIONS,
-        build=lambda things, where: PutClause((PutGroup(things, where),), far_fetched=1),
+        build=_tidied,
     ),
     sequence(
         silent(phrase(verbs.CLEAR)),
@@ -165,7 +174,17 @@ EMPTY = either(
         build=lambda things, source: RemoveClause(things, source),
     ),
 )
+
+
+def _lidded(lids: Things) -> PutClause | None:
+    """What was filled gets its lid ("put the lid on")."""
+    here = (Destination(Toward.HERE, word=ON_IT),)
+    named = all(np.words and singular(np.words[-1]) == "lid" for np in lids.phrases)
+    return PutClause((PutGroup(lids, here),)) if named else None
+
+
 COVER = either(
+    sequence(silent(phrase(verbs.PLACE)), THINGS, silent(phrase("[back] on")), build=_lidded),
     sequence(
         silent(phrase(verbs.COVER)),
         THINGS,

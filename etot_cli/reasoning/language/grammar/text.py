@@ -31,6 +31,7 @@ _CLITICS = (
     (r"\bi'd\b", "i would"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
+    (r"\b(you|we|they)'re\b", r"\1 are"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )

@@ -33,13 +33,13 @@ its kind; what it is a pack or box of. A word before the noun (the "paper" of a 
 what is called so from others, but names nothing where the noun is for it."""
 
 
-_SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
+SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
 _VESSELS = frozenset(
     noun
     for kind, groups in KIND_GROUPS.items()
     for group in groups
     for noun in group
-    if kind not in ("sphere", "capsule", "pen") and not {*group} & {*_SHAPES}
+    if kind not in ("sphere", "capsule", "pen") and not {*group} & {*SHAPES}
 )
 """Nouns for what things are kept in or on, be it solid in this scene."""
 
@@ -109,7 +109,7 @@ class Entry:
         heads = {*map(singular, self.heads)}
         holds = heads & (HELPING_NOUNS | _VESSELS)
         # A key of a car is no car; a cube of sponge is a sponge.
-        other = heads & (COMMON_NOUNS - _SHAPES) and singular(word) in COMMON_NOUNS
+        other = heads & (COMMON_NOUNS - SHAPES) and singular(word) in COMMON_NOUNS
         return not holds and not other
 
     def counts_among(self, members: frozenset[str]) -> bool:

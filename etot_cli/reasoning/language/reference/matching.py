@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.language.reference.entries import CONTENT, EXACT, GENERIC, HEAD, Entry
+from etot_cli.reasoning.language.reference.entries import (
+    CONTENT,
+    EXACT,
+    GENERIC,
+    HEAD,
+    SHAPES,
+    Entry,
+)
 from etot_cli.reasoning.language.reference.sifting import (
     Sifted,
     graded_by,
@@ -253,7 +260,10 @@ def _match_in(
         # Of several pairs of socks "the socks" are all.
         packs = len(entries) > 1 and singular(head) != head
         plural = any(e.is_plural(head) or (packs and head in e.content) for e in entries)
-        plural |= head in MASS_NOUNS and len(entries) > 1
+        # "The fruit", "the yarn" of several balls of it
+        shapes = all({*map(singular, entry.heads)} & SHAPES for entry in entries)
+        mass = (head in MASS_NOUNS or (best == CONTENT and shapes)) and len(entries) > 1
+        plural |= mass
     if best == GENERIC and any(e.only_tells(head) and e.grade(head) is None for e in pool):
         return None  # where there is a glass jar "the glass" is no cup
     loose = best == CONTENT or (

@@ -130,7 +130,9 @@ class Meanings:
     def _possessed(
         self, phrase: NounPhrase, owner: NounPhrase, role: Role, noun: str | None
     ) -> NounPhrase:
-        """What is "its": a part of it, else what it is in or on, or what is in or on it."""
+        """What is "its": a part of it, else what it is in or on, or what is in or on it; else the
+        one that goes by its noun alone, or is called after it ("the soap … its dish", a soap dish).
+        """
         ways = [
             replace(phrase, modifiers=(Modifier(prep, (owner,)), *phrase.modifiers))
             for prep in (Prep.OF, Prep.WITH, Prep.FROM)
@@ -139,7 +141,15 @@ class Meanings:
             with suppress(ReferenceProblem):
                 self._with_noun(way, role, noun)
                 return way
-        return ways[0]
+        named = None
+        with suppress(ReferenceProblem):
+            things = self._with_noun(replace(phrase, determiner="all"), role, None).options[0]
+            owners = {thing for things in self.pronoun_things(owner) for thing in things}
+            named = self.resolver.called_after(things, owners, phrase.words)
+        if named is None or role is Role.THEME:
+            return ways[0]
+        self.discourse.notes.append(f"read {phrase.text!r} as {named}")
+        return replace(phrase, determiner="the", words=(named,))
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
         """A phrase that may leave its noun to an earlier one: to the latest, else to the only

@@ -7,7 +7,7 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
@@ -29,8 +29,10 @@ from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
+    MATERIALS,
     REFUSE,
     THING_NOUNS,
+    is_descriptive,
     matches_any,
     singular,
 )
@@ -99,6 +101,26 @@ class Resolver:
     def names(self, noun: str) -> bool:
         """Whether anything can be called by a noun, be it for its kind."""
         return any(entry.grade(noun) is not None for entry in self._vocabulary.entries().values())
+
+    def called_after(
+        self, things: Sequence[Thing], owners: Collection[Thing], said: Sequence[str]
+    ) -> str | None:
+        """The name of the one thing that is called after its owners, or else of the only thing,
+        where no word tells whose it is.
+        """
+        entries = self._vocabulary.entries()
+        own = {singular(word) for thing in owners for word in entries[thing].own}
+        named: dict[str, bool] = {}
+        for thing in things:
+            entry = entries[thing]
+            heads = {*map(singular, (*entry.heads, *said)), *MATERIALS}
+            words = {*map(singular, entry.own)} - heads
+            told = {word for word in words if not is_descriptive(word)}
+            if entry.info is not None and not (thing.part or thing.board) and told <= own:
+                named[thing.name] = bool(told)
+        after = [name for name, told in named.items() if told]
+        found = after or ([*named] if len(things) == 1 else [])
+        return found[0] if len(found) == 1 else None
 
     def resolve(
         self,
@@ -200,8 +222,9 @@ class Resolver:
         unclear |= match.loose and quantity.definite and len(kinds) > 1
         if unclear and count == 1:
             raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
-        plural = match.plural and words[-1] not in MASS_NOUNS
-        if plural and match.loose and len(things) == 1 and not quantity.count:
+        mass = words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1]
+        counted = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)
+        if match.plural and match.loose and len(things) == 1 and not (counted or mass):
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:

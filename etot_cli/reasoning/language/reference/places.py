@@ -12,7 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import latest_place, places_spoken_of
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     holds_things,
     matches_any,
 )
-from etot_cli.reasoning.language.words.places import AT_END, OVER
+from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
 from etot_cli.world.state import DESK, SceneState
 
 _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
@@ -271,13 +271,15 @@ class Places:
             return (self.on_the_desk(),)
         if word == "there" and discourse.last_places:
             return discourse.last_places
-        if word == "on top" and discourse.put_into:
+        if word in (ON_IT, "on top") and discourse.put_into:
             # On what the last thing was put into, not on the thing in it.
             inner, index = next(reversed(discourse.put_into.items()))
             if all(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(inner)):
                 named = [discourse.referents[item].text for item in (inner, index)]
                 raise AmbiguousReference(word, named)
             return tuple(self.relations_to(Toward.ON, index, themes))
+        if word == ON_IT and not discourse.put_into:
+            raise ReferenceProblem(word, UNCLEAR, 2)
         put = {thing for index in discourse.put for thing in discourse.things(index)}
         if word == "on top" and put & {t for index in themes for t in discourse.things(index)}:
             raise ReferenceProblem(word, "say on top of what", 2)

@@ -69,9 +69,11 @@ class Vocabulary:
         told = [entry for entry in self.objects if entry.only_tells(noun)]
         if is_descriptive(word) or word in PURPOSES | MATERIALS or word in STATES:
             return []
+        for_it = place and word in RUBBISH
+        if not for_it:  # a yarn basket is no yarn
+            told = [entry for entry in told if entry.info is None or not entry.info.container]
         if is_general_noun(word) or len({entry.called[:1] for entry in told}) > 1:
             return []
-        for_it = place and word in RUBBISH
         fitting = all(
             entry.info is not None and entry.info.container if for_it else entry.is_short_for(word)
             for entry in told

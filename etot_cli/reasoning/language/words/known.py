@@ -104,7 +104,7 @@ OTHER_VERBS = word_set(
     dragging sweep sweeping dust polish paint draw write hit hammer count find look search
     wait stop follow show tell describe explain say measure weigh heat cool mix blend scoop
     serve feed water inspect scan balance hang catch wave point dance walk drive fly jump
-    sing toggle activate
+    sing toggle activate chuck chucking discard discarding dispose disposing fling flinging
     """
 )
 """What no skill does."""

@@ -50,7 +50,7 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),
     ("eggplant", "aubergine"), ("zucchini", "courgette"), ("diaper", "nappy"),
     ("trash can", "trash bin", "garbage can", "garbage bin", "rubbish bin", "waste bin",
-     "dustbin", "wastebasket", "trash", "garbage"),
+     "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash", "garbage"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
 REFUSE = ("trash", "garbage")
@@ -102,6 +102,13 @@ HELPING_NOUNS = word_set(
     """
 )
 """What holds, covers, cleans, cuts or serves what stands before it ("paper clip")."""
+BINS = word_set(
+    """
+    bin trash rubbish garbage waste wastepaper wastebasket dustbin litter recycling compost hamper
+    laundry
+    """
+)
+"""Words of names of what things are thrown into when they are but put there."""
 RUBBISH = word_set("trash rubbish garbage waste litter recycling")
 """What is put where it belongs, called by the same word."""
 JOINT_NOUNS: dict[str, tuple[str, ...]] = {

@@ -91,6 +91,8 @@ AMONG = """
     over, among, amongst, between, across, into, in, onto, on, to
 """
 """Before places that things are to be distributed over."""
+ON_IT = "on"
+"""Of a lid: on what was filled."""
 HERE = "inside, in there, on there, there, on top, in, into it"
 HOME = """
     back [to its place], to (its|their|the) [original|old|previous] (place|places|position|spot),

@@ -18,7 +18,9 @@ WITHOUT_MEANING = """
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
-FRAMES = """
+TIDY_UP = "(tidy|clean|clear) up ~comma"
+"""Before what is to go where."""
+FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,
@@ -30,7 +32,8 @@ FRAMES = """
     help me, help me to, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
-    do me a favour and, i would be (glad|happy|grateful) if you (would|could)
+    do me a favour and, {TIDY_UP},
+    i would be (glad|happy|grateful) if you (would|could)
 """
 SAME_AGAIN = """
     do the same (with|for|to), [and] so (do|does|should|must), the same (goes|applies|holds) for,
@@ -46,8 +49,13 @@ LEADING_THEN = """
     after doing so, once (that is done|done|you are done), when done, and then, subsequently, later
 """
 TRAILING_FIRST = "first, beforehand, before that, before anything else"
-TRAILING_LAST = "last, at the end, in the end, finally, at last, when (done|finished|you are done)"
+TRAILING_LAST = """
+    last, at the end, in the end, finally, at last,
+    (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done
+"""
 TRAILING_THEN = "afterwards, afterward, after that, next, then, later"
+INSTEAD = "instead, instead of (it|them|that|those)"
+"""What is asked for takes the place of what is taken away, or is not to be done."""
 AND = "and [also], as well as, along with, together with, plus"
 OR = "or [else]"
 EITHER = "either, one of, any of"

@@ -16,12 +16,16 @@ SET_DOWN = """
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing), shift[ing],
-    sort[ing], arrang(e|ing), put[ting] together, throw[ing] away, hid(e|ing), deliver[ing],
+    sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], stash[ing], plop[ping]
 """
 PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
+THROW_AWAY = "throw[ing] (away|out), discard[ing], dispos(e|ing) of"
+THROW = f"throw[ing], toss[ing], chuck[ing], {THROW_AWAY}"
+"""Into a bin it is putting; what is thrown elsewhere is to fly."""
+FETCH = "bring[ing], tak(e|ing), fetch[ing], carry[ing], get[ting], mov(e|ing)"
 DISTRIBUTE = """
     distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
 """
