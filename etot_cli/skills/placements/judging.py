@@ -49,6 +49,8 @@ HAND_ABOVE = 0.05
 """Height of a hand's tool point over the desk at which its comfort is judged [m]."""
 FLAT = 0.003
 """An object that rests this little above the floor stands on it [m]."""
+OUTLINE = 32
+"""Points of an underside that are looked at first."""
 FRONT_MARGIN = 0.015
 """Distance kept from an open front and from the walls beside it [m]: the hand withdraws along
 them."""
@@ -179,13 +181,25 @@ class Judge:
             offsets = np.concatenate([offsets, np.round(asked).astype(np.int64)])
         return np.asarray(offsets + relief.middle)
 
+    def may_stand(self, rotation: Vector, cells: Cells) -> Cells:
+        """Those of cells (m, 2) where the object may stand as far as a few points of its underside
+        tell. On the desk all: most of it is free.
+        """
+        if self._on_desk:
+            return cells
+        few = self._undersides.at(rotation)[0].outline(OUTLINE)
+        bottom = self._belief.checker.extent(self._request.attached.name, rotation)[0][2]
+        lift = resting_heights(self.relief, few, cells) + bottom - self.relief.floor
+        gap = least(self._free, 1.0, few, cells) - self.relief.cell
+        return cells[(lift <= FLAT) & (gap >= GAP) & self._is_off_edge(few, cells)]
+
     def judge(self, rotation: Vector, cells: Cells) -> Judged:
         """Judges cells (m, 2) for an orientation (3, 3) of the object's body."""
         relief = self.relief
         low, high = self._belief.checker.extent(self._request.attached.name, rotation)
         underside, whole_hand = self._undersides.at(rotation)
         rest = resting_heights(relief, underside, cells)
-        highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
+        highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min(initial=np.inf))
         open_hand = whole_hand.below(highest)
         drop = resting_heights(relief, open_hand, cells) - rest
         turned = Turned(
@@ -205,10 +219,7 @@ class Judge:
     def _kinds(self, turned: Turned) -> Cells:
         support, relief = self._support, self.relief
         rest, lift, drop = turned.rest, turned.lift, turned.drop
-        stands = np.abs(lift) <= FLAT
-        if support.from_front or not support.is_container:
-            margin = FRONT_MARGIN if support.from_front else 0.0
-            stands &= least(self._to_edge, 0.0, turned.object, turned.cells) > margin
+        stands = (np.abs(lift) <= FLAT) & self._is_off_edge(turned.object, turned.cells)
         clear = turned.gap >= (DESK_GAP if self._on_desk else GAP)
         kind = np.full(len(rest), -1)
         if support.is_container and not support.from_front and not self._is_drawer:
@@ -269,6 +280,13 @@ class Judge:
         swept = to_sweep < DESK_GAP
         kind = np.where(swept & (kind >= 0), -1 if request.strict else Quality.SWEPT, kind)
         return np.where(np.isfinite(cost), kind, -1)
+
+    def _is_off_edge(self, underside: Stamp, cells: Cells) -> NDArray[np.bool_]:
+        """Where a thing on cells (m, 2) is far enough from an edge without a wall (m,)."""
+        if self._support.is_container and not self._support.from_front:
+            return np.ones(len(cells), dtype=bool)
+        margin = FRONT_MARGIN if self._support.from_front else 0.0
+        return np.asarray(least(self._to_edge, 0.0, underside, cells) > margin)
 
     @cached_property
     def _free(self) -> Vector:

@@ -86,12 +86,20 @@ class PlaceFinder:
         )
         if as_held:
             groups = [group for group in groups if not group.laid]
-        grid = self._judge.grid()
-        tables: list[list[Judged]] = []
+        judge, grid = self._judge, self._judge.grid()
+        standing: list[list[Judged]] = []
+        anywhere: list[list[Judged]] = []
         for quality in Quality:
+            # Where it may stand at all is told from a few points; the rest waits until it is asked
+            # for, which is seldom.
+            may_stand = quality < Quality.PILED
+            tables = standing if may_stand else anywhere
             for index, group in enumerate(groups):
                 if index == len(tables):
-                    table = [self._judge.judge(rotation, grid) for rotation in group.rotations]
+                    table = [
+                        judge.judge(turn, judge.may_stand(turn, grid) if may_stand else grid)
+                        for turn in group.rotations
+                    ]
                     if group.laid and table[0].turned.height > LOWER * tables[0][0].turned.height:
                         table = []
                     tables.append(table)

@@ -116,6 +116,13 @@ class Stamp:
     cells: Cells
     low: Vector
 
+    def outline(self, count: int) -> Stamp:
+        """The cells that lie farthest out to so many sides."""
+        turns = np.arange(count) * (2 * np.pi / count)
+        out = (self.cells @ np.stack([np.cos(turns), np.sin(turns)])).argmax(axis=0)
+        keep = np.unique(out)
+        return Stamp(self.cells[keep], self.low[keep])
+
     def below(self, height: float) -> Stamp:
         """The part of it that is lower than ``height`` above its origin."""
         keep = self.low < height
