@@ -142,6 +142,7 @@ def plan_task(
                 # A model may propose anything; the built-in reasoner works from the instruction,
                 # but physics may undo what a formal goal says of the end.
                 check=session is not None or task.goal is not None,
+                foresee=session is None,
             )
         if (options.worlds or task.worlds) > 1 and result.final is not None:
             with watch.phase("trials"):

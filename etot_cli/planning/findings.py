@@ -7,7 +7,7 @@ from etot_cli.planning.result import Statistics
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, PlanNode
 from etot_cli.reasoning.builtin.acceptance import Doubts
-from etot_cli.reasoning.protocol import Branch, FailedStep, Reasoner
+from etot_cli.reasoning.protocol import Branch, FailedStep, Reasoner, Verdict
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
 
@@ -63,17 +63,16 @@ class Findings:
         self.statistics.physics_s += simulated.physics_s
         self.statistics.kinematics_s += simulated.kinematics_s
 
-    def failed_step(self, node: PlanNode, branch: Branch) -> FailedStep:
-        """What is reflected on after a node of a branch has failed."""
-        assert node.verdict is not None  # a failed node has been judged
-        assert self._root_scene is not None  # and the root was there before it
-        return FailedStep(
-            branch=branch,
-            index=node.depth - 1,
-            record=self._failures[node.id],
-            verdict=node.verdict,
-            start=self._root_scene,
-        )
+    def failed_step(
+        self, node: PlanNode, branch: Branch, record: RolloutRecord, verdict: Verdict
+    ) -> FailedStep:
+        """What is reflected on when a node of a branch has failed."""
+        assert self._root_scene is not None  # the root was there before any node
+        return FailedStep(branch, node.depth - 1, record, verdict, self._root_scene)
+
+    def failure(self, node: PlanNode) -> RolloutRecord:
+        """What happened at a node that was judged to have failed."""
+        return self._failures[node.id]
 
     def offer(self, node: PlanNode) -> None:
         """[extractPath] A plan was found; it is kept when it survives in more worlds."""

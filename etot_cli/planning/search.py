@@ -27,10 +27,22 @@ from etot_cli.planning.result import (
     told,
 )
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
-from etot_cli.reasoning.protocol import Assignment, Branch, Reasoner, ReasonerStopped, StopReason
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    Outcome,
+    Reasoner,
+    ReasonerStopped,
+    StopReason,
+    Verdict,
+)
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER, OutOfTimeError
-from etot_cli.world.state import CauseKind, SceneState
+from etot_cli.world.state import CauseKind, RolloutRecord, SceneState
+
+FORESEEN = 4
+"""Branches through one failure whose corrections are worked out ahead: jobs are few, and the first
+corrections come first in the queue."""
 
 
 def search(
@@ -42,6 +54,7 @@ def search(
     without: frozenset[Ablation] = frozenset(),
     observer: SearchObserver | None = None,
     check: bool = False,
+    foresee: bool = False,
 ) -> SearchResult:
     """Looks for a plan that works in the simulator from its first action to its last.
 
@@ -57,13 +70,16 @@ def search(
         observer: told of every step.
         check: a plan also has to bring about what is asked for, as far as that can be read without
             the reasoner; for reasoners that may propose what was not asked for.
+        foresee: where jobs would be idle, the reasoner is asked how it would correct failures whose
+            turn has not come; for reasoners that cost nothing and answer the same twice. Changes
+            nothing but the time.
 
     Raises:
         InstructionError: the assignment cannot be understood against the scene.
     """
     run = _Search(
         assignment, simulator, reasoner, limits or Limits(), without, observer or SearchObserver(),
-        check=check,
+        check=check, foresee=foresee,
     )  # fmt: skip
     return run.result()
 
@@ -81,6 +97,7 @@ class _Search:
         observer: SearchObserver,
         *,
         check: bool,
+        foresee: bool,
     ) -> None:
         self._assignment = assignment
         self._simulator = simulator
@@ -95,7 +112,8 @@ class _Search:
         self._started = time.monotonic()
         seconds = limits.time_limit_s
         self._until_s = NEVER if seconds is None else self._started + seconds
-        self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s)
+        ahead = (self._foresee,) if foresee and Ablation.REFLECTIVE not in without else ()
+        self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s, *ahead)
         self._proposals: Iterator[Branch] = iter(())
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()
@@ -210,7 +228,7 @@ class _Search:
         """Takes a failed node out and reflects on every branch that ran through it."""
         paths = self._tree.extract_paths(node)  # [P]
         self._tree.remove_subtree(node)
-        if _abandoned(node):
+        if node.verdict is not None and _is_abandoned(node.verdict):
             self._cut = LimitKind.ABANDONED
             return
         for path in paths:
@@ -239,8 +257,22 @@ class _Search:
                 raise OutOfTimeError
             self._reflected.add(key)
             self._known.statistics.reflections += 1
-            branches = self._reasoner.reflect(self._known.failed_step(node, path.branch))  # [B]
+            assert node.verdict is not None  # a failed node has been judged
+            failed = self._known.failed_step(
+                node, path.branch, self._known.failure(node), node.verdict
+            )
+            branches = self._reasoner.reflect(failed)  # [B]
             self._take(Corrections(node, path.revisions + 1, iter(branches)))
+
+    def _foresee(self, node: PlanNode, record: RolloutRecord) -> Iterator[Branch]:
+        """The first corrections of a failure that has not been judged yet."""
+        verdict = self._reasoner.judge(node.action, record)
+        if verdict.outcome is Outcome.SUCCESS or _is_abandoned(verdict):
+            return
+        for path in self._tree.extract_paths(node)[:FORESEEN]:
+            if path.revisions < self._limits.revisions_per_branch:
+                failed = self._known.failed_step(node, path.branch, record, verdict)
+                yield from islice(self._reasoner.reflect(failed), 1)
 
     def _take(self, corrections: Corrections) -> None:
         """Takes the next correction of a failure into the tree, and puts the rest aside."""
@@ -285,7 +317,6 @@ class _Search:
         return SearchStatus.INFEASIBLE if self._limit is None else SearchStatus.LIMIT
 
 
-def _abandoned(node: PlanNode) -> bool:
+def _is_abandoned(verdict: Verdict) -> bool:
     """Whether the simulation came to no end: then there is nothing physical to learn from."""
-    cause = None if node.verdict is None else node.verdict.cause
-    return cause is not None and cause.kind is CauseKind.ABANDONED
+    return verdict.cause is not None and verdict.cause.kind is CauseKind.ABANDONED

@@ -14,7 +14,7 @@ from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Outcome, Verdict
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import Cause, CauseKind, RolloutRecord
-from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, cause, names
+from tests.planning.fakes import Rule, ToyReasoner, ToySimulator, cause, names, plan
 
 LETTERS = "abcdef"
 
@@ -70,8 +70,9 @@ def random_search(seed: int, jobs: int, worlds: int) -> tuple[SearchResult, ToyS
     ]
     simulator = ToySimulator(rule, jobs=jobs, worlds=worlds, delay_s=0.001 if jobs > 1 else 0.0)
     result = search(
-        Assignment("do it"), simulator, ToyReasoner(branches, revise), limits=Limits(max_nodes=60)
-    )
+        Assignment("do it"), simulator, ToyReasoner(branches, revise), limits=Limits(max_nodes=60),
+        foresee=jobs > 1,
+    )  # fmt: skip
     simulator.close()
     return result, simulator
 
@@ -117,6 +118,31 @@ def test_nothing_runs_ahead_of_an_action_that_missed_its_effect() -> None:
     search(Assignment("do it"), simulator, ToyReasoner(["a", "b c"]))
     simulator.close()
     assert [action for _, action in simulator.submitted] == ["[PICK UP, a]", "[PICK UP, b]"]
+
+
+def test_what_corrects_a_failure_runs_before_the_failure_is_judged() -> None:
+    """While the first branch's slow action runs, the correction of the second branch is on."""
+    rule = lambda h, action, w: cause() if action.target == "b" else None  # noqa: E731
+    revisions = {"d b c @ 1": "d e f"}
+    ahead = {}
+    for foresee in (False, True):
+        simulator = SlowSimulator(rule, "a")
+        reasoner = ToyReasoner(["a", "d b c"], revisions)
+        result = search(Assignment("do it"), simulator, reasoner, foresee=foresee)
+        simulator.close()
+        assert names(result.plan) == "a"
+        assert len(result.tree) == 4, "what was foreseen is not in the tree"
+        ahead[foresee] = [names(plan(f"{state} {action}")) for state, action in simulator.submitted]
+    assert ahead[False] == ["a", "d", "d b"]
+    assert ahead[True] == ["a", "d", "d b", "d e", "d e f"]
+
+
+def test_the_longest_chain_runs_ahead_first() -> None:
+    simulator = SlowSimulator(lambda *_: None, "a")
+    search(Assignment("do it"), simulator, ToyReasoner(["a", "b c", "b d e f"]))
+    simulator.close()
+    ahead = [names(plan(f"{state} {action}")) for state, action in simulator.submitted]
+    assert ahead == ["a", "b", "b d", "b d e", "b c", "b d e f"]
 
 
 def test_running_ahead_keeps_to_the_allowance() -> None:
