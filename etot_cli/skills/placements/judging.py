@@ -191,7 +191,8 @@ class Judge:
         bottom = self._belief.checker.extent(self._request.attached.name, rotation)[0][2]
         lift = resting_heights(self.relief, few, cells) + bottom - self.relief.floor
         gap = least(self._free, 1.0, few, cells) - self.relief.cell
-        return cells[(lift <= FLAT) & (gap >= GAP) & self._is_off_edge(few, cells)]
+        stands = (lift <= FLAT) & (gap >= GAP) & self._is_off_edge(few, cells)
+        return np.asarray(cells[stands])
 
     def judge(self, rotation: Vector, cells: Cells) -> Judged:
         """Judges cells (m, 2) for an orientation (3, 3) of the object's body."""
