@@ -9,6 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
     check_taken,
@@ -79,6 +80,7 @@ def put(context: Context, clause: PutClause) -> None:
         so_many = {quantity_of(np.determiner).count for np in targets} == {several}
         if grouping is Grouping.ANY and several > 1 and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
+        group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
         check_taken(context, group, themes, places)
@@ -93,7 +95,10 @@ def put(context: Context, clause: PutClause) -> None:
         places_of = dict.fromkeys(themes, places)
         for condition in clause.conditions:
             _condition(context, condition, themes, places_of)
-        add_puts(context, places_of, grouping)
+        if abreast:
+            put_side_by_side(context, places_of)
+        else:
+            add_puts(context, places_of, grouping)
         context.discourse.last_places = places
         if clause.ruled_out:
             rule_out(context, themes, clause.ruled_out)

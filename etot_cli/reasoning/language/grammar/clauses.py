@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Spoken,
     Things,
 )
-from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, PICK, REMOVE
+from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, FILL, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
@@ -54,7 +54,7 @@ LEFT_OUT = either(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, AGAIN),
+        *(KEEP_STILL, AGAIN, FILL),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

@@ -28,6 +28,8 @@ from etot_cli.world.spatial import Nearby
 TOP = "top"
 """The word of a destination on top of something: of a shelf, its top board. What is "at the top"
 or the bottom has boards."""
+EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
+"""What each of several things is to be beside."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -61,6 +63,10 @@ _REGION_OF_IT = one_of(
         (Nearby.AT_EDGE,): "edge, border, rim",
     }
 )
+_ABREAST = valued(
+    phrase("side by side, next to each other, next to one another", Nearby.NEXT_TO),
+    lambda relation: _beside(relation, EACH_OTHER),
+)
 BESIDE = spanned(
     either(
         sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
@@ -82,6 +88,7 @@ BESIDE = spanned(
             _REGION_OF_IT,
             build=lambda np, regions: _region(regions, np),
         ),
+        _ABREAST,
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
         sequence(
             _REGION, optional(sequence(OF, noun_phrase, build=lambda np: np), None), build=_region
@@ -128,6 +135,11 @@ destination = Rule(
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
+        sequence(
+            _ABREAST,
+            either(ONTO, _to, INTO),
+            build=lambda found, surface: replace(surface, beside=found),
+        ),
         sequence(
             either(ONTO, _to, INTO),
             silent(optional(phrase("~comma"), None)),

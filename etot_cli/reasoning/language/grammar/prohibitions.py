@@ -7,7 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
 )
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Things
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
@@ -51,6 +52,14 @@ AVOID = sequence(
 WITHOUT = either(
     sequence(
         OPTIONAL_COMMA, silent(phrase(verbs.WITHOUT)), _FORBIDDEN, build=lambda clause: clause
+    ),
+    sequence(
+        OPTIONAL_COMMA,
+        silent(phrase(verbs.WITHOUT)),
+        silent(phrase(verbs.KEEP)),
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=not_left,
     ),
     sequence(
         OPTIONAL_COMMA,

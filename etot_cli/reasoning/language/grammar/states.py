@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, verbs
 
+_NONE = ("no", "none of the")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
 _NOT_SO = sequence(
     silent(phrase("not [left|kept]")), OPEN_OR_CLOSED, build=lambda word: ("not", word)
@@ -40,6 +41,8 @@ PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 
 def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     """What is to be so: a word for a state, or where things are to be."""
+    if isinstance(predicate, str) and all(np.determiner in _NONE for np in subjects):
+        return _opposite(tuple(replace(np, determiner="all") for np in subjects), predicate)
     if isinstance(predicate, str):
         return State(subjects, word=predicate)
     return opposite(subjects, predicate[1]) if "not" in predicate else State(subjects, predicate)
@@ -49,6 +52,14 @@ def opposite(subjects: tuple[NounPhrase, ...], word: str) -> State | None:
     """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
     several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
     return None if several else _opposite(subjects, word)
+
+
+def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
+    """What is not to be left so; "any drawer" is all of them."""
+    if all(np.determiner in ("a", "an", "any") for np in subjects):
+        subjects = tuple(replace(np, determiner="all") for np in subjects)
+        return EnsureClause((_opposite(subjects, word),))
+    return _ensured(opposite(subjects, word))
 
 
 def _opposite(subjects: tuple[NounPhrase, ...], word: str) -> State:
@@ -70,13 +81,6 @@ states = Rule(separated(STATE, LIST, most=6))
 def _ensured(*said_states: State | None) -> EnsureClause | None:
     said = tuple(state for state in said_states if state is not None)
     return EnsureClause(said) if len(said) == len(said_states) else None
-
-
-def _not_left(subjects: tuple[NounPhrase, ...], word: str) -> State | None:
-    """What is not to be left so; "any drawer" is all of them."""
-    if all(np.determiner in ("a", "an", "any") for np in subjects):
-        return _opposite(tuple(replace(np, determiner="all") for np in subjects), word)
-    return opposite(subjects, word)
 
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
@@ -155,7 +159,7 @@ ENSURE = either(
         silent(phrase(verbs.KEEP)),
         NP_LIST,
         OPEN_OR_CLOSED,
-        build=lambda nps, word: _ensured(_not_left(nps, word)),
+        build=not_left,
     ),
     quiet(
         sequence(

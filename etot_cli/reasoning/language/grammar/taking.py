@@ -17,8 +17,10 @@ from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     phrase,
+    quiet,
     sequence,
     silent,
 )
@@ -92,7 +94,7 @@ REMOVE = either(
     sequence(
         silent(phrase(verbs.BRING)),
         THINGS,
-        silent(phrase("out, off, away")),
+        silent(phrase("out, off, away, down")),
         OPTIONAL_SOURCE,
         build=lambda things, source: RemoveClause(things, source),
     ),
@@ -183,6 +185,17 @@ def _lidded(lids: Things) -> PutClause | None:
     return PutClause((PutGroup(lids, here),)) if named else None
 
 
+FILL = quiet(
+    sequence(
+        one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
+        noun_phrase,
+        WITH,
+        THINGS,
+        build=lambda toward, np, things: PutClause(
+            (PutGroup(things, (Destination(toward, (np,)),)),)
+        ),
+    )
+)
 COVER = either(
     sequence(silent(phrase(verbs.PLACE)), THINGS, silent(phrase("[back] on")), build=_lidded),
     sequence(

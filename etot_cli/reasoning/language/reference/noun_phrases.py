@@ -175,7 +175,9 @@ class Resolver:
             why = f"nothing in the scene is called {words[-1]!r}; nearest: {nearest}"
             raise ReferenceProblem(phrase.text, why, 2)
         plural = role is Role.PART and singular(words[-1]) != words[-1]
-        if (quantity.every or phrase.determiner == "one" or bare or plural) and not match.plural:
+        out = any(item.prep is Prep.EXCEPT for item in phrase.modifiers)
+        single = quantity.every or phrase.determiner == "one" or bare or plural or out
+        if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
         unnamed = noun is None or matches_any(noun, THING_NOUNS)
         nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
@@ -301,5 +303,7 @@ class Resolver:
         if phrase.words and matches_any(phrase.words[-1], BODY_NOUNS):
             why = "the robot has one gripper and no other tool"
             raise ReferenceProblem(phrase.text, why, 3, word=phrase.text)
-        resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun)
+        # "A drawer other than the open one" is none of a chest's.
+        parts = noun is not None and phrase.words[-1:] in (("one",), ("ones",))
+        resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun, parts_first=parts)
         return list(dict.fromkeys(thing for option in resolved.options for thing in option))

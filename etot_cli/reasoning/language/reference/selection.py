@@ -130,11 +130,20 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
 
 
 def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) -> list[Thing]:
-    """Things in order from a side on, be it the ``top`` or the ``bottom``.
+    """Things in order from a side on, be it the ``top`` or the ``bottom``, or from a size on.
 
     Raises:
         ReferenceProblem: two of them are as far to that side.
     """
+    if side in SIZES:
+        measure = _measure(side, scene, list(things))
+        ordered = sorted(things, key=measure)
+        for one, other in pairwise(ordered):
+            if measure(one) == measure(other):
+                raise ReferenceProblem(
+                    phrase, f"{one.name} and {other.name} are alike", 2, word=side
+                )
+        return ordered
     if side not in ("top", "bottom"):
         ordered = space.by_side(side, things, scene)
         for one, other in pairwise(ordered):

@@ -55,15 +55,20 @@ BY_COLOR = """
     matched by (color|colour)
 """
 STARTING_WITH = "starting with, beginning with"
+_SIZES = (
+    ("largest", "smallest"), ("biggest", "smallest"), ("tallest", "shortest"),
+    ("longest", "shortest"), ("widest", "narrowest"), ("heaviest", "lightest"),
+    ("thickest", "thinnest"),
+)  # fmt: skip
 SWEEPS = {
     f"{one} {other}": f"""
         [in order|going|working] from [the] {one} [side] to [the] {other} [side], {one} to {other},
         (starting|beginning) (from|at|on|with) the {one} [side|end]
     """
-    for pair in (("left", "right"), ("front", "back"), ("top", "bottom"))
+    for pair in (("left", "right"), ("front", "back"), ("top", "bottom"), *_SIZES)
     for one, other in (pair, pair[::-1])
 }
-"""In which direction several things are taken one after the other."""
+"""In which direction, or by which size, several things are taken one after the other."""
 IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order

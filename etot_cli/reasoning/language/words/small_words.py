@@ -40,8 +40,11 @@ SAME_AGAIN = """
     likewise [for|with], same (with|for)
 """
 """Before things that what was just asked for is asked for, too."""
-ALSO = "too, as well, also, likewise"
-LEADING_FIRST = "first, firstly, first of all, to begin with, to start with, as a first step"
+ALSO = "[~comma] (too|as well|also), likewise"
+LEADING_FIRST = """
+    first, before anything else, firstly, first of all, to begin with, to start with,
+    as a first step
+"""
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = "finally, lastly, last, last of all, at the end, in the end, as a last step"
 LEADING_THEN = """

@@ -35,10 +35,12 @@ TAKE = "tak(e|ing), lift[ing], pull[ing], mov(e|ing), bring[ing], transfer[ring]
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
-    remov(e|ing), clear[ing] away, unload[ing], extract[ing], tak(e|ing) (out|off|away),
-    get[ting] (out|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
+    remov(e|ing), clear[ing] away, unload[ing], extract[ing], tak(e|ing) (out|off|away|down),
+    get[ting] (out|down|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
+FILL = "fill[ing] [up], pack[ing], stuff[ing]"
+LOAD = "load[ing] [up]"
 CLEAR = "clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out"
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
@@ -62,7 +64,8 @@ MODAL = """
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like,
-    (can|could|may) (i|we) have, i would (like|love) to (have|see), i want to (have|see)
+    (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
+    i want to (have|see)
 """
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
