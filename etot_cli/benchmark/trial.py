@@ -9,6 +9,8 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
+from etot_cli.specs.problems import first_fault
+
 COSTS = (
     "planning_s", "nodes", "simulated_s", "model_calls", "model_requests", "input_tokens",
     "output_tokens", "cost",
@@ -114,6 +116,6 @@ def from_document(document: Mapping[str, Any]) -> TrialResult:
     try:
         return _RESULT.validate_python({"key": key, **left})
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(str(step) for step in first["loc"] if step != "key")
-        raise ValueError(f"is no trial's result: {where}: {first['msg']}") from None
+        fault = first_fault(error)
+        where = fault.path.removeprefix("key.")  # in the document the key's fields stand beside it
+        raise ValueError(f"is no trial's result: {where}: {fault.text}") from None

@@ -11,6 +11,7 @@ from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_report import BenchReport, CompareReport, paired_models
 from etot_cli.reporting.bench_table import significantly_worse
 from etot_cli.reporting.provenance import versions
+from etot_cli.specs.problems import first_fault
 from etot_cli.specs.reading import read_utf8
 
 MAX_REPORT_BYTES = 256 * 1024 * 1024
@@ -70,10 +71,9 @@ def load_report(path: Path) -> BenchReport:
     try:
         return BenchReport.model_validate_json(text)
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(step) for step in first["loc"])
+        fault = first_fault(error)
         raise SpecError(
-            f"is no report of etot bench: {first['msg']}; expected schema etot.bench/1",
+            f"is no report of etot bench: {fault.text}; expected schema etot.bench/1",
             file=str(file),
-            path=where,
+            path=fault.path,
         ) from None

@@ -14,7 +14,6 @@ from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.control.simulator import world_seed
 from etot_cli.control.true_world import TrueWorld
 from etot_cli.control.worlds import Recipe
-from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.specs.look import Look
@@ -55,14 +54,6 @@ class ActionTrials:
             with contextlib.suppress(OSError, RuntimeError, MemoryError):
                 self._pool = WorkerPool(jobs, _worlds_of, (given,))
 
-    def rehearse(self, plan: Sequence[Action], until_s: float = NEVER) -> tuple[Step, ...] | None:
-        """A plan with the motions that bring it about in the twin; None where they do not.
-
-        Raises:
-            OutOfTimeError: not done at ``until_s``, a reading of ``time.monotonic`` [s].
-        """
-        return self._worlds.rehearse(plan, until_s)
-
     def carry_out(self, plan: Sequence[Step], until_s: float = NEVER) -> Iterator[Course]:
         """Carries a plan out in every world; what became of it there, in their order.
 
@@ -100,18 +91,6 @@ class _TrialWorlds:
         self._twin = SimulatedWorld(recipe.scene, recipe.seed, keep_frames=False)
         # Built before workers are forked, who all need it.
         self._twin.seen_twin  # noqa: B018
-
-    def rehearse(self, plan: Sequence[Action], until_s: float) -> tuple[Step, ...] | None:
-        self._twin.deadline.at_s = until_s
-        state, _ = self._twin.start()
-        steps = []
-        for action in plan:
-            performed = self._twin.perform(state, action)
-            if not performed.record.effect:
-                return None
-            steps.append(Step(action, performed.motion))
-            state = performed.end
-        return tuple(steps)
 
     def carry_out(self, number: int, plan: Sequence[Step], until_s: float) -> Course:
         """A plan in one world, counted from 0, until an action does not have its effect."""

@@ -18,6 +18,7 @@ from etot_cli.reporting.replay import Lenient, plan_from_report, read_report
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.motion.motion import Motion, PhaseEnd, PhaseTrace, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.specs.problems import first_fault
 from etot_cli.specs.reading import read_bytes
 
 MAX_TRAJECTORY_BYTES = 16 * 1024 * 1024
@@ -92,11 +93,7 @@ def _recording(report: Path, motion: _Motion, action: Action) -> Recording:
     try:
         model = TrajectoryModel.model_validate_json(content)
     except ValidationError as error:
-        problem = error.errors(include_url=False, include_input=False)[0]
-        where = ".".join(str(part) for part in problem["loc"])
-        raise PlanSyntaxError(
-            f"{path}: not a readable trajectory: {where + ': ' if where else ''}{problem['msg']}"
-        ) from None
+        raise PlanSyntaxError(f"{path}: not a readable trajectory: {first_fault(error)}") from None
     if hashlib.sha256(content).hexdigest() != motion.sha256:
         raise PlanSyntaxError(
             f"{path}: is not the file that {report} was written with (another SHA-256); expected "

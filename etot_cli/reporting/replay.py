@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from etot_cli.errors import PlanSyntaxError, SpecError
 from etot_cli.skills.action import MAX_PLAN_ACTIONS, Action, Keepout, parse_plan
+from etot_cli.specs.problems import first_fault
 from etot_cli.specs.reading import read_bytes
 
 MAX_REPORT_BYTES = 64 * 1024 * 1024
@@ -112,8 +113,4 @@ def read_report(path: Path, model: type[M]) -> M:
     try:
         return model.model_validate_json(text)
     except ValidationError as error:
-        problem = error.errors(include_url=False, include_input=False)[0]
-        where = ".".join(str(part) for part in problem["loc"])
-        raise PlanSyntaxError(
-            f"{path}: not a readable report: {where + ': ' if where else ''}{problem['msg']}"
-        ) from None
+        raise PlanSyntaxError(f"{path}: not a readable report: {first_fault(error)}") from None

@@ -44,6 +44,23 @@ class Problem:
     """A key is missing. Such findings come last, for a misspelt key is often the reason."""
 
 
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong first with data that no person wrote: ``path``, with dots, may be empty."""
+
+    path: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.text}" if self.path else self.text
+
+
+def first_fault(error: ValidationError) -> Fault:
+    """The first finding, in pydantic's words: never what was found, which may be a secret."""
+    first = error.errors(include_url=False, include_input=False)[0]
+    return Fault(".".join(str(step) for step in first["loc"]), first["msg"])
+
+
 def validate(model: type[Model], node: Node) -> Model:
     """Validates a document's node strictly against a model.
 

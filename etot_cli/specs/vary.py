@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from etot_cli.specs.checks import placement_problems
 from etot_cli.specs.footprint import turned
-from etot_cli.specs.objects import FURNITURE, ROLLING_DEFAULT, Cup, Mjcf, ObjectBase
+from etot_cli.specs.objects import FURNITURE, ROLLING_DEFAULT, Cup, Mjcf
 from etot_cli.specs.placement import Placed, place_all
 from etot_cli.specs.quantity import MAX_ROLLING
 from etot_cli.specs.references import DESK, support_of
@@ -127,12 +127,10 @@ def _draw(seed: int, attempt: int, name: str) -> _Draw:
 
 
 def _varied(scene: Scene, draws: dict[str, _Draw], amplitude: float) -> Scene:
-    placed = place_all(scene)
-    motions: dict[str, _Motion] = {}
+    moves = _Moves(scene, draws, amplitude, place_all(scene))
     objects = {}
     for name, item in scene.objects.items():
-        draw = draws[name]
-        update = _pose(scene, name, draws, amplitude, placed, motions)
+        draw, update = draws[name], moves.pose(name)
         friction = item.friction * (1.0 + scene.variation.friction * draw.friction)
         update["friction"] = _clipped(friction, FRICTION_BOUNDS)
         if item.mass is not None:
@@ -146,76 +144,68 @@ def _clipped(value: float, bounds: tuple[float, float]) -> float:
     return min(max(value, bounds[0]), bounds[1])
 
 
-def _motion(
-    scene: Scene,
-    name: str,
-    draws: dict[str, _Draw],
-    amplitude: float,
-    placed: dict[str, Placed],
-    motions: dict[str, _Motion],
-) -> _Motion:
-    """How an object moves as a whole: with what carries it, and its own part on top."""
-    if name in motions:
-        return motions[name]
-    item, place, draw = scene.objects[name], placed[name], draws[name]
-    below = support_of(item)
-    carried = _Motion()
-    if below != DESK:
-        carried = _motion(scene, below, draws, amplitude, placed, motions)
-    share = amplitude * _own_share(scene, name, item)
-    reach, turn = share * scene.variation.position_m, share * scene.variation.yaw_deg
-    x, y = carried.apply(place.x, place.y)
-    motions[name] = _Motion(
-        place.x,
-        place.y,
-        x - place.x + reach * draw.x,
-        y - place.y + reach * draw.y,
-        carried.yaw_deg + turn * draw.yaw,
-    )
-    return motions[name]
+@dataclass(frozen=True, slots=True)
+class _Moves:
+    """How the objects of a scene move in one draw, which uses ``amplitude`` of the bounds."""
 
+    scene: Scene
+    draws: dict[str, _Draw]
+    amplitude: float
+    placed: dict[str, Placed]
+    _known: dict[str, _Motion] = field(default_factory=dict)
 
-def _own_share(scene: Scene, name: str, item: ObjectBase) -> float:
-    """How much of the bounds an object moves by itself.
+    def motion(self, name: str) -> _Motion:
+        """How an object moves as a whole: with what carries it, and its own part on top."""
+        if name in self._known:
+            return self._known[name]
+        place, draw, bounds = self.placed[name], self.draws[name], self.scene.variation
+        below = support_of(self.scene.objects[name])
+        carried = _Motion() if below == DESK else self.motion(below)
+        share = self.amplitude * self._own_share(name)
+        reach, turn = share * bounds.position_m, share * bounds.yaw_deg
+        x, y = carried.apply(place.x, place.y)
+        self._known[name] = _Motion(
+            place.x,
+            place.y,
+            x - place.x + reach * draw.x,
+            y - place.y + reach * draw.y,
+            carried.yaw_deg + turn * draw.yaw,
+        )
+        return self._known[name]
 
-    Nothing in or on a vessel, whose rim and walls leave no choice, nor for what is kept.
-    """
-    if name in scene.variation.keep:
-        return 0.0
-    below = support_of(item)
-    if below == DESK:
-        return 1.0
-    # Of these the size of the hollow is not known here, or too small to move in.
-    tight = isinstance(scene.objects[below], Cup) or (
-        item.inside is not None and not isinstance(scene.objects[below], FURNITURE)
-    )
-    return 0.0 if tight else OWN_SHARE
+    def pose(self, name: str) -> dict[str, object]:
+        """The pose fields of an object after its motion; heights stay."""
+        item, place, motion = self.scene.objects[name], self.placed[name], self.motion(name)
+        update: dict[str, object] = {}
+        centred = item.at is None and self._own_share(name) == 0.0
+        if not centred and (motion.dx or motion.dy):
+            # An object that stood in the middle of its support gets a place of its own; one in a
+            # vessel, or kept, stays in the middle wherever the support goes.
+            height = item.at[2:] if item.at is not None else ()
+            update["at"] = (place.x + motion.dx, place.y + motion.dy, *height)
+        if motion.yaw_deg:
+            if item.quaternion is None:
+                update["yaw_deg"] = math.remainder(item.yaw_deg + motion.yaw_deg, 360.0)
+            else:
+                update["quaternion"] = _turned_quaternion(item.quaternion, motion.yaw_deg)
+        return update
 
+    def _own_share(self, name: str) -> float:
+        """How much of the bounds an object moves by itself.
 
-def _pose(
-    scene: Scene,
-    name: str,
-    draws: dict[str, _Draw],
-    amplitude: float,
-    placed: dict[str, Placed],
-    motions: dict[str, _Motion],
-) -> dict[str, object]:
-    """The pose fields of an object after its motion; heights stay."""
-    item, place = scene.objects[name], placed[name]
-    motion = _motion(scene, name, draws, amplitude, placed, motions)
-    update: dict[str, object] = {}
-    centred = item.at is None and _own_share(scene, name, item) == 0.0
-    if not centred and (motion.dx or motion.dy):
-        # An object that stood in the middle of its support gets a place of its own; one in a
-        # vessel, or kept, stays in the middle wherever the support goes.
-        height = item.at[2:] if item.at is not None else ()
-        update["at"] = (place.x + motion.dx, place.y + motion.dy, *height)
-    if motion.yaw_deg:
-        if item.quaternion is None:
-            update["yaw_deg"] = math.remainder(item.yaw_deg + motion.yaw_deg, 360.0)
-        else:
-            update["quaternion"] = _turned_quaternion(item.quaternion, motion.yaw_deg)
-    return update
+        Nothing in or on a vessel, whose rim and walls leave no choice, nor for what is kept.
+        """
+        objects = self.scene.objects
+        if name in self.scene.variation.keep:
+            return 0.0
+        below = support_of(objects[name])
+        if below == DESK:
+            return 1.0
+        # Of these the size of the hollow is not known here, or too small to move in.
+        tight = isinstance(objects[below], Cup) or (
+            objects[name].inside is not None and not isinstance(objects[below], FURNITURE)
+        )
+        return 0.0 if tight else OWN_SHARE
 
 
 def _turned_quaternion(

@@ -21,9 +21,9 @@ from etot_cli.errors import SpecError
 from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.scene import Camera, Scene
 from etot_cli.world.build.surroundings import camera_rotation
-from etot_cli.world.model import World, build_world
+from etot_cli.world.model import World
 from etot_cli.world.offscreen import OffscreenRenderer
-from etot_cli.world.placing import object_bounds, place_objects, settle_objects
+from etot_cli.world.placing import object_bounds, settle_objects, world_at_start
 
 DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
 """The camera of scenes that name none: in front of the desk, looking obliquely at it."""
@@ -104,11 +104,7 @@ def capture(
         WorldError: the scene cannot be built.
     """
     name, seen = _chosen_camera(scene, camera)
-    world = build_world(scene.model_copy(update={"cameras": {name: seen}}))
-    data = mujoco.MjData(world.model)
-    place_objects(world, data)
-    for index, value in zip(world.robot.qpos, world.robot.spec.home, strict=True):
-        data.qpos[index] = value
+    world, data = world_at_start(scene.model_copy(update={"cameras": {name: seen}}))
     for address, value in (joints or {}).items():
         if address not in world.parts:
             raise SpecError(

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import io
 
-import mujoco
-import numpy as np
-
 from etot_cli.specs.scene import Scene
-from etot_cli.world.model import build_world, scene_spec
-from etot_cli.world.placing import place_objects
+from etot_cli.world.model import scene_spec
+from etot_cli.world.placing import world_at_start
 
 
 def scene_archive(scene: Scene) -> bytes:
@@ -19,10 +16,7 @@ def scene_archive(scene: Scene) -> bytes:
         WorldError: the scene cannot be built.
         SpecError: the robot description is unusable.
     """
-    world = build_world(scene)
-    data = mujoco.MjData(world.model)
-    place_objects(world, data)
-    data.qpos[world.robot.qpos] = np.array(world.robot.spec.home)
+    world, data = world_at_start(scene)
     spec = scene_spec(scene)
     spec.modelname = "scene"
     spec.add_key(name="start", qpos=data.qpos.tolist())

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.specs.objects import Mjcf, MjcfPart, ObjectBase
+from etot_cli.specs.scene import Scene
 from etot_cli.world.build.objects import resting_quaternion
 from etot_cli.world.index import ObjectEntry, Part, Region
-from etot_cli.world.model import World
+from etot_cli.world.model import World, build_world
 from etot_cli.world.state import DESK, owner_of
 from etot_cli.world.surface import mesh_of
 
@@ -27,6 +28,20 @@ IN_THE_ROBOT = 0.001
 """Overlap of the robot and what is fastened up to this is touching [m], as between objects."""
 PENETRATION = 0.0002
 """Overlap that still counts as touching [m]."""
+
+
+def world_at_start(scene: Scene) -> tuple[World, mujoco.MjData]:
+    """A scene's world and its data: everything at its place, the arm at home.
+
+    Raises:
+        WorldError: the scene cannot be built, or an object does not fit where it puts it.
+        SpecError: the robot description is unusable.
+    """
+    world = build_world(scene)
+    data = mujoco.MjData(world.model)
+    place_objects(world, data)
+    data.qpos[world.robot.qpos] = world.robot.spec.home
+    return world, data
 
 
 def place_objects(world: World, data: mujoco.MjData) -> None:

@@ -16,6 +16,8 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
+from etot_cli.control.simulated import Step
+from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.control.simulator import world_seed
 from etot_cli.control.trial_worlds import ActionTrials
 from etot_cli.control.worlds import Recipe
@@ -97,6 +99,19 @@ def settings() -> Iterator[Setting]:
         )
 
 
+def rehearsed(twin: SimulatedWorld, plan: tuple[Action, ...]) -> tuple[Step, ...] | None:
+    """A plan with the motions that bring it about in the twin; None where they do not."""
+    state, _ = twin.start()
+    steps = []
+    for action in plan:
+        performed = twin.perform(state, action)
+        if not performed.record.effect:
+            return None
+        steps.append(Step(action, performed.motion))
+        state = performed.end
+    return tuple(steps)
+
+
 def alive_in(job: tuple[str, int, int]) -> int | None:
     """In how many of a setting's worlds its plan holds; None where no plan works in the twin.
 
@@ -113,7 +128,7 @@ def alive_in(job: tuple[str, int, int]) -> int | None:
     def alive(plan: tuple[Action, ...], kind: str, numbers: range, look: Look) -> int | None:
         truths = tuple(vary_truth(scene, world_seed(seed, kind, number)) for number in numbers)
         trials = ActionTrials(Recipe(scene, truths, seed, record=False, look=look))
-        steps = trials.rehearse(plan)
+        steps = rehearsed(SimulatedWorld(scene, seed, keep_frames=False), plan)
         return None if steps is None else try_plan(steps, trials, BuiltinReasoner()).alive
 
     plans = [parse_plan(plan) for plan in setting.plans]

@@ -13,6 +13,7 @@ from etot_cli.benchmark.running.journal import NAME as JOURNAL
 from etot_cli.benchmark.suite import Seed, Trials
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.specs.bounds import MAX_TRIALS
+from etot_cli.specs.problems import first_fault
 from etot_cli.specs.reading import printable, read_utf8
 from etot_cli.specs.writing import replacing
 
@@ -70,11 +71,11 @@ def read_manifest(folder: Path, *, resume: bool) -> Manifest | None:
     try:
         return Manifest.model_validate_json(text)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
+        fault = first_fault(error)
         raise SpecError(
-            f"is no benchmark's description: {first['msg']}; expected what 'etot bench' wrote",
+            f"is no benchmark's description: {fault.text}; expected what 'etot bench' wrote",
             file=printable(path),
-            path=".".join(str(step) for step in first["loc"]),
+            path=fault.path,
         ) from None
 
 

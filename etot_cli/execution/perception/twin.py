@@ -12,8 +12,7 @@ from etot_cli.execution.perception.surfaces import Surface, surface_of
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Part, Region
-from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects, settle_objects
+from etot_cli.world.placing import settle_objects, world_at_start
 from etot_cli.world.pose import Pose
 
 SETTLE_S = 0.8
@@ -32,11 +31,8 @@ class KnownScene:
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self.world = build_world(scene)
-        self.data = mujoco.MjData(self.world.model)
+        self.world, self.data = world_at_start(scene)
         self._other = mujoco.MjData(self.world.model)
-        place_objects(self.world, self.data)
-        self.data.qpos[self.world.robot.qpos] = self.world.robot.spec.home
         settle_objects(self.world, self.data, SETTLE_S)
         self._nominal = {name: self.body(entry.body) for name, entry in self.world.entries.items()}
         model = self.world.model

@@ -24,12 +24,12 @@ from etot_cli.execution.robots.worker_messages import (
     Result,
     State,
     Touched,
-    fault_in,
 )
 from etot_cli.execution.robots.worker_process import WorkerProcess
 from etot_cli.reconstruction.capture.pictures import decode_png_text
 from etot_cli.skills.motion.motion import PhaseEnd
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
+from etot_cli.specs.problems import first_fault
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import is_rigid
 
@@ -114,7 +114,7 @@ class WorkerRobot:
         try:
             return expected.model_validate(result)
         except ValidationError as error:
-            raise self._process.fault(method, fault_in(error)) from None
+            raise self._process.fault(method, str(first_fault(error))) from None
 
     def fault(self, method: str, reason: str) -> ServiceError:
         """Ends the worker for a result that cannot be; the error to raise."""

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
@@ -161,10 +161,3 @@ def rows_of(value: Any) -> NDArray[np.float64]:
 def line_of(message: dict[str, Any]) -> bytes:
     """A message as it goes over the pipe."""
     return json.dumps(message, allow_nan=False, separators=(",", ":")).encode() + b"\n"
-
-
-def fault_in(error: ValidationError) -> str:
-    """The first thing that is wrong with a result."""
-    first = error.errors(include_url=False)[0]
-    where = ".".join(str(item) for item in first["loc"]) or "result"
-    return f"{where}: {first['msg']}"

@@ -17,8 +17,7 @@ from etot_cli.reconstruction.objects import DESK, Solid
 from etot_cli.reconstruction.twin.physics import FRICTION_DOUBT, MASS_DOUBT, guess
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
-from etot_cli.world.model import build_world
-from etot_cli.world.placing import place_objects, settle_objects
+from etot_cli.world.placing import settle_objects, world_at_start
 from etot_cli.world.pose import quaternion_of
 from etot_cli.world.state import owner_of
 
@@ -260,10 +259,7 @@ def settle(scene: Scene) -> dict[str, Settled]:
     Raises:
         WorldError: it cannot be built.
     """
-    world = build_world(scene)
-    data = mujoco.MjData(world.model)
-    place_objects(world, data)
-    data.qpos[world.robot.qpos] = world.robot.spec.home
+    world, data = world_at_start(scene)
     mujoco.mj_forward(world.model, data)
     start = {name: _pose(data, entry.body) for name, entry in world.entries.items()}
     settle_objects(world, data, SETTLE_SECONDS)

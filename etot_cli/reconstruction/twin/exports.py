@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.free import FreeForm
 from etot_cli.specs.scene import Scene
-from etot_cli.world.model import World, build_world
-from etot_cli.world.placing import place_objects
+from etot_cli.world.model import World
+from etot_cli.world.placing import world_at_start
 from etot_cli.world.surface import SEEN_GROUPS, mesh_of, triangles
 
 GEOM_NAMES = {
@@ -67,9 +67,7 @@ def placed_triangles(scene: Scene) -> dict[str, NDArray[np.float64]]:
     Raises:
         WorldError: the scene cannot be built.
     """
-    world = build_world(scene)
-    data = mujoco.MjData(world.model)
-    place_objects(world, data)
+    world, data = world_at_start(scene)
     mujoco.mj_kinematics(world.model, data)
     found = {}
     for name, entry in world.entries.items():
@@ -93,9 +91,7 @@ def export_twin(
     Raises:
         WorldError: the scene cannot be built.
     """
-    world = build_world(scene)
-    data = mujoco.MjData(world.model)
-    place_objects(world, data)
+    world, data = world_at_start(scene)
     for name, color in colors.items():
         object_mesh(world, data, name, color).export(meshes / f"{name}.glb")
     write_mjcf(world, data, mjcf)
