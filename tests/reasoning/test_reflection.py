@@ -425,8 +425,12 @@ def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
     step = failed(state, "[PICK UP, nut]", 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
     assert revisions(step) == [], "it would have to be opened again with a full hand"
     plan = "[PICK UP, nut] [PUT ON, desk]"
+    taken = f"[CLOSE, cupboard] {plan} [OPEN, cupboard]"
+    into = "[PICK UP, nut] [PUT INTO, cupboard]"
+    step = failed(state, into, 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
+    assert revisions(step) == [f"{taken} {into}"], "the hand is emptied in between"
     step = failed(state, plan, 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
-    assert revisions(step) == [f"[CLOSE, cupboard] {plan} [OPEN, cupboard]"]
+    assert revisions(step) == [taken]
 
 
 def test_a_drawer_that_cannot_be_opened_again_is_left_open_meanwhile() -> None:

@@ -19,6 +19,7 @@ from etot_cli.reasoning.builtin.relations import (
     contents,
     distance,
     has_front,
+    is_closed,
     is_inside,
     is_on,
     radius,
@@ -210,6 +211,7 @@ class _Case:
             else:
                 yield from self._taken_before_opening(name)
                 yield from shut_meanwhile(self.failed, name)
+                yield from self._taken_while_shut(name)
                 yield from self._brought_out(name, carriers(scene, self.action.target))
         if self.cause.kind in _COVERED:
             for opening in opened_before(self.actions, index):
@@ -236,6 +238,24 @@ class _Case:
                 put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
                 extra = (Action(Verb.PICK_UP, name), put)
                 yield Correction(inserted(self.actions, opening, extra), change)
+
+    def _taken_while_shut(self, owner: str) -> Iterator[Correction]:
+        """The picked object is taken out from beside a part that stands open, and has to again for
+        the object to go there.
+        """
+        name, index, scene = self.action.target, self.failed.index, self.failed.record.before
+        following = self.actions[index + 1 : index + 2]
+        filled = {owner_of(put.target) for put in following if put.verb is Verb.PUT_INTO}
+        if owner not in filled or relocations(self.actions, name):
+            return
+        put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
+        for part in scene.infos[owner].parts:
+            if is_closed(scene, part) or is_inside(scene, name, part.address):
+                continue
+            shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
+            extra = (shut, Action(Verb.PICK_UP, name), put, again)
+            change = f"{name} is taken from beside {part.address} while that is closed"
+            yield Correction(inserted(self.actions, index, extra), change)
 
     def _is_near(self, part: PartInfo) -> bool:
         """Whether a part opens close to the object that could not be picked up."""
