@@ -31,7 +31,7 @@ _PASTRIES = word_set(
 _SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
 _DRINKS = word_set(
     "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
-    "pepsi fanta kombucha"
+    "pepsi fanta kombucha redbull gatorade"
 )
 _SPICES = word_set(
     "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron"
@@ -42,7 +42,8 @@ _OTHER_FOOD = word_set(
     bread toast bagel loaf pizza egg cheese butter meat steak ham bacon sausage fish salmon tuna
     chicken turkey soup cereal granola oatmeal rice pasta noodle spaghetti jam honey yogurt
     sandwich burger hamburger hotdog taco burrito sushi salad pancake fries chip cracker nut
-    peanut almond tofu spam pudding
+    peanut almond tofu spam pudding patty nigiri maki kebab omelette lasagna
+    dumpling falafel popcorn
     """
 )
 _TOOLS = word_set(
@@ -117,8 +118,10 @@ SORTS: dict[str, frozenset[str]] = {
 }
 """Category words, several for one thing, with the nouns of what counts among it."""
 PACKED = _DRINKS | _SPICES | _SAUCES | _SWEETS | _OTHER_FOOD | _FRUIT | _VEGETABLES | _TOILETRIES
-"""What a can, carton or box of it is still called by (a milk carton is among "the drinks")."""
-PACKS = word_set("can tin carton bottle jar packet pack bag box tube pouch sachet wrapper")
+"""What a can, carton or slice of it is still called by (a milk carton is among "the drinks")."""
+PACKS = word_set(
+    "can tin carton bottle jar packet pack bag box tube pouch bar leaf slice wedge fillet clove"
+)
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
