@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from etot_cli.world.model import World
+from etot_cli.world.pose import UP, turn_about
 from etot_cli.world.surface import SEEN_GROUPS, area, sampled, triangles
 
 Array = NDArray[np.float64]
@@ -76,8 +77,7 @@ class Surface:
     @cached_property
     def round(self) -> bool:
         """Whether it looks the same however it is turned about its own z."""
-        c, s = np.cos(np.radians(40.0)), np.sin(np.radians(40.0))
-        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        turn = turn_about(UP, np.radians(40.0))
         turned = (self.points[::5] - self.middle) @ turn.T + self.middle
         return bool(np.median(self.tree.query(turned)[0]) < SYMMETRIC + SPACING / 2)
 

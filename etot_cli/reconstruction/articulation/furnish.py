@@ -35,7 +35,7 @@ def furnish(seen: Calibrated, solid: Solid, hint: str | None) -> Solid:
     size = solid.size
     seams = level_seams(seen, solid) if min(size) > LEAST_SIDE or hint else []
     if hint == "cabinet":
-        fitted = _turned(solid, _front(seen, solid))
+        fitted = with_front(solid, _front(seen, solid))
         closed = cabinet_spec(fitted.size, "left", 0.0)
         return replace(fitted, extra=closed).warned(GUESS_DOOR)
     if hint != "drawer_unit" and not (hint is None and seams and min(size) > LEAST_SIDE):
@@ -43,13 +43,13 @@ def furnish(seen: Calibrated, solid: Solid, hint: str | None) -> Solid:
     most = most_drawers(size[2])
     if most == 0:
         return solid
-    fitted = _turned(solid, _front(seen, solid))
+    fitted = with_front(solid, _front(seen, solid))
     drawers = min(max(2, min(len(seams) + 1, 3)), most)
     extra: dict[str, Any] = unit_spec(fitted.size, drawers, 0.0)
     return replace(fitted, extra=extra).warned(GUESS)
 
 
-def _turned(solid: Solid, quarter: int) -> Solid:
+def with_front(solid: Solid, quarter: int) -> Solid:
     """The block described with its front towards the given quarter turn of its own frame."""
     params = solid.fit.params.copy()
     if quarter % 2:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from etot_cli.reconstruction import services
+from etot_cli.reconstruction.articulation.furnish import with_front
 from etot_cli.reconstruction.articulation.two_frames import Joint
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.objects import Solid
@@ -57,16 +58,13 @@ def asked_joints(
 
 def _with_joint(solid: Solid, joint: Joint, asked: services.AskedJoint) -> Solid:
     """The block as furniture whose front is where the joint says."""
-    params = solid.fit.params.copy()
+    params = solid.fit.params
     toward = joint.axis[:2] if joint.type == "slide" else None
     if toward is None or np.linalg.norm(toward) < 1e-6:
         toward = joint.anchor[:2] - params[:2]
     heading = float(np.arctan2(toward[1], toward[0])) - params[3]
     quarter = round(heading / (np.pi / 2)) % 4
-    if quarter % 2:
-        params[4], params[5] = params[5], params[4]
-    params[3] += quarter * np.pi / 2
-    turned = replace(solid, fit=replace(solid.fit, params=params))
+    turned = with_front(solid, quarter)
     if joint.type == "slide":
         extra = unit_spec(turned.size, 2, min(max(asked.value, 0.0), asked.limits[1]))
         extra["drawers"][0]["travel"] = min(asked.limits[1], 0.9 * turned.size[0])

@@ -14,6 +14,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import fit_shape, judge
 from etot_cli.reconstruction.objects import Solid
+from etot_cli.reconstruction.shapes.base import rotate
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 
 SAME_PLACE = 0.12
@@ -98,12 +99,11 @@ def _two_states(solid: Solid, partner: Solid) -> tuple[Solid, Joint] | None:
 def joint_axis(solid: Solid) -> tuple[Array, Array]:
     """Axis and a point on it of an open part, base frame."""
     family, params = solid.fit.family, solid.fit.params
-    c, s = np.cos(params[3]), np.sin(params[3])
     if isinstance(family, OpenCabinet):
         local = np.array([params[4] / 2 - 0.019, family.side * params[5] / 2])
-        spot = params[:2] + np.array([c * local[0] - s * local[1], s * local[0] + c * local[1]])
+        spot = params[:2] + rotate(local[None], params[3])[0]
         return np.array([0.0, 0.0, family.side]), np.array([*spot, params[2]])
-    return np.array([c, s, 0.0]), solid.center
+    return np.array([np.cos(params[3]), np.sin(params[3]), 0.0]), solid.center
 
 
 def _spec(spec: dict[str, Any], kind: str, most: float) -> dict[str, Any]:

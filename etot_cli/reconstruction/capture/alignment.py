@@ -15,7 +15,7 @@ MOST_LOST = 6
 LEAST_JUMPS = 160
 """With fewer pixels at jumps of depth nothing is said."""
 JUMP = 0.012
-"""Depth step that makes an edge [m]."""
+"""Depth step that makes an edge [m]: what lies on both sides of it is not one surface."""
 SLOPE = 0.004
 """Depth that a slanting surface may gain per pixel [m]."""
 LEAST_GAIN = 1.15

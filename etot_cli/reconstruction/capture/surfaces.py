@@ -8,11 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.capture.alignment import JUMP
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
 
-JUMP = 0.012
-"""Neighbouring pixels that differ by more than this in depth are not one surface [m]."""
 LEVEL_COSINE = 0.94
 """Surfaces that lean by less than 20° are level."""
 FLUSH = 0.004

@@ -12,7 +12,7 @@ from etot_cli.reconstruction.capture.view import View
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.fit.pose import Fit
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
-from etot_cli.reconstruction.shapes.base import convex_distance
+from etot_cli.reconstruction.shapes.base import convex_distance, rotate
 from etot_cli.reconstruction.shapes.furniture import OpenUnit
 from etot_cli.reconstruction.shapes.upright import Cup
 
@@ -87,8 +87,7 @@ def _above(solid: Solid, observation: Observation) -> bool:
     if not len(points):
         return False
     center = np.median(points[:, :2], axis=0) - solid.center[:2]
-    c, s = np.cos(-solid.yaw), np.sin(-solid.yaw)
-    local = np.abs([c * center[0] - s * center[1], s * center[0] + c * center[1]])
+    local = np.abs(rotate(center[None], -solid.yaw)[0])
     half = np.array(solid.size[:2]) / 2
     # A thing that rises above the top is seen beyond it, away from the camera.
     slack = TOUCHES + 0.6 * float(np.ptp(points[:, :2], axis=0).max())

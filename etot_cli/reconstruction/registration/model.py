@@ -17,7 +17,7 @@ from scipy.spatial import ConvexHull, QhullError
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.shapes.base import own_frame
 from etot_cli.reconstruction.shapes.free import FreeForm
-from etot_cli.world.pose import UP, rotation_between
+from etot_cli.world.pose import UP, rotation_between, turn_about
 from etot_cli.world.surface import sampled
 
 SAMPLES = 16_000
@@ -66,8 +66,7 @@ class Model:
 
     def pose(self, params: Array) -> tuple[Array, float]:
         """Pose (4, 4) of the file's frame in the base frame, and metres per unit of the file."""
-        c, s = np.cos(params[3]), np.sin(params[3])
-        yaw = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        yaw = turn_about(UP, float(params[3]))
         pose = np.eye(4)
         pose[:3, :3] = yaw @ self.turn
         pose[:3, 3] = params[:3] + params[4] * (yaw @ self.origin)
