@@ -8,7 +8,6 @@ from itertools import combinations, product
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.stats import binomtest, multinomial
 
 from etot_cli.benchmark.statistics.paired import Paired, holm, paired
 from etot_cli.benchmark.statistics.table import averages, cells, comparisons
@@ -33,6 +32,8 @@ def test_the_interval_holds_the_true_difference_in_95_of_100(
     chances: tuple[float, float, float, float],
 ) -> None:
     """Exactly, over all tables that twenty trials can give."""
+    from scipy.stats import multinomial  # takes a second to load, which collecting need not pay
+
     trials = 20
     true = chances[2] - chances[1]
     covered = 0.0
@@ -61,6 +62,8 @@ def test_exchanging_the_methods_changes_the_sign_alone(table: Paired) -> None:
 
 @given(TABLES)
 def test_mcnemar_is_a_fair_coin_on_what_differs_alone(table: Paired) -> None:
+    from scipy.stats import binomtest
+
     differing = table.first_only + table.second_only
     theirs = binomtest(table.second_only, differing).pvalue if differing else 1.0
     assert table.p_value == pytest.approx(theirs)
@@ -68,6 +71,8 @@ def test_mcnemar_is_a_fair_coin_on_what_differs_alone(table: Paired) -> None:
 
 @given(st.integers(1, 10_000).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
 def test_wilsons_interval_is_that_of_scipy(counts: tuple[int, int]) -> None:
+    from scipy.stats import binomtest
+
     theirs = binomtest(*counts).proportion_ci(method="wilson")
     assert tuple(wilson(*counts)) == pytest.approx((theirs.low, theirs.high), abs=1e-9)
 

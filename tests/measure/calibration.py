@@ -6,9 +6,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.planning.survival import wilson
 
@@ -16,6 +18,8 @@ RESAMPLES = 2000
 """Simulated tables; enough for a third decimal of the reliability that draws alone explain."""
 SIDE, MARGIN = 560, 60
 """Of the diagram's square, and around it [px]."""
+
+Column = NDArray[Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,20 +61,35 @@ class Decomposition:
         return self.reliability - self.resolution + self.uncertainty
 
 
+class Counts(NamedTuple):
+    """Pairs as columns, each (n,), or (tables, n) for several tables of them."""
+
+    alive: Column
+    worlds: Column
+    held: Column
+    unseen: Column
+
+
+def columns(pairs: Sequence[Pair]) -> Counts:
+    """What the pairs count."""
+    return Counts(*np.array([(p.alive, p.worlds, p.held, p.unseen) for p in pairs]).T)
+
+
 def decompose(pairs: Sequence[Pair]) -> Decomposition:
     """Over all unseen worlds, those with the same forecast as one bin."""
-    bins: dict[float, list[Pair]] = defaultdict(list)
-    for pair in pairs:
-        bins[pair.predicted].append(pair)
-    total = sum(pair.unseen for pair in pairs)
-    base = sum(pair.held for pair in pairs) / total
-    reliability = resolution = 0.0
-    for forecast, members in bins.items():
-        size = sum(pair.unseen for pair in members)
-        rate = sum(pair.held for pair in members) / size
-        reliability += size * (forecast - rate) ** 2 / total
-        resolution += size * (rate - base) ** 2 / total
-    return Decomposition(reliability, resolution, base * (1.0 - base))
+    return parts(columns(pairs))
+
+
+def parts(counts: Counts) -> Decomposition:
+    """See :func:`decompose`."""
+    forecasts, bins = np.unique(counts.alive / counts.worlds, return_inverse=True)
+    sizes = np.bincount(bins, counts.unseen)
+    rates = np.bincount(bins, counts.held) / sizes
+    total = sizes.sum()
+    base = counts.held.sum() / total
+    reliability = sizes @ (forecasts - rates) ** 2 / total
+    resolution = sizes @ (rates - base) ** 2 / total
+    return Decomposition(float(reliability), float(resolution), float(base * (1.0 - base)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,30 +108,30 @@ class Chance:
 def explained(pairs: Sequence[Pair], seed: int = 0) -> Chance:
     """Simulates perfect odds: every setting's are taken from all of its worlds together."""
     rng = np.random.default_rng(seed)
-    odds = np.array([(p.alive + p.held) / (p.worlds + p.unseen) for p in pairs])
-    worlds = np.array([p.worlds for p in pairs])
-    unseen = np.array([p.unseen for p in pairs])
-    found = []
-    for _ in range(RESAMPLES):
-        alive, held = rng.binomial(worlds, odds), rng.binomial(unseen, odds)
-        drawn = [
-            Pair(p.name, int(a), p.worlds, int(h), p.unseen)
-            for p, a, h in zip(pairs, alive, held, strict=True)
-        ]
-        inside = np.mean([holds(p, rate) for p, rate in zip(drawn, odds, strict=True)])
-        found.append((decompose(drawn).reliability, coverage(drawn), inside))
-    return Chance(*(float(value) for value in np.mean(found, axis=0)))
-
-
-def holds(pair: Pair, rate: float) -> bool:
-    """Whether a rate lies in the interval that was told."""
-    low, high = wilson(pair.alive, pair.worlds)
-    return low <= rate <= high
+    told = columns(pairs)
+    odds = (told.alive + told.held) / (told.worlds + told.unseen)
+    tables = [
+        told._replace(alive=rng.binomial(told.worlds, odds), held=rng.binomial(told.unseen, odds))
+        for _ in range(RESAMPLES)
+    ]
+    drawn = Counts(*np.stack(tables, axis=1))
+    reliability = np.mean([parts(table).reliability for table in tables])
+    return Chance(float(reliability), covered(drawn), covered(drawn, odds))
 
 
 def coverage(pairs: Sequence[Pair]) -> float:
     """Share of settings whose observed rate lies in the interval that was told."""
-    return sum(holds(pair, pair.observed) for pair in pairs) / len(pairs)
+    return covered(columns(pairs))
+
+
+def covered(counts: Counts, rates: Column | None = None) -> float:
+    """Share of the rates, the observed ones by default, that lie in the intervals told."""
+    pairs = np.stack([counts.alive, counts.worlds], axis=-1)
+    told, which = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
+    intervals = np.array([wilson(alive, worlds) for alive, worlds in told.tolist()])
+    low, high = np.moveaxis(intervals[which.reshape(counts.alive.shape)], -1, 0)
+    found = counts.held / counts.unseen if rates is None else rates
+    return float(np.mean((low <= found) & (found <= high)))
 
 
 def bias(pairs: Sequence[Pair]) -> float:

@@ -12,7 +12,6 @@ from email.utils import formatdate
 from typing import Any
 
 import numpy as np
-import openai
 import pytest
 
 from etot_cli.errors import ServiceError
@@ -488,6 +487,8 @@ def test_unstated_usage_is_estimated_and_said_so(make_settings: Make) -> None:
 
 
 def test_the_openai_package_agrees_with_the_fake_server() -> None:
+    import openai  # takes a second to load, which collecting need not pay
+
     with FakeServer(one_after_the_other(Reply("yes"))) as server:
         client: Callable[..., Any] = openai.OpenAI(
             base_url=server.url, api_key="x"

@@ -24,6 +24,28 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "cache"
 
 
+@pytest.fixture(scope="module")
+def ring_pieces(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
+    """What the ring is split into; splitting takes more than a second."""
+    folder = tmp_path_factory.mktemp("ring")
+    RING.export(folder / "ring.stl")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ETOT_CACHE", str(folder / "cache"))
+        made, split = [], pieces._decompose
+        patch.setattr(pieces, "_decompose", lambda *args: made.append(split(*args)) or made[-1])
+        mesh_world(folder, "ring.stl")
+    (found,) = made
+    return found
+
+
+@pytest.fixture
+def splits(ring_pieces: list[Any], monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Gets an entry for every mesh that is split instead of read; all into the ring's pieces."""
+    made: list[int] = []
+    monkeypatch.setattr(pieces, "_decompose", lambda *args: made.append(1) or ring_pieces)
+    return made
+
+
 def mesh_world(folder: Path, name: str, **more: Any) -> World:
     thing = {"kind": "mesh", "file": name, "at": [0.4, 0.0], "mass": 0.1}
     return build_world(make_scene(folder, thing=thing | more))
@@ -34,7 +56,9 @@ def mesh_world(folder: Path, name: str, **more: Any) -> World:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["stl", "obj", "glb"])
-def test_mesh_keeps_its_hole(tmp_path: Path, cache: Path, ending: str) -> None:
+def test_mesh_keeps_its_hole(
+    tmp_path: Path, cache: Path, ending: str, ring_pieces: list[Any]
+) -> None:
     """Convex pieces follow the ring: through its middle a line is free, through its wall not."""
     RING.export(tmp_path / f"ring.{ending}")
     stage = set_up(make_scene(tmp_path, thing={"kind": "mesh", "file": f"ring.{ending}",
@@ -50,6 +74,16 @@ def test_mesh_keeps_its_hole(tmp_path: Path, cache: Path, ending: str) -> None:
         )
         found[name] = stage.world.geom_object[int(hit[0])]
     assert found == {"hole": "desk", "wall": "thing"}
+    if ending == "stl":
+        for piece, before in zip(kept(cache), ring_pieces, strict=True):
+            np.testing.assert_array_equal(piece, before, "the same mesh, the same pieces")
+
+
+def kept(cache: Path) -> list[Any]:
+    """The pieces in the only entry of the cache."""
+    (entry,) = cache.iterdir()
+    with np.load(entry) as stored:
+        return [stored[name] for name in stored.files]
 
 
 def test_scale_and_offset(tmp_path: Path, cache: Path) -> None:
@@ -66,7 +100,7 @@ def test_scale_and_offset(tmp_path: Path, cache: Path) -> None:
 
 
 @pytest.mark.slow
-def test_hollow_mesh_is_a_container(tmp_path: Path, cache: Path) -> None:
+def test_hollow_mesh_is_a_container(tmp_path: Path, cache: Path, splits: list[int]) -> None:
     RING.export(tmp_path / "ring.stl")
     ball = BALL | {"diameter": 0.03, "inside": "thing", "mass": 0.01}
     thing = {"kind": "mesh", "file": "ring.stl", "at": [0.4, 0.0], "mass": 0.1}
@@ -78,27 +112,26 @@ def test_hollow_mesh_is_a_container(tmp_path: Path, cache: Path) -> None:
 
 @pytest.mark.slow
 def test_second_build_takes_the_pieces_from_the_cache(
-    tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, cache: Path, splits: list[int]
 ) -> None:
     RING.export(tmp_path / "ring.stl")
-    calls = []
-    decompose = pieces._decompose
-    monkeypatch.setattr(pieces, "_decompose", lambda *args: calls.append(1) or decompose(*args))
     first = mesh_world(tmp_path, "ring.stl")
     entries = list(cache.iterdir())
-    assert len(calls) == 1 and len(entries) == 1
+    assert len(splits) == 1 and len(entries) == 1
     (tmp_path / "copy.stl").write_bytes((tmp_path / "ring.stl").read_bytes())
     second = mesh_world(tmp_path, "copy.stl")
-    assert len(calls) == 1, "same content under another name"
+    assert len(splits) == 1, "same content under another name"
     np.testing.assert_array_equal(first.model.mesh_vert, second.model.mesh_vert)
     trimesh.creation.annulus(0.02, 0.045, 0.03, sections=12).export(tmp_path / "ring.stl")
     mesh_world(tmp_path, "ring.stl")
-    assert len(calls) == 2 and len(list(cache.iterdir())) == 2, "other content, other entry"
+    assert len(splits) == 2 and len(list(cache.iterdir())) == 2, "other content, other entry"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("damage", ["garbage", "truncated", "empty"])
-def test_damaged_cache_entry_is_made_again(tmp_path: Path, cache: Path, damage: str) -> None:
+def test_damaged_cache_entry_is_made_again(
+    tmp_path: Path, cache: Path, damage: str, splits: list[int]
+) -> None:
     RING.export(tmp_path / "ring.stl")
     first = mesh_world(tmp_path, "ring.stl")
     entry = next(cache.iterdir())
@@ -107,14 +140,14 @@ def test_damaged_cache_entry_is_made_again(tmp_path: Path, cache: Path, damage: 
         {"garbage": b"no archive at all", "truncated": good[: len(good) // 2], "empty": b""}[damage]
     )
     again = mesh_world(tmp_path, "ring.stl")
+    assert len(splits) == 2
     np.testing.assert_array_equal(first.model.mesh_vert, again.model.mesh_vert)
-    with np.load(entry) as stored:
-        assert len(stored.files) > 3
+    assert len(kept(cache)) > 3
 
 
 @pytest.mark.slow
 def test_cache_that_cannot_be_written_only_costs_time(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, splits: list[int]
 ) -> None:
     RING.export(tmp_path / "ring.stl")
     (tmp_path / "file").write_text("not a folder")
