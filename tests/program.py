@@ -7,11 +7,13 @@ OpenGL is loaded) a test asks for a ``fresh`` one or starts ``python -m etot_cli
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from subprocess import CompletedProcess, TimeoutExpired
 
@@ -37,30 +39,77 @@ def etot(
 
     A ``fresh`` one loads its libraries itself.
     """
+    if not fresh:
+        return start(*arguments, env=env).end()
+    return subprocess.run(
+        [sys.executable, "-m", "etot_cli.cli.app", *map(str, arguments)], cwd=ROOT,
+        env={**os.environ, **(env or {})}, text=True, capture_output=True, timeout=TIME_LIMIT_S,
+        check=False,
+    )  # fmt: skip
+
+
+class Started:
+    """A program that runs."""
+
+    def __init__(
+        self, words: list[str], environment: dict[str, str], folder: Path, toy: bool
+    ) -> None:
+        self.words = words
+        self._streams = tempfile.TemporaryDirectory()
+        self._out, self._err = (Path(self._streams.name, name) for name in ("out", "err"))
+        self._process = _servers.Process(
+            target=_run, args=(words, environment, folder, self._out, self._err, toy)
+        )
+        self._process.start()
+
+    def says(self, words: str, limit_s: float = 20.0) -> None:
+        """Waits until the words are on its standard output."""
+        end = time.monotonic() + limit_s
+        while not (self._out.exists() and words in self._out.read_text("utf-8", errors="replace")):
+            assert self._process.is_alive() and time.monotonic() < end, f"it never says {words!r}"
+            time.sleep(0.01)
+
+    def send_signal(self, number: int) -> None:
+        """Sends a signal to it, unless it has ended."""
+        assert self._process.pid is not None
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._process.pid, number)
+
+    def end(self, limit_s: float = TIME_LIMIT_S) -> CompletedProcess[str]:
+        """Waits for its end."""
+        self._process.join(limit_s)
+        late = self._process.is_alive()
+        if late:
+            self._process.kill()
+            self._process.join()
+        code = self._process.exitcode
+        assert code is not None
+        with self._streams:
+            out, err = (
+                path.read_text("utf-8", errors="replace") if path.exists() else ""
+                for path in (self._out, self._err)
+            )
+        if late:
+            raise TimeoutExpired(self.words, limit_s, out, err)
+        return CompletedProcess(self.words, code, out, err)
+
+
+def start(
+    *arguments: str | Path,
+    env: dict[str, str] | None = None,
+    folder: Path = ROOT,
+    toy: bool = False,
+) -> Started:
+    """Starts ``etot ARGUMENTS`` in a folder; a ``toy`` one as ``tests/cli/toy_etot.py`` has it."""
     words = [str(argument) for argument in arguments]
-    environment = {**os.environ, **(env or {})}
-    if fresh:
-        return subprocess.run(
-            [sys.executable, "-m", "etot_cli.cli.app", *words], cwd=ROOT, env=environment,
-            text=True, capture_output=True, timeout=TIME_LIMIT_S, check=False,
-        )  # fmt: skip
-    with tempfile.TemporaryDirectory() as temporary:
-        out, err = Path(temporary, "out"), Path(temporary, "err")
-        process = _servers.Process(target=_run, args=(words, environment, out, err))
-        process.start()
-        process.join(TIME_LIMIT_S)
-        if process.is_alive():
-            process.kill()
-            process.join()
-            raise TimeoutExpired(words, TIME_LIMIT_S, out.read_bytes(), err.read_bytes())
-        assert process.exitcode is not None
-        printed = [path.read_text("utf-8", errors="replace") for path in (out, err)]
-        return CompletedProcess(words, process.exitcode, *printed)
+    return Started(words, {**os.environ, **(env or {})}, folder, toy)
 
 
-def _run(words: list[str], env: dict[str, str], out: Path, err: Path) -> None:
+def _run(
+    words: list[str], env: dict[str, str], folder: Path, out: Path, err: Path, toy: bool
+) -> None:
     """In the new process: becomes the program."""
-    os.chdir(ROOT)
+    os.chdir(folder)
     os.environ.clear()
     os.environ.update(env)
     for path, descriptor in ((out, 1), (err, 2)):
@@ -68,6 +117,9 @@ def _run(words: list[str], env: dict[str, str], out: Path, err: Path) -> None:
         os.dup2(file, descriptor)
         os.close(file)
     sys.argv = ["etot", *words]
-    from etot_cli.cli.app import main
+    if toy:
+        from tests.cli.toy_etot import main
+    else:
+        from etot_cli.cli.app import main
 
     main()

@@ -18,22 +18,25 @@ from rich.text import Text
 
 from etot_cli.reporting.style import make_console
 from tests.cli.test_process import ROOT, TOY, call, environment
+from tests.program import Started, start
 
 pytestmark = pytest.mark.slow
 
-PLAN = [*TOY, "plan", "toy.yaml", "--no-html"]
+QUIET = ["plan", "toy.yaml", "--no-html"]
+PLAN = [*TOY, *QUIET]
 WORKS = {"TOY_BRANCHES": "cup"}
 
 
-def started(folder: Path, *arguments: str) -> subprocess.Popen[str]:
+def started(folder: Path) -> Started:
     """A run that is in the middle of its search."""
-    process = subprocess.Popen(
-        [*PLAN, "--out", "x", *arguments], cwd=folder, env=environment(),
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    assert process.stdout is not None
-    assert process.stdout.readline() == "sleeping\n"
+    process = start(*QUIET, "--out", "x", folder=folder, toy=True)
+    process.says("sleeping\n")
     return process
+
+
+def working(folder: Path, *arguments: str) -> Started:
+    """A run that finds a plan at once."""
+    return start(*arguments, folder=folder, env=WORKS, toy=True)
 
 
 def report(folder: Path) -> dict[str, Any]:
@@ -45,9 +48,9 @@ def report(folder: Path) -> dict[str, Any]:
 def test_every_way_to_stop_leaves_a_report(tmp_path: Path, name: str) -> None:
     process = started(tmp_path)
     process.send_signal(getattr(signal, name))
-    _, err = process.communicate(timeout=20)
-    assert process.returncode == 130, err
-    assert report(tmp_path / "x")["status"] == "interrupted" and "Traceback" not in err
+    done = process.end(20)
+    assert done.returncode == 130, done.stderr
+    assert report(tmp_path / "x")["status"] == "interrupted" and "Traceback" not in done.stderr
 
 
 def test_impatience_does_not_cost_the_report(tmp_path: Path) -> None:
@@ -55,18 +58,18 @@ def test_impatience_does_not_cost_the_report(tmp_path: Path) -> None:
     stop = threading.Event()
 
     def hammer() -> None:
-        while not stop.is_set() and process.poll() is None:
+        while not stop.is_set():
             process.send_signal(signal.SIGINT)
             stop.wait(0.003)
 
     thread = threading.Thread(target=hammer)
     thread.start()
     try:
-        _, err = process.communicate(timeout=20)
+        done = process.end(20)
     finally:
         stop.set()
         thread.join()
-    assert process.returncode == 130, err
+    assert done.returncode == 130, done.stderr
     assert report(tmp_path / "x")["interrupted"] is True
 
 
@@ -140,24 +143,21 @@ def test_a_report_folder_that_becomes_something_else(tmp_path: Path) -> None:
 
 
 def test_runs_of_the_same_second_do_not_share_a_folder(tmp_path: Path) -> None:
-    processes = [
-        subprocess.Popen(PLAN, cwd=tmp_path, env=environment(**WORKS), stdout=subprocess.DEVNULL)
-        for _ in range(3)
-    ]
-    assert [process.wait(60) for process in processes] == [0] * 3
+    runs = [working(tmp_path, *QUIET) for _ in range(3)]
+    assert [run.end(60).returncode for run in runs] == [0] * 3
     assert len(list(tmp_path.glob("results/plan/*/report.json"))) == 3
 
 
 def test_two_runs_never_share_an_output_folder(tmp_path: Path) -> None:
     process = started(tmp_path)
-    second = call([*PLAN, "--out", "x", "--force"], tmp_path, **WORKS)
+    second = working(tmp_path, *QUIET, "--out", "x", "--force").end()
     assert second.returncode == 2 and "another run" in second.stderr
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=20)
-    third = call([*PLAN, "--out", "x"], tmp_path, **WORKS)
+    process.end(20)
+    third = working(tmp_path, *QUIET, "--out", "x").end()
     assert third.returncode == 2 and "--force" in third.stderr
     assert report(tmp_path / "x")["status"] == "interrupted"
-    assert call([*PLAN, "--out", "x", "--force"], tmp_path, **WORKS).returncode == 0
+    assert working(tmp_path, *QUIET, "--out", "x", "--force").end().returncode == 0
     assert report(tmp_path / "x")["status"] == "feasible"
 
 
@@ -172,10 +172,7 @@ def test_a_working_directory_that_is_gone(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", [b"caf\xe9.yaml", b"n" * 250 + b".yaml"])
 def test_a_task_file_of_any_name(tmp_path: Path, name: bytes) -> None:
     (tmp_path / os.fsdecode(name)).touch()
-    done = subprocess.run(
-        [*PLAN[:2], "plan", os.fsdecode(name), "--no-html"], cwd=tmp_path, check=False,
-        env=environment(**WORKS), capture_output=True, timeout=60,
-    )  # fmt: skip
+    done = working(tmp_path, "plan", os.fsdecode(name), "--no-html").end()
     assert done.returncode == 0, done.stderr
     (found,) = tmp_path.glob("results/plan/*/report.json")
     assert report(found.parent)["status"] == "feasible"
@@ -200,5 +197,5 @@ def test_nothing_that_is_shown_speaks_to_the_terminal(terminal: bool) -> None:
 
 
 def test_neither_do_errors(tmp_path: Path) -> None:
-    done = call([*PLAN[:2], "simulate", "toy.yaml", "--plan", f"x{ESCAPES}"], tmp_path)
+    done = start("simulate", "toy.yaml", "--plan", f"x{ESCAPES}", folder=tmp_path, toy=True).end()
     assert done.returncode == 2 and "\x1b" not in done.stderr and "\x9b" not in done.stderr

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 
-from etot_cli.cli.app import main
+from etot_cli.cli import app
 from etot_cli.commands import rooms
 from etot_cli.skills.action import Action
 from etot_cli.world.state import Cause
@@ -30,6 +30,11 @@ def toy_rooms() -> rooms.Rooms:
     return ToyRooms(ToySimulator(rule), reasoner).rooms()
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """The program."""
     rooms.default_rooms = toy_rooms
+    app.main()
+
+
+if __name__ == "__main__":
     main()
