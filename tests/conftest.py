@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.configuration import set_hypothesis_home_dir
 
 from etot_cli.world.engine import import_mujoco
 from tests.opengl import need_opengl
@@ -17,6 +19,9 @@ os.environ.setdefault("ETOT_HTML", "0")
 # Hundreds of processes would otherwise compile the whole package, each for itself.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# What Hypothesis keeps takes seconds to make; some tests work in folders of their own.
+set_hypothesis_home_dir(Path(__file__).parents[1] / ".hypothesis")
 
 # How long an example takes says more about the machine's other work than about what is tested.
 settings.register_profile(

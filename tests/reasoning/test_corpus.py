@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import statistics
 import time
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,15 +34,24 @@ def cases(kind: str) -> list[Any]:
     ]
 
 
+@contextmanager
+def in_time() -> Iterator[None]:
+    """What is read takes less than a second, ten times what an idle machine takes at most."""
+    start = time.process_time()
+    yield
+    assert time.process_time() - start < 1.0
+
+
 @pytest.mark.parametrize(("name", "text", "wanted"), cases("read"))
 def test_read(name: str, text: str, wanted: str) -> None:
-    goal = goal_of(text, SCENES[name])
+    with in_time():
+        goal = goal_of(text, SCENES[name])
     assert " | ".join([formal(goal), *goal.notes]) == wanted
 
 
 @pytest.mark.parametrize(("name", "text", "wanted"), cases("refused"))
 def test_refused(name: str, text: str, wanted: str) -> None:
-    with pytest.raises(InstructionError) as raised:
+    with in_time(), pytest.raises(InstructionError) as raised:
         goal_of(text, SCENES[name])
     first, _, reworded, *_ = str(raised.value).splitlines()
     for part in wanted.split(" | "):
@@ -81,17 +91,16 @@ def test_the_corpus_is_large_and_has_many_traps() -> None:
 
 
 @pytest.mark.slow
-def test_reading_takes_little_time() -> None:
-    """The bounds are ten times what an idle machine takes, so that a busy one passes, too."""
+def test_most_is_read_in_a_tenth_of_a_second() -> None:
+    """The bound is ten times what an idle machine takes, so that a busy one passes, too."""
     taken = []
     for name, found in CORPUS.items():
-        for text in [*found.get("read", {}), *found.get("refused", {})][::4]:
+        for text in [*found.get("read", {}), *found.get("refused", {})][::16]:
             start = time.process_time()
             with suppress(InstructionError):
                 goal_of(text, SCENES[name])
             taken.append(time.process_time() - start)
     assert statistics.median(taken) < 0.1
-    assert max(taken) < 1.0
 
 
 @pytest.mark.parametrize(

@@ -190,13 +190,14 @@ def _words_of(text: str) -> tuple[str, ...]:
     return tuple(re.findall(r"\w+", normalized(spaced)))
 
 
-def _twins_of(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+@lru_cache(maxsize=1024)
+def _twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
     """Other names of what is called so, one that is written as one word among them."""
     nouns = tuple(word for word in words if not word.isdigit())
     groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
     own = [name for group in groups if any(nouns[-len(t) :] == t for t in group) for name in group]
     written = [("".join(nouns),)] if len(nouns) == 2 else []
-    return [name for name in (*own, *written) if name != nouns[-len(name) :]]
+    return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
 
 
 def object_entry(info: ObjectInfo) -> Entry:
