@@ -7,11 +7,13 @@ from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.referents import Phrases
-from etot_cli.reasoning.language.reference.surroundings import is_support
+from etot_cli.reasoning.language.reference.space import is_support
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -83,6 +85,19 @@ class Context:
         ((place, below),) = outer
         fits = place.relation is Relation.INSIDE or is_support(below, self.scene)
         return (place,) if fits and below.name != DESK else ()
+
+    def mention_part(self, place: Place) -> None:
+        """After "take the key out" "the drawer" is the one that it was in, if none was named."""
+        assert place.where is not None  # what has a source
+        said = [item for item in self.discourse.mentions if item.clause == self.discourse.clause]
+        if any(item.role is Role.ANY for item in said):
+            return
+        for thing in self.discourse.things(place.where):
+            for part in self.scene.infos[thing.name].parts if thing.part else ():
+                if part.name == thing.part:
+                    noun = JOINT_NOUNS[part.joint_type][0]
+                    mention = Mention(place.where, Role.ANY, self.discourse.clause, noun)
+                    self.discourse.mentions.append(mention)
 
     def _referent(self, thing: Thing) -> int:
         referent = Referent(((thing,),), thing.name)

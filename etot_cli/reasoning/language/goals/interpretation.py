@@ -10,6 +10,7 @@ from itertools import islice
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
@@ -56,7 +57,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_run(state.goal())
     _check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
-    _check_held(state.timed, goal)
+    _check_held(state.timed, goal, scene)
     if not goal.steps and goal.constraints and not state.asked:
         raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
     return goal
@@ -80,8 +81,23 @@ def _without_places(state: _State) -> Goal:
     return replace(goal, referents=tuple(referents), notes=tuple(notes))
 
 
-def _check_held(said: Sequence[Timed], goal: Goal) -> None:
-    """Whether anything is to be done "then" while what was picked up stays in the hand."""
+def _check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
+    """Whether anything is to be done "then" while what was picked up stays in the hand, or moves
+    what it stands on before it is picked up.
+    """
+    moved = {
+        thing.name
+        for step in goal.steps
+        if isinstance(step, Put)
+        for index in step.what
+        for option in goal.referents[index].options
+        for thing in option
+    }
+    for pick in (step for step in goal.steps if isinstance(step, Pick)):
+        for thing in (t for option in goal.referents[pick.what].options for t in option):
+            if below := sorted(moved & carriers(scene, thing.name)):
+                why = f"it would go along with {below[0]}; say where it is to go before"
+                raise ReferenceProblem(goal.referents[pick.what].text, why, 4)
     held: int | None = None
     for item in said:
         if held is not None and item.steps and item.order is Order.THEN:

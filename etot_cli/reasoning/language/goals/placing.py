@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup
@@ -81,6 +82,7 @@ def add_put(
         )
         if not options or not all(options):
             raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
+        _check_left(context, referent.text, discourse.left_out.get(theme, ()), options)
         discourse.referents[theme] = replace(referent, options=options)
         where = places[0].where if len(places) == 1 else None
         if where is not None and places[0].relation is Relation.INSIDE:
@@ -89,3 +91,18 @@ def add_put(
             discourse.put_into.pop(theme, None)
     context.discourse.put |= {*themes}
     context.steps.append(Put(tuple(themes), places, grouping, removal=removal))
+
+
+def _check_left(
+    context: Context,
+    text: str,
+    out: Sequence[Thing],
+    options: Sequence[Sequence[Thing]],
+) -> None:
+    """Whether what is left out would come along in or on what is moved."""
+    names = {thing.name for option in options for thing in option}
+    gone = {t for index in context.discourse.put for t in context.discourse.things(index)}
+    for thing in (item for item in out if item.name in context.scene.states and item not in gone):
+        for below in names.intersection(carriers(context.scene, thing.name)):
+            why = f"{below} would take {thing.name} along; say first where that is to go"
+            raise ReferenceProblem(text, why, 4)

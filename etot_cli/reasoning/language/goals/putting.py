@@ -254,6 +254,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index)
     context.discourse.last_places = context.source(themes)
+    for place in context.discourse.last_places:
+        context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 

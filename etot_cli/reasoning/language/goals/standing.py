@@ -10,7 +10,7 @@ from etot_cli.reasoning.builtin.relations import can_topple
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import ReorientClause
-from etot_cli.reasoning.language.reference.coreference import is_flat
+from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.world.spatial import Nearby
 
 

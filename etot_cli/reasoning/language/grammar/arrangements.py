@@ -119,7 +119,7 @@ TOWER = either(
     sequence(
         silent(phrase(verbs.STACK)),
         THINGS,
-        silent(optional(phrase(manner.UPON_EACH_OTHER), None)),
+        silent(optional(phrase(f"{manner.UPON_EACH_OTHER}, up"), None)),
         optional(_UPWARD, None),
         _TOWER_ENDS,
         build=_tower,

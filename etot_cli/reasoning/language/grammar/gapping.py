@@ -79,7 +79,8 @@ def _beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
     bare = [item.relation for item in first.beside if not item.phrases]
     side = next((near for near, at in _REGIONS.items() if [at] == bare), None)
     if first.toward is Toward.TO:
-        side = _SIDES.get(first.targets[0].words)
+        named = first.targets[0].modifiers  # "to the left of D" has its own
+        side = None if named else _SIDES.get(first.targets[0].words)
     else:
         marks = [m for m in marks if m.relation in (*_REGIONS, *_REGIONS.values())]
     if side is None or more or len(marks) != 1 or first.targets[1:]:

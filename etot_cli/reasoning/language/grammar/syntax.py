@@ -11,6 +11,9 @@ from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 
+CLEARED = ("cleared",)
+"""The words of a modifier for what is to be taken out or off, whatever it is."""
+
 
 @dataclass(frozen=True, slots=True)
 class Modifier:

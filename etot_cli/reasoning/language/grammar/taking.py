@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     Clause,
     CoverClause,
     Destination,
@@ -115,9 +116,8 @@ REMOVE = either(
 
 
 def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
-    return NounPhrase(
-        "all", ("objects",), (Modifier(where, (np,)),), text=f"everything in {np.text}"
-    )
+    modifier = Modifier(where, (np,), CLEARED if where is Prep.FROM else ())
+    return NounPhrase("all", ("objects",), (modifier,), text=f"everything in {np.text}")
 
 
 def _emptied(things: Things, where: Any) -> Clause:

@@ -8,19 +8,12 @@ from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.lexicon import singular
-from etot_cli.world.state import ObjectInfo
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
-FLAT = 0.5
-"""What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
-
-
-def is_flat(info: ObjectInfo) -> bool:
-    """Whether a thing is much lower than wide as it rests."""
-    return info.size[2] <= FLAT * min(info.size[:2])
 
 
 def antecedents(

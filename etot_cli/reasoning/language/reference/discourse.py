@@ -38,6 +38,8 @@ class Discourse:
     """Number of a clause, the referent that something is put beside there, and how it is to be."""
     stacks: dict[int, int] = field(default_factory=dict)
     """Number of the clause that built a stack → the referent at its bottom."""
+    left_out: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
+    """Referent → what its phrase leaves out of it."""
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
@@ -54,6 +56,7 @@ class Discourse:
             self.put,
             self.last_landmark,
             dict(self.stacks),
+            dict(self.left_out),
             self.undecided,
         )
 
@@ -85,6 +88,7 @@ class Discourse:
             self._check_among_spoken(resolved, text)
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
+        self.left_out[index] = resolved.left_out
         self.mentions.append(mention)
         return index
 

@@ -18,6 +18,8 @@ RANKED = frozenset(
     }
 )  # fmt: skip
 """Relations that are true of some things more than of others."""
+HOLDING = frozenset({Prep.WITH, Prep.CONTAINING, Prep.BEARING})
+"""What tells a thing by what is in or on it."""
 _DISTANCES = frozenset({Prep.NEAREST, Prep.FARTHEST})
 EQUAL = 1e-6
 """Distances that differ by no more, which is rounding, leave the choice open [m]."""

@@ -269,7 +269,7 @@ def _match_in(
     loose = best == CONTENT or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
-    if loose and any(_is_object(entry) for entry in entries):
+    if loose and any(is_object(entry) for entry in entries):
         sifted.notes.append(f"read {head!r} as {names_of(entries)}")
     return Match(
         entries,
@@ -284,8 +284,9 @@ def _match_in(
 
 def _are_like(noun: str, entries: Sequence[Entry]) -> bool:
     """Whether objects are called by a noun for their kind alone."""
-    return all(_is_object(entry) and entry.grade(noun) == GENERIC for entry in entries)
+    return all(is_object(entry) and entry.grade(noun) == GENERIC for entry in entries)
 
 
-def _is_object(entry: Entry) -> bool:
+def is_object(entry: Entry) -> bool:
+    """Whether an entry is an object as a whole."""
     return entry.info is not None and entry.thing.part is None and entry.thing.board is None

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.coreference import (
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.narrowing import (
     as_contrasted,
     as_rest,
@@ -82,6 +83,7 @@ class Meanings:
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
             phrase = self._possessed(phrase, pronoun, role, noun_before)
+        phrase = self.told_by_themes(phrase)
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
@@ -104,6 +106,20 @@ class Meanings:
         # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
         upon = role is Role.SURFACE and self.resolver.is_called(resolved.noun)
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
+
+    def told_by_themes(self, phrase: NounPhrase) -> NounPhrase:
+        """In "the same shelf as the red one" that is one of what is moved, not a red shelf."""
+        noun = self.discourse.last_noun(Role.THEME)
+
+        def named(item: NounPhrase) -> NounPhrase:
+            one = noun is not None and item.words[-1:] == ("one",)
+            return replace(item, words=(*item.words[:-1], singular(noun or ""))) if one else item
+
+        modifiers = (
+            replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in HOLDING else item
+            for item in phrase.modifiers
+        )
+        return replace(phrase, modifiers=tuple(modifiers))
 
     def spoken_of(self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()) -> int | None:
         """The latest referent that "the same …" may mean."""

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity
 from etot_cli.reasoning.language.reference.landmarks import (
+    HOLDING,
     RANKED,
     between_the_others,
+    is_one,
     means_the_others,
     related,
 )
@@ -22,9 +23,7 @@ from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
     STATES,
-    THING_NOUNS,
     basic_color,
-    matches_any,
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -67,6 +66,8 @@ def modified(
             continue
         if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
+        if modifier.words == CLEARED:
+            _check_cleared(modifier, landmark_sets(modifier), scene)
         ways = {
             tuple(related(modifier, things, landmarks, quantity, count, scene, notes))
             for landmarks in landmark_sets(modifier)
@@ -86,7 +87,10 @@ def modified(
                 f"this is true of none of what it could mean ({names_of_things(things)})",
                 1,
             )
-        bare = modifier.denied and modifier.prep in (Prep.WITH, Prep.FROM)
+        bare = modifier.denied and (
+            modifier.prep in (Prep.WITH, Prep.FROM)
+            or (modifier.prep in HOLDING and is_one(modifier.phrases[0]))
+        )
         alike = len(things) == 1 or all(thing.board for thing in things)
         if bare and found == things and alike:
             why = "there is no other one that this would tell it from"
@@ -97,16 +101,24 @@ def modified(
     return things
 
 
+def _check_cleared(
+    modifier: Modifier, landmarks: Sequence[Sequence[Sequence[Thing]]], scene: SceneState
+) -> None:
+    """Whether "tidy up the blocks" is said of what holds things, not of things to be put away."""
+    for thing in (thing for way in landmarks for several in way for thing in several):
+        if not (can_be(thing, Role.CONTAINER, scene) or space.is_support(thing, scene)):
+            raise ReferenceProblem(modifier.phrases[0].text, "say where it is to go", 3)
+
+
 def left_out(
     things: list[Thing],
     phrase: NounPhrase,
     words: tuple[str, ...],
-    role: Role,
     vocabulary: Vocabulary,
     scene: SceneState,
     landmarks: Callable[[NounPhrase, str], list[Thing]],
-) -> list[Thing]:
-    """The things but for those that a phrase takes out; ``landmarks`` gives what these are."""
+) -> tuple[list[Thing], set[Thing]]:
+    """The things but for those that a phrase takes out, and these; ``landmarks`` gives them."""
     out: set[Thing] = set()
     for word in phrase.without:
         meant = with_quality(things, word, phrase, vocabulary, scene)
@@ -129,10 +141,6 @@ def left_out(
                 named = set(landmarks(item, words[-1]))
                 if modifier.denied:
                     named = {*things} - named  # "but only the red one"
-                # "Everything" may have the place among it that it is to go to.
-                if role is Role.THEME and not matches_any(words[-1], THING_NOUNS):
-                    left = [t for t in things if t not in named]
-                    _check_left(item.text, named, left, scene)
                 out |= named
     excepting = any(item.prep is Prep.EXCEPT and not item.denied for item in phrase.modifiers)
     if excepting and not out & set(things):
@@ -140,13 +148,4 @@ def left_out(
     left = [thing for thing in things if thing not in out]
     if not left:
         raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
-    return left
-
-
-def _check_left(text: str, out: Iterable[Thing], moved: Sequence[Thing], scene: SceneState) -> None:
-    """Whether what is left out would come along in or on what is moved."""
-    names = {thing.name for thing in moved}
-    for thing in (thing for thing in out if thing.name in scene.states):
-        for below in names.intersection(carriers(scene, thing.name)):
-            why = f"{below} would take it along; say first where it is to go"
-            raise ReferenceProblem(text, why, 4)
+    return left, out

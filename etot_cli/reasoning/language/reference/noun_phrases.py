@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.determiners import Quantity, quantity
 from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import is_one
+from etot_cli.reasoning.language.reference.matching import is_object
 from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of
 from etot_cli.reasoning.language.reference.selection import select
@@ -64,6 +65,7 @@ class Resolved:
         notes: what words were taken for, where that was a choice.
         again: it is some of what was spoken of before ("one of them").
         adjectives: the phrase's words before its noun.
+        left_out: what the phrase says that it does not mean.
     """
 
     options: tuple[tuple[Thing, ...], ...]
@@ -74,6 +76,7 @@ class Resolved:
     notes: tuple[str, ...] = ()
     again: bool = False
     adjectives: tuple[str, ...] = ()
+    left_out: tuple[Thing, ...] = ()
 
 
 class Resolver:
@@ -185,7 +188,7 @@ class Resolver:
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         things = [entry.thing for entry in match.entries]
         first = phrase.determiner.split()[:1]
-        if match.plural and first == ["some"]:
+        if first == ["some"]:
             why = "'some' is not supported: say how many"
             raise ReferenceProblem(phrase.text, why, 3, word="some")
         if match.plural and phrase.determiner == "any":
@@ -207,7 +210,7 @@ class Resolver:
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
         things = modified(things, modifiers, quantity, count, phrase, self._scene, sets, notes)
         meant = partial(self._landmarks, pronoun)
-        things = left_out(things, phrase, words, role, self._vocabulary, self._scene, meant)
+        things, unmeant = left_out(things, phrase, words, self._vocabulary, self._scene, meant)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
             raise ReferenceProblem(
                 phrase.text, f"not {among}, but {names_of_things(things)} fit", 2
@@ -226,7 +229,14 @@ class Resolver:
             raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
         mass = words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1]
         counted = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)
-        if match.plural and match.loose and len(things) == 1 and not (counted or mass):
+        lone = (
+            role is Role.THEME
+            and not (phrase.modifiers or phrase.without or matches_any(words[-1], THING_NOUNS))
+            and len(words) == len(match.entries) == 1
+            and is_object(match.entries[0])
+        )
+        unsaid = not (counted or mass) and (match.loose or lone)
+        if match.plural and unsaid and len(things) == 1:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
@@ -248,7 +258,7 @@ class Resolver:
         every = quantity.every or (count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, head, every, tuple(notes),
-            adjectives=words[:-1],
+            adjectives=words[:-1], left_out=tuple(unmeant),
         )  # fmt: skip
 
     def _landmark_sets(

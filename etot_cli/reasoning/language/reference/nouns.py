@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, SIZES, STAT
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
-_OF_PARTS = (Prep.CONTAINING, Prep.WITH, Prep.BEARING, Prep.UNDER, Prep.ABOVE)
+_OF_PARTS = (Prep.OF, Prep.CONTAINING, Prep.WITH, Prep.BEARING, Prep.UNDER, Prep.ABOVE)
 
 
 def _tells_parts(modifier: Modifier) -> bool:

@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.instances import check_not_part
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
-from etot_cli.reasoning.language.reference.surroundings import Surroundings, is_support
+from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
@@ -155,6 +155,9 @@ class Places:
         )
         if word != TOP and any(thing.board is None for option in options for thing in option):
             raise ReferenceProblem(referent.text, "it has no boards; say into it or on it", 2)
+        things = self.discourse.things(place.where)
+        if word == TOP and space.is_column(things, self._scene):
+            options = ((space.upon_each_other(things, self._scene)[-1],),)
         if place.relation is not Relation.ON or options == referent.options:
             return place
         self.discourse.referents.append(replace(referent, options=options))
@@ -200,14 +203,13 @@ class Places:
         laid = [thing for theme in themes for thing in self.discourse.things(theme)]
         if toward is Toward.ON and fits_in:
             self._check_alike(laid, things, index)
-        on = (
-            thing for thing in things if toward is not Toward.TO or is_support(thing, self._scene)
-        )
+        to = toward is Toward.TO
+        on = (thing for thing in things if not to or space.is_support(thing, self._scene))
         fits_on = any(
             can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
             for thing in on
         )
-        if toward is Toward.TO and not self._goes_in(laid, things):
+        if to and not self._goes_in(laid, things):
             fits_in = False  # who brings it to a mug may want it beside that
         if fits_in and (toward is not Toward.ON or not fits_on):
             found.append(Place(Relation.INSIDE, index))

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import antecedents, openable
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
@@ -22,9 +23,6 @@ from etot_cli.reasoning.language.words.places import Prep
 
 _OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
 """What follows the last of several things and is said of that one, or is dealt with elsewhere."""
-
-_HOLDING = frozenset({Prep.WITH, Prep.CONTAINING, Prep.BEARING})
-"""What tells a thing by what is in or on it."""
 
 
 class Phrases(Meanings):
@@ -102,6 +100,7 @@ class Phrases(Meanings):
         self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()
     ) -> tuple[int, ...]:
         """The referents of a phrase, none of ``excluded``; a plural pronoun may have several."""
+        phrase = self.told_by_themes(phrase)
         plain_pronoun = phrase.pronoun and not phrase.modifiers
         if plain_pronoun and not chooses(phrase.determiner):
             found = antecedents(
@@ -194,7 +193,7 @@ class Phrases(Meanings):
         """What "the box with the pen in it" means once the pen has been put into it; None where
         nothing has been moved that tells it.
         """
-        held = [item for item in phrase.modifiers if item.prep in _HOLDING]
+        held = [item for item in phrase.modifiers if item.prep in HOLDING]
         inner = [i for item in held if HERE_BEFORE not in item.words for i in item.phrases]
         for landmark in inner:
             meant: set[Thing] = set()

@@ -16,10 +16,12 @@ from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 OFFSET = 0.01
 """An object is on one side of another when it is off by more than this [m]."""
+FLAT = 0.5
+"""What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 DEEP = 2.0
 """Things spread so many times more away than sideways have no first from the left."""
 
@@ -33,6 +35,21 @@ RELATIONS = {
 }  # fmt: skip
 ROBOT = Thing("robot")
 """Stands for the robot as a landmark; it is at the origin."""
+
+
+def is_flat(info: ObjectInfo) -> bool:
+    """Whether a thing is much lower than wide as it rests."""
+    return info.size[2] <= FLAT * min(info.size[:2])
+
+
+def is_support(thing: Thing, scene: SceneState) -> bool:
+    """Whether what is brought to a thing goes on top of it; a vessel takes things in, and who
+    brings something to a tall box may want it beside that.
+    """
+    if thing.name == DESK or thing.board is not None:
+        return True
+    info = scene.infos[thing.name]
+    return info.surface and (not info.movable or is_flat(info))
 
 
 def position(thing: Thing, scene: SceneState) -> tuple[float, float, float]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence, Set
+from contextlib import suppress
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Thing
 from etot_cli.reasoning.builtin.relations import bearers
@@ -10,12 +12,12 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import FLAT, PLURAL_PRONOUNS
+from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot
-from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.lexicon import singular, word_set
 from etot_cli.world.spatial import BESIDE, Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -23,16 +25,6 @@ _OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
 _OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
 _PARTS = word_set("edge end border rim half part corner quarter area")
 """Words for parts of a flat top."""
-
-
-def is_support(thing: Thing, scene: SceneState) -> bool:
-    """Whether what is brought to a thing goes on top of it; a vessel takes things in, and who
-    brings something to a tall box may want it beside that.
-    """
-    if thing.name == DESK or thing.board is not None:
-        return True
-    info = scene.infos[thing.name]
-    return info.surface and (not info.movable or info.size[2] <= FLAT * min(info.size[:2]))
 
 
 class Surroundings:
@@ -66,11 +58,14 @@ class Surroundings:
         Raises:
             ReferenceProblem: nothing can be there.
         """
+        beside = [self._of_themes(item, themes, below) for item in beside]
         near = tuple(near for item in beside for near in self._near(item, themes))
         moved = {thing for i in self._discourse.put for thing in self._discourse.things(i)}
         for item in near:
             things = [thing for i in item.landmarks for thing in self._discourse.things(i)]
             things = [thing for thing in things if thing not in moved]
+            if below - {DESK} and any(thing.name in below for thing in things):
+                raise ReferenceProblem(things[0].name, "nothing is beside itself", 2)
             under = [bearers(self._scene, thing.name) for thing in things]
             names = " and ".join(thing.name for thing in things)
             if len(item.landmarks) > 1 and any(under) and not frozenset.intersection(*under):
@@ -82,6 +77,20 @@ class Surroundings:
             ):
                 raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
         return near
+
+    def _of_themes(self, beside: Beside, themes: Sequence[int], below: Set[str]) -> Beside:
+        """Next to the red one, on the red tray: the tray is the place, and not what is meant."""
+        mentions = self._discourse.mentions
+        nouns = [mention.noun for mention in mentions if mention.referent in themes]
+        phrases = list(beside.phrases)
+        for number, phrase in enumerate(phrases if nouns and below else ()):
+            if phrase.words[-1:] == ("one",):
+                with suppress(ReferenceProblem):
+                    options = self._phrases.meaning(phrase, Role.ANY).options
+                    if all(thing.name in below for option in options for thing in option):
+                        words = (*phrase.words[:-1], singular(nouns[-1]))
+                        phrases[number] = replace(phrase, words=words)
+        return replace(beside, phrases=tuple(phrases))
 
     def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
         """Whether a thing has such a region. The left side of what can be moved is beside it, the
@@ -96,7 +105,7 @@ class Surroundings:
             return
         part = _PARTS & {*region.text.split()}
         if not self._are_fixed(things) and not (
-            part and all(is_support(thing, self._scene) for thing in things)
+            part and all(space.is_support(thing, self._scene) for thing in things)
         ):
             raise ReferenceProblem(phrase.text, "say 'left of', 'in front of' and so on", 1)
 
@@ -129,7 +138,7 @@ class Surroundings:
         """
         if "side" in beside.text.split() and self._are_fixed(things):
             raise ReferenceProblem(beside.text, "say 'left of' and so on, or on which part", 1)
-        flat = all(is_support(thing, self._scene) for thing in things)
+        flat = all(space.is_support(thing, self._scene) for thing in things)
         note = f"{beside.text!r}: beside it, not on it"
         if flat and beside.text.startswith(("on ", "at ")) and note not in self._discourse.notes:
             self._discourse.notes.append(note)

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
-from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
+    NUMBERS,
     ORDINALS,
     PACKS,
     SIDES,
@@ -48,6 +49,10 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             words = (*phrase.words[:-1], item.words[0], phrase.words[-1])
             modifiers = tuple(side if one is item else one for one in phrase.modifiers)
             return usual_form(replace(phrase, words=words, modifiers=modifiers))
+    if is_distributive(phrase.determiner) and any(
+        NUMBERS.get(w, 1) > 1 for w in phrase.words[1:-1]
+    ):
+        raise ReferenceProblem(phrase.text, "name them one by one", 3)
     last = phrase.words[-1] if phrase.words else ""
     if last in _GENERAL and len(phrase.words) == 1:
         determiner = _GENERAL[last]

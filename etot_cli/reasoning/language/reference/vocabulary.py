@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     RUBBISH,
     STATES,
     THING_NOUNS,
+    TWINS,
     is_descriptive,
     matches_any,
     singular,
@@ -72,6 +73,8 @@ class Vocabulary:
         for_it = place and word in RUBBISH
         if not for_it:  # a yarn basket is no yarn
             told = [entry for entry in told if entry.info is None or not entry.info.container]
+        if word not in RUBBISH and any(word in group for group in TWINS):
+            return []  # a remote of the TV is no TV
         if is_general_noun(word) or len({entry.called[:1] for entry in told}) > 1:
             return []
         fitting = all(

@@ -22,7 +22,7 @@ UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
     in a (tower|stack|pile),
-    into a (tower|stack|pile), onto each other, up
+    into a (tower|stack|pile), onto each other
 """
 BOTTOM_UP = """
     (from the|from) bottom (up|to top|to the top), bottom (first|up),
