@@ -58,7 +58,7 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
     discourse = context.discourse
     referent = discourse.referents[theme]
     fixed = [place.where for place in places if place.where is not None and not place.beside]
-    if theme in discourse.put or any(len(discourse.referents[i].options) > 1 for i in fixed):
+    if theme in discourse.put:
         return
     targets = [target for index in fixed for target in discourse.things(index)]
     there = [

@@ -192,9 +192,11 @@ def _pools(
 ) -> list[list[Entry]]:
     """Where to look, in this order: parts come first where a level or their own name is said."""
     fitting = [entry for entry in vocabulary.objects if entry.grade(head) is not None]
-    one_of_many = len(fitting) == 1 and is_stacked(fitting[0])
+    units = [entry for entry in fitting if is_stacked(entry)]
+    only_units = bool(fitting) and len(units) == len(fitting)
+    one_of_many = only_units and len(fitting) == 1
     level = (parts_first and any(map(is_stacked, fitting))) or any(
-        word in LEVELS or (one_of_many and (word in ORDINALS or word in STATES))
+        word in LEVELS or (one_of_many and word in ORDINALS) or (only_units and word in STATES)
         for word in adjectives
     )
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
@@ -211,7 +213,6 @@ def _pools(
     pools = [objects, parts, boards, [vocabulary.desk]]
     if named:
         return [named, *pools]
-    units = [entry for entry in fitting if is_stacked(entry)]
     of_parts = any(part.grade(head) is not None for part in parts)
     by_kind = len(units) > 1 and all(entry.grade(head) == GENERIC for entry in units)
     if of_parts and by_kind and not upon:

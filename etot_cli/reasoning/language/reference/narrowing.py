@@ -32,13 +32,13 @@ def spoken_part(resolved: Resolved, discourse: Discourse, *, own_name: bool) -> 
     the whole is what is called so.
     """
     named = {(thing.name, thing.part) for option in resolved.options for thing in option}
-    if own_name or not resolved.definite or resolved.other or len(named) != 1:
+    if own_name or not resolved.definite or resolved.other or any(part for _, part in named):
         return resolved
-    ((owner, part),) = named
+    owners = {owner for owner, _ in named}
     for mention in reversed(discourse.mentions):
         things = discourse.things(mention.referent)
-        parts = things and all(thing.name == owner and thing.part for thing in things)
-        if part is None and parts and same_noun(mention.noun, resolved.noun):
+        parts = things and all(thing.name in owners and thing.part for thing in things)
+        if parts and same_noun(mention.noun, resolved.noun):
             return replace(resolved, options=discourse.referents[mention.referent].options)
     return resolved
 
