@@ -51,7 +51,9 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
             continue
         if isinstance(step, Put) and step.removal:
             last = [i for i in step.what if not any(_moves(other, i) for other in later)]
-            _check_removal(goal, last, scene)
+            before = goal.steps[:index]
+            there = [i for i in last if not any(_moves(other, i) for other in before)]
+            _check_removal(goal, there, scene)
             kept = tuple(i for i in step.what if i in last or _must_be_out(goal, i, later, scene))
             if kept:
                 steps.append(replace(step, what=kept))

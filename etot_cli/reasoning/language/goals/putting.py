@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.reference.determiners import is_distributive, q
 from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK
 
 
 def put(context: Context, clause: PutClause) -> None:
@@ -250,7 +251,14 @@ def remove(context: Context, clause: RemoveClause) -> None:
                 for phrase in things.phrases
             ),
         )
-    themes = context.phrases.things(things, Role.THEME)
+    # What stands on the desk is taken out of nothing: "put the key in the box, then take it out".
+    discourse, states = context.discourse, context.scene.states
+    around = [
+        index
+        for index in discourse.put_into.values()
+        if all(DESK in states[thing.name].on for thing in discourse.things(index))
+    ]
+    themes = context.phrases.things(things, Role.THEME, around)
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index)
     context.discourse.last_places = context.source(themes)

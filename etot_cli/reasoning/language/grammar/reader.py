@@ -195,6 +195,9 @@ def _stopped(given: Input, before: str) -> UnreadableError:
         if not why and word not in given.nouns and (switched or word in known.OTHER_VERBS):
             why = _NO_SKILL
         blamed = word in known.BLAMED or word not in known.ALL_WORDS
+        named = (*words[:index], "")[index - 1 : index] in _BEFORE_NOUNS
+        if why == _NO_SKILL and named:
+            why = f"nothing in the scene is called {word!r}"
         if why and (index >= stop - 1 or blamed):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))

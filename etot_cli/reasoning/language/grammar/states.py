@@ -100,7 +100,7 @@ _PLAIN_MOVE = either(
         )
         for verb, opens in (
             (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
-            (verbs.CLOSE, False),
+            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
         )
     ),
     *(
@@ -113,6 +113,7 @@ _PLAIN_MOVE = either(
         for verb, particle, opens in (
             (verbs.PULL, manner.OPEN_STATE, True),
             (verbs.PULL, manner.CLOSED_STATE, False),
+            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
             ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
         )
     ),

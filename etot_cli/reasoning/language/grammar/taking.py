@@ -93,6 +93,13 @@ REMOVE = either(
         build=lambda things, source: RemoveClause(things, source),
     ),
     sequence(
+        # Without a source it is rather what holds them.
+        silent(phrase("unload[ing]")),
+        THINGS,
+        SOURCE,
+        build=RemoveClause,
+    ),
+    sequence(
         silent(phrase(verbs.BRING)),
         THINGS,
         silent(phrase("out, off, away, down")),
@@ -136,7 +143,10 @@ def _tidied(verb: str, things: Things, where: Any) -> PutClause:
 
 EMPTY = either(
     sequence(
-        silent(phrase("empty[ing] [out]")), THINGS, optional(DESTINATIONS, None), build=_emptied
+        silent(phrase("empty[ing] [out], unload[ing]")),
+        THINGS,
+        optional(DESTINATIONS, None),
+        build=_emptied,
     ),
     sequence(
         phrase(verbs.TIDY),

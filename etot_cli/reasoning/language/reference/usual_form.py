@@ -87,6 +87,9 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         named = replace(out, phrases=tuple(_named(item, last) for item in out.phrases))
         modifiers = tuple(named if item is out else item for item in phrase.modifiers)
         phrase = replace(phrase, modifiers=modifiers)
+    if last == "contents" and phrase.owner is not None:
+        of = Modifier(Prep.OF, (phrase.owner,))
+        phrase = replace(phrase, owner=None, modifiers=(of, *phrase.modifiers))
     if not last or of is None:
         return phrase
     rest = tuple(item for item in phrase.modifiers if item is not of)

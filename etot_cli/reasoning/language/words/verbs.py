@@ -35,7 +35,7 @@ TAKE = "tak(e|ing), lift[ing], pull[ing], mov(e|ing), bring[ing], transfer[ring]
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
-    remov(e|ing), clear[ing] away, unload[ing], extract[ing], tak(e|ing) (out|off|away|down),
+    remov(e|ing), clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
     get[ting] (out|down|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
