@@ -35,7 +35,7 @@ PART_TOLERANCE = 0.004
 TIP_S = 3.0
 """Something that does not fall over in this time is left alone [s]."""
 TIPPED_COSINE = 0.5
-"""What leans this far falls by itself, or lies against something."""
+"""What leans this far (60°) falls by itself, or lies against something."""
 UNMOVED = 0.01
 """What a person's deed displaced further than this is not the robot's doing [m]."""
 TIP_GROWTH = 1.25

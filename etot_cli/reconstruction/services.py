@@ -31,7 +31,7 @@ from etot_cli.world.pose import is_rigid
 DEADLINE = 120.0
 """A whole stage, retries included, takes no longer [s]."""
 MAX_REPLY = 64 * 1024 * 1024
-"""Largest reply in bytes."""
+"""Largest reply [bytes]: a MiB for each mask, of as many objects as a scene may have."""
 MAX_MESH = MAX_REPLY // 2
 """Largest mesh [bytes]: as base64 it takes two thirds of a reply."""
 

@@ -16,7 +16,7 @@ from etot_cli.specs.objects import Mesh, Mjcf, SceneObject
 from etot_cli.specs.scene import Scene
 
 MAX_FILE_BYTES = 50 * 1024 * 1024
-"""Largest mesh, MJCF or robot file."""
+"""Largest mesh, MJCF or robot file [bytes]: what the largest mesh takes as text."""
 MESH_SUFFIXES = (".obj", ".stl", ".glb")
 MJCF_SUFFIXES = (".xml", ".mjcf")
 ROBOT_SUFFIXES = (".yaml", ".yml")

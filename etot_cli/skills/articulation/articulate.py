@@ -12,13 +12,13 @@ import numpy as np
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.part_path import (
-    STANDOFF,
     PreparedMove,
     fraction_open,
     way_back,
 )
 from etot_cli.skills.articulation.search import PartSearch, belief_after
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.approach import STANDOFF
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.world.arrays import Vector

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.approach import STANDOFF
 from etot_cli.skills.hindrance import Passage
 from etot_cli.skills.motion.kinematics import JUMP
 from etot_cli.world.arrays import Vector
@@ -17,8 +18,6 @@ from etot_cli.world.index import Part
 from etot_cli.world.pose import Pose, straight
 from etot_cli.world.snapshot import copy_configuration
 
-STANDOFF = 0.09
-"""Length of the straight way to the part and back [m], a hand's breadth."""
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 BEND = 0.15

@@ -18,7 +18,8 @@ from etot_cli.world.relations import to_region
 from etot_cli.world.state import owner_of
 
 STANDOFF = 0.09
-"""Length of the straight approach [m]."""
+"""Length of the straight way to what is touched [m]: a hand's breadth, so that a hand that turns
+before it is clear of it."""
 LIFT = 0.10
 """Height of the lift [m]."""
 NARROW_ROOMS = (0.008, 0.004)
