@@ -405,6 +405,17 @@ def test_what_has_its_own_place_goes_there_first() -> None:
     assert revision(step) == "[PICK UP, block] [PUT INTO, bowl] [PICK UP, brick] [PUT ON, desk]"
 
 
+def test_what_was_opened_only_for_what_goes_first_now_stays_closed() -> None:
+    start = scenes.scene(
+        scenes.cabinet("cupboard", (0.5, 0.0), 0.0),
+        scenes.cup("mug", (0.3, -0.3)), scenes.ball("nut", (0.35, 0.1)),
+    )  # fmt: skip
+    fill, store = "[PICK UP, nut] [PUT INTO, mug]", "[PICK UP, mug] [PUT INTO, cupboard]"
+    plan = f"[OPEN, cupboard] {store} [CLOSE, cupboard] [OPEN, cupboard] {fill} [CLOSE, cupboard]"
+    step = failed(start, plan, 0, cause(CauseKind.COLLISION, "nut"))
+    assert revision(step) == f"{fill} [OPEN, cupboard] {store} [CLOSE, cupboard]"
+
+
 def test_an_upper_drawer_that_stands_open_is_closed_meanwhile() -> None:
     state = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0, "lower": 0.0}),

@@ -42,6 +42,7 @@ from etot_cli.reasoning.builtin.revision import (
     purpose,
     reachable_throughout,
     relocations,
+    without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
@@ -162,7 +163,7 @@ class _Case:
         put = self.actions[pick + 1] if pick + 1 < len(self.actions) else None
         if put is None or put.safe or pick not in own or self.failed.index in own:
             return
-        actions = moved_before(self.actions, own, failing.start)
+        actions = without_idle(moved_before(self.actions, own, failing.start), self.failed.start)
         yield Correction(
             reachable_throughout(actions, self.failed.start),
             f"{name} is put where it belongs before it is in the way",

@@ -156,6 +156,19 @@ def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
     )
 
 
+def without_idle(actions: Actions, scene: SceneState) -> Actions:
+    """The branch without openings of closed parts that are closed again at once."""
+    for index, (first, second) in enumerate(pairwise(actions)):
+        if (first.verb, second.verb, second.target) != (Verb.OPEN, Verb.CLOSE, first.target):
+            continue
+        before = [action.verb for action in actions[:index] if action.target == first.target]
+        part = scene.part(first.target)
+        closed = part is not None and is_closed(scene, part)
+        if before[-1] is Verb.CLOSE if before else closed:
+            return without_idle((*actions[:index], *actions[index + 2 :]), scene)
+    return actions
+
+
 def reachable_throughout(actions: Actions, scene: SceneState) -> Actions:
     """The branch, with a drawer opened and closed again where it would shut away what is needed.
 
