@@ -48,11 +48,12 @@ def trajectory() -> Trajectory:
 @pytest.mark.slow
 @pytest.mark.render
 def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> None:
-    files = write_frames(SCENE, [Take(trajectory)] * 2, tmp_path / "frames")
-    assert [path.name for path in files[:3]] == [
+    moment = Trajectory(trajectory.times[:1], trajectory.qpos[:1])
+    files = write_frames(SCENE, [Take(trajectory), Take(moment)], tmp_path / "frames")
+    assert [path.name for path in files] == [
         "01-0-start-00.00s.png", "01-1-key-00.80s.png", "01-2-end-02.00s.png",
+        "02-0-start-00.00s.png",
     ]  # fmt: skip
-    assert files[3].name.startswith("02-0-start")
     first, last = (cv2.imread(str(files[i])) for i in (0, 2))
     assert first is not None and last is not None and first.shape == (720, 1280, 3)
     red = [
@@ -65,14 +66,14 @@ def test_frames_have_readable_names(trajectory: Trajectory, tmp_path: Path) -> N
 @pytest.mark.slow
 def test_videos_play_everywhere(trajectory: Trajectory, tmp_path: Path) -> None:
     write_video(
-        SCENE, [Take(trajectory)] * 2, tmp_path / "deep" / "run.mp4", size=(320, 180), rate=10
+        SCENE, [Take(trajectory)] * 2, tmp_path / "deep" / "run.mp4", size=(320, 180), rate=5
     )
     with av.open(str(tmp_path / "deep" / "run.mp4")) as container:
         stream = container.streams.video[0]
         assert stream.codec_context.name == "h264" and stream.codec_context.pix_fmt == "yuv420p"
         frames = sum(1 for _ in container.decode(stream))
-        assert float(stream.average_rate or 0) == 10.0
-    assert 40 <= frames <= 46
+        assert float(stream.average_rate or 0) == 5.0
+    assert 20 <= frames <= 24
     (tmp_path / "file").write_text("")
     with pytest.raises(ServiceError, match="cannot write"):
         write_video(SCENE, [Take(trajectory)], tmp_path / "file" / "run.mp4")
