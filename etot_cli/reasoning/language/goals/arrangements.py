@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.places import lies_on
 
 def tower(context: Context, clause: TowerClause) -> None:
     """Everything upon each other, from the bottom up; the bottom one stays where it is."""
+    context.tell_others(clause.things, clause.base)
     themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which ones to stack")]
     text = " and ".join(phrase.text for phrase in clause.things.phrases)
@@ -89,7 +90,9 @@ def swap(context: Context, clause: SwapClause) -> None:
     if _carries(context, things[0], things[1]) or _carries(context, things[1], things[0]):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
     if homes[0] == homes[1]:
-        raise ReferenceProblem(text, "they are in the same place", 2)
+        if homes[0].relation is not Relation.ON:
+            raise ReferenceProblem(text, "they are in the same place", 2)
+        homes = [context.spot(thing, place) for thing, place in zip(things, homes, strict=True)]
     first, second = (context.single(thing, thing.name) for thing in things)
     context.steps += [
         Put((first,), (context.places.on_the_desk(),), aside=True),

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.syntax import Destination, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.space import is_support
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -45,6 +48,19 @@ class Context:
         alone = Resolved(((thing,),), definite=True, other=False, noun=thing.name)
         return self.discourse.add(alone, text, Role.THEME)
 
+    def tell_others(self, things: Things, destinations: Sequence[Destination]) -> None:
+        """Before anything is spoken of, "the other cups" are those that go on "the red cup"."""
+        targets = [np for item in destinations for np in item.targets if np.words]
+        for phrase in (np for np in things.phrases if np.words):
+            noun = phrase.words[-1]
+            others = quantity_of(phrase.determiner).other
+            if others and self.phrases.spoken_of(phrase, Role.THEME) is None:
+                for np in targets:
+                    one = np.words[-1] == "one"
+                    words = (*np.words[:-1], singular(noun)) if one else np.words
+                    if same_noun(words[-1], noun):
+                        self.phrases.refer(replace(np, words=words), Role.ANY)
+
     def only(self, index: int, why: str) -> tuple[Thing, ...]:
         """What a referent stands for, where there must be no choice."""
         referent = self.discourse.referents[index]
@@ -65,8 +81,13 @@ class Context:
         surface = Thing(owner, board=board if info is not None and board in info.boards else None)
         if owner != DESK:
             return Place(Relation.ON, self._referent(surface))
-        point = (round(state.position[0], 3), round(state.position[1], 3))
-        return Place(Relation.ON, self._referent(surface), (Near(Nearby.AT_POINT, point=point),))
+        return self.spot(thing, Place(Relation.ON, self._referent(surface)))
+
+    def spot(self, thing: Thing, place: Place) -> Place:
+        """The very spot of a surface where a thing is at the start."""
+        x, y, _ = self.scene.states[thing.name].position
+        near = Near(Nearby.AT_POINT, point=(round(x, 3), round(y, 3)))
+        return replace(place, beside=(near,))
 
     def source(self, themes: Sequence[int]) -> tuple[Place, ...]:
         """The one place that things are at before they are moved, for "there"; else none."""

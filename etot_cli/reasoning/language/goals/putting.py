@@ -6,7 +6,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Grouping,
+    Open,
+    Pick,
+    Place,
+    Put,
+    Step,
+    Thing,
+)
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side
@@ -63,6 +72,7 @@ def put(context: Context, clause: PutClause) -> None:
         if clause.one_each or is_one_each(group):
             one_each(context, group)
             continue
+        context.tell_others(group.things, group.destinations)
         away = context.places.no_themes(group.destinations)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
@@ -187,10 +197,18 @@ def cover(context: Context, clause: CoverClause) -> None:
     places = tuple(
         place
         for phrase in clause.things.phrases
-        for index in context.phrases.refer(phrase, Role.PLACE, themes)
+        for index in _covered(context, phrase, themes)
         for place in context.places.relations_to(Toward.ON, index, themes)
     )
     add_put(context, themes, places, Grouping.ANY)
+
+
+def _covered(context: Context, phrase: NounPhrase, lids: Sequence[int]) -> tuple[int, ...]:
+    """What gets a lid; "it" is rather a vessel than what was put into that."""
+    if phrase.pronoun:
+        with suppress(ReferenceProblem):
+            return context.phrases.refer(phrase, Role.CONTAINER, lids)
+    return context.phrases.refer(phrase, Role.PLACE, lids)
 
 
 def again(context: Context, clause: AgainClause) -> None:

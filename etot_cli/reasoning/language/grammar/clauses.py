@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.modifiers import ONLY_THOSE, excepting, exceptions
+from etot_cli.reasoning.language.grammar.modifiers import (
+    APPOSED,
+    CONTRASTED,
+    ONLY_THOSE,
+    excepting,
+    exceptions,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
@@ -27,6 +34,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
+    Modifier,
     MoveClause,
     NounPhrase,
     Order,
@@ -36,7 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Spoken,
     Things,
 )
-from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, FILL, PICK, REMOVE
+from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, FILL, HAND_OVER, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
@@ -51,10 +59,18 @@ LEFT_OUT = either(
         build=excepting,
     ),
 )
+
+
+def _of_the_things(clause: Clause, said: Modifier) -> Clause | None:
+    """What stands behind a place is said of what goes there only if it cannot be of the place."""
+    found = excluding(clause, said)
+    return replace(found, far_fetched=1) if isinstance(found, PutClause) else None
+
+
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, AGAIN, FILL),
+        *(KEEP_STILL, AGAIN, FILL, HAND_OVER),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
@@ -64,6 +80,7 @@ CLAUSE = located(
         either(
             _ASKED,
             sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
+            sequence(PUT, OPTIONAL_COMMA, either(CONTRASTED, APPOSED), build=_of_the_things),
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

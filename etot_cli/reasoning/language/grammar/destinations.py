@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
 TOP = "top"
@@ -116,7 +117,16 @@ OVER = sequence(
     TARGETS,
     build=lambda targets: Destination(Toward.ON, targets, places.OVER),
 )
-_to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
+
+
+def _to_target(targets: tuple[NounPhrase, ...]) -> Destination | None:
+    """Where things go, but for where they were ("to its original position")."""
+    home = any(f"to {np.text}" in _HOMES for np in targets)
+    return None if home else Destination(Toward.TO, targets)
+
+
+_HOMES = frozenset(spellings(places.HOME))
+_to = sequence(silent(phrase(places.TO)), TARGETS, build=_to_target)
 _top_of = sequence(
     silent(phrase(places.ONTO)),
     noun_phrase,

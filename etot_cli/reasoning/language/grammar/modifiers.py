@@ -32,7 +32,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns, places
-from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    ORDINALS,
+    SIDES,
+    is_descriptive,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 noun_phrase = Rule()
@@ -161,16 +167,21 @@ _none_of = sequence(
 )
 
 
+def _is_adjective(word: str) -> bool:
+    """Whether a word is said of a thing and names none ("the orange", "the lime")."""
+    return is_descriptive(word) and word not in COMMON_NOUNS
+
+
 def _one_of_them(np: NounPhrase) -> NounPhrase:
     """With "one" for the noun that "the biggest" leaves out."""
-    bare = np.determiner == "the" and np.words and is_descriptive(np.words[-1])
+    bare = np.determiner == "the" and np.words and _is_adjective(np.words[-1])
     return replace(np, words=(*np.words, "one")) if bare else np
 
 
 def _other_than(np: NounPhrase) -> Modifier | None:
     """What it is not: "not the big cup", "not the biggest" of them."""
     np = _one_of_them(np)
-    if not np.words or is_descriptive(np.words[-1]):
+    if not np.words or _is_adjective(np.words[-1]):
         return None
     return Modifier(Prep.EXCEPT, (np,))
 
@@ -203,6 +214,32 @@ def quality_alone(given: Input, at: int) -> list[Result]:
 _described = either(PLAIN_MODIFIER, _contents, quality_alone)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
+CONTRASTED = quiet(
+    sequence(
+        silent(phrase(nouns.CONTRAST)),
+        noun_phrase,
+        build=lambda np: (
+            Modifier(Prep.CONTRAST, (_one_of_them(np),)) if np.determiner and np.words else None
+        ),
+    )
+)
+APPOSED = either(
+    sequence(
+        # "The lamp, the one on the left, …"
+        silent(phrase("~comma the (one|ones)")),
+        silent(optional(RELATIVE, None)),
+        _described,
+        either(COMMA, at_end),
+        build=lambda modifier: modifier,
+    ),
+    sequence(
+        silent(phrase("~comma the")),
+        QUALITY,
+        silent(phrase("one, ones")),
+        either(COMMA, at_end),
+        build=lambda modifier: modifier,
+    ),
+)
 _modifier = either(
     PLAIN_MODIFIER,
     _contents,
@@ -220,21 +257,7 @@ _modifier = either(
         COMMA,
         build=lambda modifier: modifier,
     ),
-    sequence(
-        # "The lamp, the one on the left, …"
-        silent(phrase("~comma the (one|ones)")),
-        silent(optional(RELATIVE, None)),
-        _described,
-        either(COMMA, at_end),
-        build=lambda modifier: modifier,
-    ),
-    sequence(
-        silent(phrase("~comma the")),
-        QUALITY,
-        silent(phrase("one, ones")),
-        either(COMMA, at_end),
-        build=lambda modifier: modifier,
-    ),
+    APPOSED,
     sequence(
         DENIED,
         either(_described, _none_of),
@@ -259,14 +282,7 @@ _modifier = either(
         # "The right not of the cup" is no English.
         build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
     ),
-    sequence(
-        silent(optional(phrase("~comma"), None)),
-        silent(phrase(nouns.CONTRAST)),
-        noun_phrase,
-        build=lambda np: (
-            Modifier(Prep.CONTRAST, (_one_of_them(np),)) if np.determiner and np.words else None
-        ),
-    ),
+    sequence(silent(optional(phrase("~comma"), None)), CONTRASTED, build=lambda found: found),
     sequence(
         silent(optional(phrase("~comma"), None)),
         silent(phrase(nouns.EXCEPT)),

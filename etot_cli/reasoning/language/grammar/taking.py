@@ -77,6 +77,14 @@ PICK = sequence(
     OPTIONAL_POSES,
     build=_pick,
 )
+HAND_OVER = quiet(
+    sequence(
+        silent(phrase("hand[ing], bring[ing], giv(e|ing), pass[ing]")),
+        phrase("it, them"),
+        silent(phrase("[over] to me")),
+        build=lambda text: PickClause(Things((NounPhrase(pronoun=text, text=text),))),
+    )
+)
 _DESKS = [(noun,) for noun in DESK_NOUNS]
 
 

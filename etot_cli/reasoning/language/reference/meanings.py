@@ -164,7 +164,8 @@ class Meanings:
             named = self.resolver.called_after(things, owners, phrase.words)
         if named is None or role is Role.THEME:
             return ways[0]
-        self.discourse.notes.append(f"read {phrase.text!r} as {named}")
+        note = f"read {phrase.text!r} as {named}"
+        self.discourse.notes += [note] if note not in self.discourse.notes else []
         return replace(phrase, determiner="the", words=(named,))
 
     def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:

@@ -224,7 +224,8 @@ class Phrases(Meanings):
         is the one on which what was told by it is.
         """
         owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner)]
-        named = [(item.prep, landmark) for item in phrase.modifiers for landmark in item.phrases]
+        told_by = [item for item in phrase.modifiers if item.prep is not Prep.CONTRAST]
+        named = [(item.prep, landmark) for item in told_by for landmark in item.phrases]
         noun = usual_form(phrase).words[-1:]
         for prep, landmark in (*owner, *named):
             if "one" in (landmark.determiner, *landmark.words[:-1]):
@@ -247,4 +248,7 @@ class Phrases(Meanings):
                     )
                     resolved = replace(resolved, options=options or resolved.options)
                     resolved = part_around(resolved, told[0], self.scene)
+                first = len(self.discourse.mentions)
                 self.discourse.add(resolved, landmark.text, Role.ANY)
+                if prep is Prep.EXCEPT:
+                    self.discourse.step_back(first)

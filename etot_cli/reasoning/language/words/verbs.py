@@ -8,7 +8,9 @@ PICK = """
     rais(e|ing), choose and pick up, bring me, giv(e|ing) me, pass[ing] me, retriev(e|ing),
     gather[ing], (fetch|fetching|get|getting|grab|find|take) me
 """
-TO_SOMEBODY = "(hand|handing|bring|bringing|give|giving|pass|passing) me"
+TO_SOMEBODY = """
+    (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me)
+"""
 """They ask for more than picking up, which is all that is done."""
 SET_DOWN = """
     put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
