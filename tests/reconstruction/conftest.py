@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,25 @@ from etot_cli.world.capture import Picture, capture
 from tests.opengl import need_opengl
 from tests.reconstruction.scenes import BALL, CUP, PEN, scene
 
+PICTURES = 4
+"""Renderings that are kept: tests add the noise of several sensors to one after the other."""
+
 
 def render(what: Scene, **options: Any) -> Picture:
-    """A capture of a scene; the test is skipped where there is no OpenGL."""
+    """A capture of a scene; the test is skipped where there is no OpenGL.
+
+    Its arrays belong to other tests, too, and cannot be written to.
+    """
     need_opengl()
-    return capture(what, **options)
+    return _rendered(what.model_dump_json(), **options)
+
+
+@lru_cache(maxsize=PICTURES)
+def _rendered(what: str, **options: Any) -> Picture:
+    picture = capture(Scene.model_validate_json(what), **options)
+    for array in (picture.color, picture.depth, *picture.masks.values()):
+        array.flags.writeable = False
+    return picture
 
 
 @pytest.fixture(scope="session")

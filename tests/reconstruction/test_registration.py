@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -147,13 +148,15 @@ def test_noise_and_displaced_depth(three: Picture, home: Path, known: Path) -> N
 
 def test_a_wrong_model_is_noticed(three: Picture, home: Path) -> None:
     """Asked for, it is used with a warning; from a library, it is not used."""
-    options = Options(capture=home / "three", meshes={"toy": home / "mug.obj"}, settle=False)
+    alone = home / "alone"  # only one of the three is pointed out, so that only one is fitted
+    write_capture(replace(three, masks={"toy": three.masks["toy"]}), alone)
+    options = Options(capture=alone, meshes={"toy": home / "mug.obj"}, settle=False)
     solid = solids(reconstruct(options))["toy"]
     assert solid.kind == "mesh"
     assert any("does not fit what is seen" in text for text in solid.warnings)
     text = "objects:\n  block: {kind: mesh, file: mug.obj, names: [toy]}\n"
     wrong = library(home, text, "wrong.yaml")
-    solid = solids(reconstruct(Options(capture=home / "three", library=wrong, settle=False)))["toy"]
+    solid = solids(reconstruct(Options(capture=alone, library=wrong, settle=False)))["toy"]
     assert solid.model is None
     assert any("its shape is fitted instead" in text for text in solid.warnings)
 
