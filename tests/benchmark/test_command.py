@@ -222,6 +222,7 @@ def test_a_suite_says_what_the_command_line_does_not(tmp_path: Path, task: Path)
     assert [(t.method, t.seed) for t in report.trials] == [("etot", 3), ("etot", 5)]
 
 
+@pytest.mark.slow
 def test_what_got_significantly_worse_is_found(tmp_path: Path, task: Path) -> None:
     before, after = made(tmp_path / "before"), made(tmp_path / "after")
     good = options(task, trials=12, methods=("etot", "reflect", "rekep"))

@@ -61,6 +61,7 @@ def test_a_narrow_place_is_enough_for_workers_too(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_nothing_is_loaded_that_neither_a_plan_nor_a_benchmark_begins_with() -> None:
     """OpenCV and the video library take more address space than all the others together; the rest
     would keep all workers of a benchmark waiting.

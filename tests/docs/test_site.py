@@ -42,6 +42,7 @@ def test_no_table_is_torn() -> None:
                 assert below and set(below) <= set("|-: "), f"{page.name}:{number}"
 
 
+@pytest.mark.slow
 def test_site_builds_strictly(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
     done = subprocess.run(

@@ -58,6 +58,7 @@ def test_perfect_odds_are_explained_by_their_draws_and_optimistic_ones_are_not()
     assert abs(np.mean([bias(drawn(odds, seed)) for seed in range(16)])) < 0.015
 
 
+@pytest.mark.slow
 def test_a_rate_of_few_worlds_leaves_the_interval_more_often_than_the_odds_do() -> None:
     odds = np.linspace(0.1, 0.9, 60)
     few, many = explained(drawn(odds, 0)), explained(drawn(odds, 0, unseen=2400))
@@ -69,6 +70,7 @@ def test_coverage_counts_rates_within_the_told_interval() -> None:
     assert coverage([pair(8, 12), pair(16, 24), pair(16, 12), pair(0, 24)]) == 0.5
 
 
+@pytest.mark.slow
 def test_the_diagram_is_a_picture(tmp_path: Path) -> None:
     draw_diagram([pair(8, 12), pair(16, 24)], tmp_path / "deep" / "diagram.png")
     image = cv2.imread(str(tmp_path / "deep" / "diagram.png"))

@@ -91,6 +91,7 @@ def test_a_cell_leads_to_its_trials_and_their_pages(browser: Browser, page: Path
     assert browser.complaints() == [] and browser.fetched() == []
 
 
+@pytest.mark.slow
 def test_a_trial_has_a_page_of_its_own(browser: Browser, page: Path) -> None:
     browser.open(page)
     browser.run("document.querySelector('button.cell[data-method=etot][data-task=task5]').click()")
@@ -111,6 +112,7 @@ def test_a_trial_has_a_page_of_its_own(browser: Browser, page: Path) -> None:
     assert browser.run("return document.querySelectorAll('button.cell').length") == 8 * 9
 
 
+@pytest.mark.slow
 def test_it_fits_a_narrow_window(browser: Browser, page: Path) -> None:
     browser.check_looks(page)
     browser.open(page, width=390)

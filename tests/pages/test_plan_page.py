@@ -105,6 +105,7 @@ def test_frames_of_a_node_load(browser: Browser, page: Path) -> None:
     assert browser.complaints() == []
 
 
+@pytest.mark.slow
 def test_page_looks_like_something_everywhere(browser: Browser, page: Path) -> None:
     browser.check_looks(page)
     for dark in (False, True):
@@ -129,6 +130,7 @@ def test_faint_text_and_what_is_too_wide_are_noticed(browser: Browser, page: Pat
 
 
 @pytest.mark.parametrize("pictured", [True, False])
+@pytest.mark.slow
 def test_trees_of_any_depth_need_no_pushing_sideways(
     browser: Browser, tmp_path: Path, pictured: bool
 ) -> None:
@@ -143,6 +145,7 @@ def test_trees_of_any_depth_need_no_pushing_sideways(
             assert browser.run("return document.querySelectorAll('#tree .box b').length") == depth
 
 
+@pytest.mark.slow
 def test_large_tree_opens_quickly(browser: Browser, tmp_path: Path) -> None:
     report = large_report(LARGE)
     frames, pictures = heavy_pictures(report, 6_500_000)

@@ -59,6 +59,7 @@ def test_page_shows_twin_and_camera(browser: Browser, page: Path) -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_view_in_three_dimensions_turns(browser: Browser, page: Path) -> None:
     browser.open(page)
     canvas = "document.getElementById('view3d')"

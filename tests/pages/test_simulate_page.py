@@ -49,6 +49,7 @@ def test_replay_can_be_scrubbed(browser: Browser, page: Path) -> None:
     assert browser.fetched() == []
 
 
+@pytest.mark.slow
 def test_play_reaches_the_end(browser: Browser, page: Path) -> None:
     browser.check_looks(page)
     browser.open(page, width=390, dark=True)

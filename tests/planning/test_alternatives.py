@@ -237,6 +237,7 @@ def clearing(
 
 
 @given(cluttered(), st.booleans())
+@pytest.mark.slow
 def test_a_plan_is_found_exactly_where_there_is_one(
     world: tuple[dict[str, list[str]], set[str]], names_all: bool
 ) -> None:

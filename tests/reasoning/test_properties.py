@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -151,6 +152,7 @@ words = st.sampled_from(WORDS.split())
 
 @QUICK
 @given(st.lists(words, min_size=1, max_size=14).map(" ".join))
+@pytest.mark.slow
 def test_any_text_is_read_or_refused(text: str) -> None:
     try:
         goal_of(text, KITCHEN)
@@ -164,6 +166,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
 
 @QUICK
 @given(st.text(max_size=200))
+@pytest.mark.slow
 def test_any_characters_are_read_or_refused(text: str) -> None:
     try:
         goal_of(text, KITCHEN)

@@ -159,6 +159,7 @@ def test_the_command_says_it_in_one_line_and_writes_nothing(
     assert not out.exists()
 
 
+@pytest.mark.slow
 def test_masks_that_miss_leave_a_usable_part(folder: Path) -> None:
     (folder / "masks" / "ball.png").unlink()
     rewrite(folder, "masks/mug.jpg", np.zeros((480, 640), np.uint8))

@@ -121,6 +121,7 @@ def test_a_focal_length_that_is_missing_comes_from_the_board(tmp_path: Path) -> 
     assert off(np.array(found.entries["camera_to_base"]), view.camera_to_base)[0] < 0.008
 
 
+@pytest.mark.slow
 def test_a_board_that_looks_the_same_both_ways_needs_a_pose_that_is_about_right(
     tmp_path: Path,
 ) -> None:
@@ -138,6 +139,7 @@ def test_a_board_that_looks_the_same_both_ways_needs_a_pose_that_is_about_right(
     assert any("which of two ways" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
     view, board = camera(), read_board(CHESS)
     capture(tmp_path, view, board)
@@ -183,6 +185,7 @@ def test_the_board_is_no_object_but_what_stands_before_it_is(folder: Path) -> No
     assert len(without_board(seen, segments, whole / 100)) == 2
 
 
+@pytest.mark.slow
 def test_the_command_uses_and_keeps_the_camera(
     folder: Path, picture: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -34,6 +34,7 @@ def whole(picture: Picture, tmp_path_factory: pytest.TempPathFactory) -> dict[st
     return positions(reconstruct(Options(capture=folder, settle=False)))
 
 
+@pytest.mark.slow
 def test_what_stands_outside_is_counted_and_leaves_the_rest_as_it_is(
     folder: Path, whole: dict[str, np.ndarray]
 ) -> None:
@@ -66,6 +67,7 @@ def test_a_workspace_without_desk_says_so(folder: Path) -> None:
         calibrate(read_capture(folder), workspace=Workspace(-1.0, -0.9, -0.1, 0.1))
 
 
+@pytest.mark.slow
 def test_an_ignored_mask_is_neither_object_nor_desk_nor_missed(
     folder: Path, whole: dict[str, np.ndarray]
 ) -> None:

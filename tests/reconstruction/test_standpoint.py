@@ -38,6 +38,7 @@ def strip(folder: Path) -> Array:
     return pose
 
 
+@pytest.mark.slow
 def test_objects_come_out_where_the_true_pose_puts_them(folder: Path) -> None:
     true = {s.name: s.center for s in reconstruct(Options(capture=folder, settle=False)).solids}
     pose = strip(folder)

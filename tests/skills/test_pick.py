@@ -192,6 +192,7 @@ def test_a_pan_too_wide_for_the_hand_is_taken_by_its_handle(tmp_path: Path, yaw_
     [((0.40, 0.15), (0.7071, 0.0, -0.7071, 0.0)), ((0.42, 0.0), (0.7071, 0.7071, 0.0, 0.0))],
     ids=["facing the robot", "facing to the right"],
 )
+@pytest.mark.slow
 def test_a_wide_vessel_that_lies_is_taken_through_its_mouth(
     at: tuple[float, float], quaternion: tuple[float, ...]
 ) -> None:

@@ -241,6 +241,7 @@ def test_an_empty_bowl_is_filled_in_the_middle() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.slow
 def test_a_bowl_is_filled_beside_what_is_in_it(count: int) -> None:
     offsets = [(0.0, 0.0), (0.0, 0.06), (0.0, -0.06)][:count]
     inside = {

@@ -250,6 +250,7 @@ def test_hand_from_above_has_no_room_in_a_cabinet() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("board", ["lower", "middle", "top"])
+@pytest.mark.slow
 def test_goes_on_every_board_of_a_shelf(board: str, seed: int) -> None:
     run = episode(seed, rack=RACK, mug=MUG | {"at": [0.36, -0.25]})
     after = run.must("[PICK UP, mug] (horizontal)", f"[PUT ON, rack.{board}]")

@@ -222,6 +222,7 @@ PLAIN = st.recursive(
 
 @settings(max_examples=40)
 @given(st.dictionaries(KEYS.filter(lambda key: key != "<<"), PLAIN, min_size=1, max_size=5))
+@pytest.mark.slow
 def test_json_comes_back_unchanged(data: dict[str, object]) -> None:
     if any("<<" in str(item) for item in data.values()):
         return

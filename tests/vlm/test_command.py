@@ -97,6 +97,7 @@ def etot(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) ->
     return call
 
 
+@pytest.mark.slow
 def test_a_plan(etot: Etot) -> None:
     answer = etot(GOOD, "--model", "some-model")
     assert answer.code == 0
@@ -166,6 +167,7 @@ def test_a_model_that_always_proposes_the_same_failing_plan(etot: Etot) -> None:
     assert notes and all("this is the plan that failed" in text for text in notes)
 
 
+@pytest.mark.slow
 def test_a_model_that_varies_a_hopeless_plan_without_end(etot: Etot) -> None:
     count = 0
 
@@ -283,6 +285,7 @@ def test_unusable_settings(etot: Etot, arguments: list[str], said: str) -> None:
     assert not answer.requests and not answer.report
 
 
+@pytest.mark.slow
 def test_record_and_replay_give_the_same_tree(etot: Etot) -> None:
     first = etot(GOOD, "--record", "tape", world=fails("[PICK UP, cup] [PUT ON, box]"))
     again = etot(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -152,6 +153,7 @@ def read(reply: str) -> list[Step]:
 
 @QUICK
 @given(wrapped())
+@pytest.mark.slow
 def test_wrapping_changes_nothing(case: tuple[list[Step], str]) -> None:
     plan, reply = case
     assert read(reply) == plan
@@ -197,6 +199,7 @@ def test_branches_stay_apart(one: list[Step], two: list[Step], words: str, headi
         ]
     ),
 )
+@pytest.mark.slow
 def test_the_correction_counts_and_not_what_it_quotes(
     old: list[Step], new: list[Step], words: str
 ) -> None:
@@ -224,6 +227,7 @@ def test_json_in_every_wrapping(plan: list[Step], text: bool, tool: bool, before
 
 @QUICK
 @given(wrapped(), st.data())
+@pytest.mark.slow
 def test_a_cut_json_plan_is_no_plan(case: tuple[list[Step], str], data: st.DataObject) -> None:
     plan, _ = case
     steps = [{"action": verb.value, "object": name} for verb, name in plan]
@@ -234,6 +238,7 @@ def test_a_cut_json_plan_is_no_plan(case: tuple[list[Step], str], data: st.DataO
 
 @QUICK
 @given(plans, st.data())
+@pytest.mark.slow
 def test_a_missing_object_spoils_the_plan(plan: list[Step], data: st.DataObject) -> None:
     place = data.draw(st.integers(0, len(plan) - 1))
     lines = [f"{i}. [{verb.value}, {name}]" for i, (verb, name) in enumerate(plan, 1)]
@@ -244,6 +249,7 @@ def test_a_missing_object_spoils_the_plan(plan: list[Step], data: st.DataObject)
 
 @QUICK
 @given(wrapped())
+@pytest.mark.slow
 def test_grounding_never_leaves_the_scene(case: tuple[list[Step], str]) -> None:
     for found in read_plans(case[1]).plans:
         for action in ground(found, SCENE, NAMES).actions:
@@ -264,6 +270,7 @@ rubbish = st.text(
 @example("[PICK UP, " * 300)
 @example("1. " * 3000)
 @example("yes no " * 2000)
+@pytest.mark.slow
 def test_rubbish_is_survived(reply: str) -> None:
     for found in (*read_plans(reply).plans, *read_revision(reply).plans):
         ground(found, SCENE, NAMES)

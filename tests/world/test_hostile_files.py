@@ -164,6 +164,7 @@ def test_a_mesh_that_unpacks_is_refused(folder: Path, name: str, content: bytes)
     assert time.monotonic() - begun < 2 * QUICK_S
 
 
+@pytest.mark.slow
 def test_decomposition_ends(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A spiky ball keeps CoACD busy far longer than anybody waits."""
     monkeypatch.setenv("ETOT_CACHE", str(folder / "cache"))
@@ -193,6 +194,7 @@ def _round() -> bytes:
 
 
 @pytest.mark.parametrize(("name", "content"), [("doubled.stl", _doubled), ("round.obj", _round)])
+@pytest.mark.slow
 def test_meshes_that_keep_decomposition_busy(
     folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, content: Callable[[], bytes]
 ) -> None:

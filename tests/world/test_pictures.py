@@ -82,6 +82,7 @@ def test_robot_and_objects_are_wholly_in_the_picture(path: Path) -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_samples_soften_edges_and_shadows(qpos: np.ndarray) -> None:
     pictures = []
     for samples in (1, 8):
@@ -130,6 +131,7 @@ def test_captions_cover_nothing(qpos: np.ndarray) -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_processes_take_the_same_pictures(qpos: np.ndarray) -> None:
     shots = [Shot(qpos + 0.01 * number) for number in range(FEW + 2)]
     studio = Studio(SCENE, qpos, *SIZE, samples=1)

@@ -139,6 +139,7 @@ def test_actions_are_strung_together_at_even_distances() -> None:
 # -- in the browser ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_browser_gets_the_scene_as_it_is_at_each_moment() -> None:
     pytest.importorskip("viser", reason="the extra etot[view] is not installed")
     from etot_cli.world.viewing.browser import BrowserReplay
