@@ -12,6 +12,7 @@ from difflib import SequenceMatcher
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.language.grammar.text import normalized
 from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     KIND_NOUNS,
@@ -39,7 +40,10 @@ _ATTRIBUTES = ("color", "colour", "size", "shape", "side", "same")
 _BESIDE = ("near", "nearest", "beside", "next", "left", "right", "behind", "between", "where")
 _PICKING = words_of((verbs.PICK,)) - {"of", "me", "and", "place", "up"}
 _INTO = ("in", "into", "inside", "within")
-_BEFORE_PLACES = (*_INTO, "on", "onto", "atop", "over", "to", "under", "above", "below", "beside")
+_AWAY = ("from", "off", "out", "away")
+_BEFORE_PLACES = (
+    *_INTO, *_AWAY, "on", "onto", "atop", "over", "to", "under", "above", "below", "beside",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +77,10 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
 def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     text = refused.instruction
     names = _Names(scene)
-    mentions = _mentions(_UNMADE.split(normalized(text), maxsplit=1)[0], scene, names)
+    meant = re.sub(r"\bclose(?:r|st)? (?:to|as)\b", "near", normalized(text))
+    meant, *denied = _UNMADE.split(meant, maxsplit=1)
+    meant = re.sub("[^,;.]*$", "", meant) if denied else meant  # the clause with it means another
+    mentions = _mentions(meant, scene, names)
     said = [mention.info.name for mention in mentions]
     part = re.search(rf"\bof\s+{re.escape(refused.phrase)}", normalized(text))
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
@@ -86,9 +93,11 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     for shorter in (refused.word and _replaced(text, refused.word, ""), refused.without):
         if shorter and not _BARE.match(shorter) and _UNMADE.findall(normalized(shorter)) == unmade:
             yield shorter
-    if refused.understood:
+    if refused.understood and _UNMADE.findall(normalized(refused.understood)) == unmade:
         yield refused.understood
-    if refused.word and not (refused.candidates or unmade or _is_attribute(refused.word)):
+    if refused.word and not (
+        refused.candidates or unmade or refused.word in REASONS or _is_attribute(refused.word)
+    ):
         others = sorted(
             (info for info in scene.infos.values() if info.name not in said),
             key=lambda info: (
@@ -98,7 +107,7 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
         )
         for info in others[:4]:
             yield _replaced(text, refused.phrase, names.of(info.name))
-    yield from _same_shape(text.casefold(), mentions, names, scene)
+    yield from _same_shape(meant, mentions, names, scene)
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,17 +168,17 @@ def _same_shape(
     held = [item.info for item in mentions if item.info.movable and not item.before] or themes
     if words & _PICKING:
         yield from (f"Pick up {name(info)}" for info in held[:2])
-    if words & set(_BESIDE) and held:
+    if words & set(_BESIDE) and held and not words & set(_AWAY):
         others = [info for info in infos if info is not held[0]]
         yield from (f"Put {name(held[0])} next to {name(info)}" for info in others[:1])
     places = [item for item in mentions if _holds(item.info)]
     for place in places[::-1]:
-        if not place.before and place.info.movable:
+        if place.before in _AWAY or (not place.before and place.info.movable):
             continue
         for info in (*held, *_free(infos, scene)):
             if info is not place.info:
                 yield f"Put {name(info)} {_preposition(place)} {place.name}"
-    if words & set(DESK_NOUNS):
+    if words & set(DESK_NOUNS) and not words & set(_AWAY):
         yield from (f"Put {name(info)} on the desk" for info in held[:2])
     yield from (f"Pick up {name(info)}" for info in (*held, *_free(infos, scene))[:3])
 

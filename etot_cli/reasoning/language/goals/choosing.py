@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
@@ -33,6 +34,24 @@ def check_taken(
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
 
+def check_poured(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "ketchup on the bun" is the bottle: it is where things are but kept."""
+    infos, discourse = context.scene.infos, context.discourse
+    marks = [place.where for place in places if place.where is not None and not place.beside]
+    where = {thing.name for index in marks for thing in discourse.things(index)}
+    if all(not infos[name].movable or is_keeping(infos[name].label) for name in where - {DESK}):
+        return
+    names = dict.fromkeys(thing.name for index in themes for thing in discourse.things(index))
+    for phrase in group.things.phrases:
+        noun = " ".join(phrase.words)
+        packs = tuple(name for name in names if is_poured(noun, name, infos[name].label))
+        if packs and not phrase.determiner and not phrase.modifiers:
+            why = f"say 'the {noun}' where all of it is meant, in what it is in"
+            raise ReferenceProblem(phrase.text, why, 4, word=noun, candidates=packs)
+
+
 def check_describes(
     context: Context,
     condition: State,
@@ -41,12 +60,12 @@ def check_describes(
 ) -> None:
     """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there."""
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
-    below = [thing for index in where for thing in context.discourse.things(index)]
+    below = {thing.name for index in where for thing in context.discourse.things(index)} - {DESK}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
         return
     for index in (index for index in subjects if index not in context.discourse.put):
         for thing in context.discourse.things(index):
-            if any(touches(thing, other, context.scene) for other in below if other.name != DESK):
+            if below & bearers(context.scene, thing.name):
                 text = context.discourse.referents[index].text
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)
 

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.distribution import is_matching, unmatched
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.words.lexicon import singular
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE, Toward.TO: Role.PLACE}
 
@@ -99,6 +100,18 @@ def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place
         names = " and ".join(thing.part or thing.board or thing.name for thing in units)
         why = f"{count} things cannot each have one of their own: there are only {names}"
         raise ReferenceProblem(referents[where[0]].text, why, 3)
+
+
+def count_of_places(context: Context, group: PutGroup, places: Sequence[Place]) -> int:
+    """How many "the bins" or "the two bins" are, any of which may be meant; 0 of other places."""
+    targets = [np for item in group.destinations for np in item.targets]
+    where = [place.where for place in places if place.where is not None and not place.beside]
+    if len(targets) != 1 or len(where) != len(places):
+        return 0
+    (target,) = targets
+    plural = target.words and singular(target.words[-1]) != target.words[-1]
+    there = {thing for index in where for thing in context.discourse.things(index)}
+    return quantity_of(target.determiner).count or (len(there) if plural else 0)
 
 
 def is_one_each(group: PutGroup) -> bool:

@@ -6,21 +6,12 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Grouping,
-    Open,
-    Pick,
-    Place,
-    Put,
-    Step,
-    Thing,
-)
-from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
+    check_poured,
     check_taken,
     choose_by_place,
     choose_from_somewhere,
@@ -30,6 +21,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import (
     by_color,
     check_enough,
+    count_of_places,
     is_by_color,
     is_one_each,
     one_each,
@@ -87,14 +79,14 @@ def put(context: Context, clause: PutClause) -> None:
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
         if is_different(group) and several == 1:
             group = elsewhere(group)
-        targets = [np for item in group.destinations for np in item.targets]
-        so_many = {quantity_of(np.determiner).count for np in targets} == {several}
-        if grouping is Grouping.ANY and several > 1 and so_many:
-            grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
         group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
         places = context.places.of(destinations, themes)
+        so_many = count_of_places(context, group, places) == several > 1
+        if grouping is Grouping.ANY and so_many:
+            grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
         check_taken(context, group, themes, places)
+        check_poured(context, group, themes, places)
         if group.upright:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
@@ -304,17 +296,6 @@ def _shared(
     return replace(group, destinations=tuple(destinations)), grouping
 
 
-def _is_there(
-    context: Context, subjects: Sequence[int], places_of: dict[int, tuple[Place, ...]]
-) -> bool:
-    """Whether things are in or on what others go to ("onto the book with the cup on it")."""
-    discourse = context.discourse
-    marks = [p.where for places in places_of.values() for p in places if p.where is not None]
-    below = {thing.name for index in marks for thing in discourse.things(index)}
-    things = [thing for index in subjects for thing in discourse.things(index)]
-    return any(below & bearers(context.scene, thing.name) for thing in things)
-
-
 def _condition(
     context: Context,
     condition: State,
@@ -337,7 +318,7 @@ def _condition(
         along: list[int | None] = []
         with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
             along = [p.where for p in context.places.of(condition.destinations, subjects, vessels)]
-        if _is_there(context, subjects, places_of) or not set(along) & set(themes):
+        if not set(along) & set(themes):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     places = context.places.of(condition.destinations, subjects, prefer=vessels)

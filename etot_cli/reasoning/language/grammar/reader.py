@@ -186,6 +186,11 @@ def _stopped(given: Input, before: str) -> UnreadableError:
         why = "" if word in given.nouns else known.REASONS.get(word, "")
         if why and index == 0 and word in ("is", "are"):
             why = known.REASONS["what"]
+        if word in ("do", "does", "did") and words[index + 1 : index + 2] in (
+            ("not",),
+            ("nothing",),
+        ):
+            why = known.REASONS["nothing"]
         if not why and word not in given.nouns and known.is_adverb(word):
             why = "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
         switched = word in ("turn", "switch") and words[index + 1 : index + 2] in (

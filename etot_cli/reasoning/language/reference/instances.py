@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.matching import Match
 from etot_cli.reasoning.language.reference.selection import select
-from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
@@ -42,6 +42,10 @@ def usable_ones(
         if not usable:
             check_not_part(phrase.text, things)
     if not usable:
+        noun = phrase.words[-1] if phrase.words else ""
+        if role is Role.THEME and matches_any(noun, JOINT_NOUNS["hinge"]):
+            why = f"nothing is called {noun!r} that could be picked up"
+            raise ReferenceProblem(phrase.text, why, 2, word=noun)
         names = ", ".join(dict.fromkeys(thing.name for thing in things))
         raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
     at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]

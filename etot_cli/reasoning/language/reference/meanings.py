@@ -184,7 +184,8 @@ class Meanings:
                 return resolved
         except ReferenceProblem as error:
             others = quantity_of(phrase.determiner).other
-            if not elliptic and (phrase.words or not others):
+            counted = isinstance(error, AmbiguousReference)  # what is left of them, or a number
+            if counted or (not elliptic and (phrase.words or not others)):
                 raise
             problem = error
         found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}

@@ -159,14 +159,14 @@ def narrowed_to(
 
 
 def as_rest(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> NounPhrase:
-    """After "two of the cups" of three "the third" is the other one."""
+    """After "two of the cups" of three "the third" or "the last" is the other one."""
     alone = phrase.words[1:] in ((), ("one",), (noun,)) and not phrase.modifiers
     said = phrase.words[0] if alone and phrase.words and phrase.determiner == "the" else ""
     number = ORDINALS.get(said, -1)
     for mention in discourse.mentions:
         options = discourse.referents[mention.referent].options
-        so_many = len(options) > 1 and {len(option) for option in options} == {number}
-        every = len(set(discourse.things(mention.referent))) == number + 1
-        if noun and same_noun(mention.noun, noun) and so_many and every:
+        left = {len(set(discourse.things(mention.referent))) - len(option) for option in options}
+        counted = said == "last" or {len(option) for option in options} == {number}
+        if noun and same_noun(mention.noun, noun) and left == {1} and len(options) > 1 and counted:
             return replace(phrase, determiner="the other", words=(singular(noun),))
     return phrase

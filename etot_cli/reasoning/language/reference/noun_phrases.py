@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
-from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD
+from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD, SHAPES
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.matching import is_object
@@ -225,7 +225,14 @@ class Resolver:
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         unclear = phrase.loose and len(words) == 1 and len(things) > 1
         unclear |= match.loose and quantity.definite and len(kinds) > 1
-        if unclear and count == 1:
+        shape = generic and role is Role.THEME and singular(words[-1]) in {*SHAPES, "box"}
+        # A mat has the shape of a box, and is called none.
+        shape = (
+            shape
+            and len(kinds) > 1
+            and any(space.is_flat(self._scene.infos[t.name]) for t in things)
+        )
+        if shape or (unclear and count == 1):
             raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
         mass = words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1]
         counted = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)

@@ -15,6 +15,9 @@ from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, S
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
+ELONGATED = 2.0
+"""What is so many times longer than wide is called long, among things of other shapes."""
+
 
 def side_word(phrase: str) -> str | None:
     """The side that "on the far left of the desk" and "farthest to the left" name."""
@@ -209,6 +212,9 @@ def _nth(
 def _by_size(
     word: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
+    if word == "long":  # A pan is wider than a carrot, and not long.
+        sides = {thing: sorted(scene.infos[thing.name].size) for thing in things}
+        things = [t for t, size in sides.items() if size[2] >= ELONGATED * size[1]] or things
     measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
     last = measure(_leading(ordered, count, phrase)[-1])

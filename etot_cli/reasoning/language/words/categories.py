@@ -31,7 +31,7 @@ _PASTRIES = word_set(
 _SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
 _DRINKS = word_set(
     "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
-    "pepsi fanta kombucha redbull gatorade"
+    "pepsi fanta kombucha redbull gatorade gin vodka rum whisky whiskey tequila"
 )
 _SPICES = word_set(
     "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron"
@@ -119,9 +119,12 @@ SORTS: dict[str, frozenset[str]] = {
 """Category words, several for one thing, with the nouns of what counts among it."""
 PACKED = _DRINKS | _SPICES | _SAUCES | _SWEETS | _OTHER_FOOD | _FRUIT | _VEGETABLES | _TOILETRIES
 """What a can, carton or slice of it is still called by (a milk carton is among "the drinks")."""
-PACKS = word_set(
-    "can tin carton bottle jar packet pack bag box tube pouch bar leaf slice wedge fillet clove"
-)
+_POURED = word_set(
+    "shampoo conditioner lotion toothpaste perfume detergent bleach glue oil honey soup sugar flour"
+).union(_DRINKS, _SPICES, _SAUCES)
+_KEEPING = word_set("basket hamper crate box bin bag tray rack cooler caddy cart sink trash can")
+_OF_A_PIECE = word_set("bar leaf slice wedge fillet clove")
+PACKS = _OF_A_PIECE | word_set("can tin carton bottle jar packet pack bag box tube pouch")
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
@@ -147,3 +150,16 @@ def is_category(word: str) -> bool:
 def members_of(category: str) -> frozenset[str]:
     """The nouns, in the singular, of what counts among a category; empty where it is none."""
     return CATEGORIES.get(category) or CATEGORIES.get(singular(category), frozenset())
+
+
+def is_poured(noun: str, name: str, label: str) -> bool:
+    """Whether a noun without an article is rather some of what a thing so called holds."""
+    head, _, content = label.casefold().partition(" of ")
+    if noun and content == noun:
+        return singular(noun) == noun and head.split()[-1] in PACKS - _OF_A_PIECE
+    return noun in _POURED and noun in f"{label} {name}".casefold().replace("_", " ").split()
+
+
+def is_keeping(label: str) -> bool:
+    """Whether things are put into what has a label to be carried or kept, in their packs."""
+    return singular(label.casefold().split()[-1]) in _KEEPING

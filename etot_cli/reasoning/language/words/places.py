@@ -77,7 +77,7 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.UNDER: "underneath, under, below, beneath",
     Prep.ABOVE: "above, over",
     Prep.NEAREST: "(closest|nearest|closer|nearer) [to]",
-    Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from, away from",
+    Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from",
 }
 INTO = "in to, into, inside [of], in, within"
 ON_TOP_OF = "on [the] top of, atop"
