@@ -19,6 +19,7 @@ _KEEPS = {
     Avoid.CLOSE: Keep.OPEN,
 }
 
+_TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 _ONES = (("one",), ("ones",))
 
 
@@ -37,10 +38,12 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
         _rule_out_things(context, clause)
-        # "Do not put the plum there, put it here" speaks of the plum.
+        # "Do not put the plum there, put it here" speaks of the plum, and "in the red one" of what
+        # "there" is.
         said = context.discourse.mentions[before:]
-        kept = [mention for mention in said if mention.role is Role.THEME]
-        context.discourse.mentions[before:] = [] if before else kept
+        kept = [mention for mention in said if mention.role is Role.THEME and not before]
+        kept += [replace(m, role=Role.ANY, clause=0) for m in said if m.role in _TARGETS]
+        context.discourse.mentions[before:] = kept
         return
     indices = context.phrases.things(clause.things, role)
     for referent in (context.discourse.referents[index] for index in indices):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import BE, COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE
+from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
@@ -44,7 +44,15 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Spoken,
     Things,
 )
-from etot_cli.reasoning.language.grammar.taking import COVER, EMPTY, FILL, HAND_OVER, PICK, REMOVE
+from etot_cli.reasoning.language.grammar.taking import (
+    COVER,
+    EMPTY,
+    FILL,
+    HAND_OVER,
+    PICK,
+    REMOVE,
+    SOURCE,
+)
 from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
@@ -179,7 +187,7 @@ LED_CLAUSE = Rule(
 )
 
 
-GONE = located(
+_GONE = located(
     either(
         sequence(
             NP_LIST,
@@ -207,3 +215,27 @@ GONE = located(
     lambda at, clause: (Spoken(clause, at),),
 )
 """What has been done by then ("once the pear has been put into the bowl")."""
+_SO_BY_THEN = located(
+    either(
+        sequence(
+            NP_LIST,
+            BE,
+            DESTINATIONS,
+            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
+        ),
+        sequence(NP_LIST, BE, SOURCE, build=lambda nps, source: RemoveClause(Things(nps), source)),
+        sequence(
+            NP_LIST,
+            BE,
+            OPEN_OR_CLOSED,
+            build=lambda nps, word: MoveClause(Things(nps), word == "open"),
+        ),
+    ),
+    lambda at, clause: (Spoken(clause, at),),
+)
+"""What is so by then; "when" might ask whether it is."""
+EARLIER = either(
+    sequence(silent(phrase(small_words.AFTER)), either(LED_CLAUSE, _GONE), build=lambda done: done),
+    sequence(silent(phrase("once, after")), _SO_BY_THEN, build=lambda done: done),
+)
+"""What comes before the rest of a sentence."""

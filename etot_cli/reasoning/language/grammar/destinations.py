@@ -36,8 +36,17 @@ TARGETS = sequence(
 )
 
 
-def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination]:
-    return lambda targets: Destination(toward, targets)
+_HOMES = frozenset(spellings(places.HOME))
+
+
+def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination | None]:
+    """Where things go, but for where they were ("to its original position")."""
+
+    def build(targets: tuple[NounPhrase, ...]) -> Destination | None:
+        home = any(f"{said} {np.text}" in _HOMES for np in targets for said in ("to", "in"))
+        return None if home else Destination(toward, targets)
+
+    return build
 
 
 def _region(regions: tuple[Nearby, ...], phrases: Any) -> tuple[Beside, ...]:
@@ -119,14 +128,7 @@ OVER = sequence(
 )
 
 
-def _to_target(targets: tuple[NounPhrase, ...]) -> Destination | None:
-    """Where things go, but for where they were ("to its original position")."""
-    home = any(f"to {np.text}" in _HOMES for np in targets)
-    return None if home else Destination(Toward.TO, targets)
-
-
-_HOMES = frozenset(spellings(places.HOME))
-_to = sequence(silent(phrase(places.TO)), TARGETS, build=_to_target)
+_to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
 _top_of = sequence(
     silent(phrase(places.ONTO)),
     noun_phrase,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
@@ -130,11 +131,16 @@ _BY_COLOR = sequence(
 )
 
 
-def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[NounPhrase, ...]) -> Any:
-    """Things one after the other; what stands before "then" with a place was rather put there."""
-    before = (first, *more[:-1])
+def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
+    """Things one after the other; what stands before "then" with a place was rather put there, and
+    "the cup, the left one" is one thing.
+    """
+    before = (first, *(np for _, np in more[:-1]))
     placed = any(item.phrases for np in before for item in np.modifiers)
-    return None if placed and not first_said else Things((first, *more))
+    apposed = any(not then and np.words[-1:] == ("one",) for then, np in more)
+    if (placed and not first_said) or apposed or not any(then for then, _ in more):
+        return None
+    return Things((first, *(np for _, np in more)))
 
 
 _FIRST_THEN = sequence(
@@ -142,11 +148,14 @@ _FIRST_THEN = sequence(
     noun_phrase,
     silent(optional(phrase("first"), None)),
     some(
-        sequence(
-            OPTIONAL_COMMA,
-            silent(phrase(small_words.THEN_JOINTS)),
-            noun_phrase,
-            build=lambda np: np,
+        either(
+            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(
+                OPTIONAL_COMMA,
+                silent(phrase(small_words.THEN_JOINTS)),
+                noun_phrase,
+                build=lambda np: (True, np),
+            ),
         ),
         least=1,
         most=4,
@@ -188,8 +197,14 @@ _INSTEAD = sequence(
 def _elsewhere(
     things: Things, out: tuple[Destination, ...], where: tuple[Destination, ...]
 ) -> PutClause:
-    """Things that go to one place and not to another ("not in the box but on the tray")."""
-    return PutClause((PutGroup(things, where),), ruled_out=out)
+    """Things that go to one place and not to another ("not in the red box but in the blue one")."""
+    (*_, noun) = (word for item in out for np in item.targets for word in ("", *np.words[-1:]))
+    group = PutGroup(things, where).going_to(
+        lambda np: (
+            replace(np, words=(*np.words[:-1], noun)) if noun and np.words[-1:] == ("one",) else np
+        )
+    )
+    return PutClause((group,), ruled_out=out)
 
 
 _IT = Things((NounPhrase(pronoun="it", text="it"),))

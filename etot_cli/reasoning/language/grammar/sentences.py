@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.clauses import GONE, LEAD, LED_CLAUSE, LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.clauses import EARLIER, LEAD, LED_CLAUSE, LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
@@ -67,8 +67,7 @@ _JOINED = either(
     ),
     sequence(
         OPTIONAL_COMMA,
-        silent(phrase(small_words.AFTER)),
-        either(LED_CLAUSE, GONE),
+        EARLIER,
         build=lambda clause: ("after", clause),
     ),
     sequence(
@@ -236,8 +235,7 @@ SENTENCE = either(
     ),
     sequence(
         LEAD,
-        silent(phrase(small_words.AFTER)),
-        either(LED_CLAUSE, GONE),
+        EARLIER,
         COMMA,
         CHAIN,
         build=lambda orders, earlier, rest: None if orders else (*earlier, *_then(rest)),

@@ -183,7 +183,7 @@ ENSURE = either(
         silent(phrase(verbs.MODAL)),
         PREDICATE,
         # "…, the ball in the cup": the verb is left out.
-        some(sequence(LIST, NP_LIST, DESTINATIONS, build=state_of), most=4),
+        some(sequence(LIST, NP_LIST, PREDICATE, build=state_of), most=4),
         build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
     sequence(

@@ -17,7 +17,13 @@ ROOMY = 2.0
 
 
 def antecedents(
-    discourse: Discourse, pronoun: str, role: Role, text: str, excluded: Sequence[int] = ()
+    discourse: Discourse,
+    pronoun: str,
+    role: Role,
+    text: str,
+    excluded: Sequence[int] = (),
+    *,
+    topmost: bool = False,
 ) -> tuple[int, ...]:
     """The referents that a pronoun means.
 
@@ -27,6 +33,7 @@ def antecedents(
         role: what it is used for.
         text: the whole phrase, for messages.
         excluded: referents that it cannot mean.
+        topmost: it is what something goes on top of, so what was put somewhere rather than that.
 
     Raises:
         AmbiguousReference: several things are as likely to be meant.
@@ -37,10 +44,17 @@ def antecedents(
         if not found:
             raise ReferenceProblem(text, UNCLEAR, 2)
         return found
-    return (meant_by_it(discourse, role, text, excluded),)
+    return (meant_by_it(discourse, role, text, excluded, topmost=topmost),)
 
 
-def meant_by_it(discourse: Discourse, role: Role, text: str, excluded: Sequence[int] = ()) -> int:
+def meant_by_it(
+    discourse: Discourse,
+    role: Role,
+    text: str,
+    excluded: Sequence[int] = (),
+    *,
+    topmost: bool = False,
+) -> int:
     """What "it" means in a role, of the latest clause that has anything to play it: the one
     thing that was acted on there, else the one place that something went to, else the one
     landmark. Where that thing went to a place that could be meant as well ("put the plum into
@@ -52,11 +66,18 @@ def meant_by_it(discourse: Discourse, role: Role, text: str, excluded: Sequence[
     """
     for clause in _clauses(discourse):
         acted_on, places, landmarks = _mentioned_in(discourse, clause, role, excluded)
+        if topmost and len(acted_on) > 1:
+            last = _put_last(discourse, clause, excluded)
+            acted_on = tuple(index for index in acted_on if index in last)
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
         if len(acted_on) == 1:
-            rivals = [place for place in places if _rivals(discourse, place, acted_on[0], role)]
+            rivals = [
+                place
+                for place in places
+                if not topmost and _rivals(discourse, place, acted_on[0], role)
+            ]
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):
@@ -65,6 +86,7 @@ def meant_by_it(discourse: Discourse, role: Role, text: str, excluded: Sequence[
                     for i in landmarks
                     if not own & {t.name for t in discourse.things(i)}
                     and not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
+                    and not (role is Role.CONTAINER and _stood_on(discourse, acted_on[0], i))
                 ]
             found = (*acted_on, *rivals)
         else:
@@ -162,6 +184,27 @@ def _rivals(discourse: Discourse, place: int, theme: int, role: Role) -> bool:
     if role is Role.CONTAINER:
         return discourse.put_into.get(theme) == place
     return all(discourse.scene.infos[thing.name].movable for thing in things)
+
+
+def _put_last(discourse: Discourse, clause: int, excluded: Sequence[int]) -> tuple[int, ...]:
+    """What went together to the latest place of a clause that says where several things go."""
+    last: list[int] = []
+    named: list[int] = []
+    for mention in discourse.mentions:
+        if mention.clause == clause and mention.referent not in excluded:
+            if mention.role is Role.THEME:
+                named.append(mention.referent)
+            elif mention.role is not Role.ANY:
+                last, named = named or last, []
+    return tuple(last)
+
+
+def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
+    """Whether things stood on top of what has drawers or doors, and in none of these."""
+    scene = discourse.scene
+    below = [scene.infos[t.name] for t in discourse.things(furniture) if t.name in scene.infos]
+    inside = [scene.states[thing.name].inside for thing in discourse.things(theme)]
+    return all(info.parts and not info.container for info in below) and not any(inside)
 
 
 def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:

@@ -112,6 +112,17 @@ class Entry:
         other = heads & (COMMON_NOUNS - SHAPES) and singular(word) in COMMON_NOUNS
         return not holds and not other
 
+    def is_pack_of(self, before: str, word: str) -> bool:
+        """Whether its label ends with two words and one for a pack of that ("soy sauce bottle")."""
+        solid = self.info is not None and not self.info.container
+        named = self.called[0][-3:-1] == (before, word) and self.called[0][-1] in PACKS
+        return solid and named and word in PACKED
+
+    def is_sort_of(self, word: str) -> bool:
+        """Whether its label is a name and what it tastes of ("crispo vanilla")."""
+        named = self.called[0][0] == word and word not in COMMON_NOUNS and word not in PACKED
+        return named and len(self.called[0]) == 2 and self.called[0][1] in PACKED
+
     def counts_among(self, members: frozenset[str]) -> bool:
         """Whether it is called by one of some nouns, or is a pack of what is."""
         heads = {*map(singular, (*self.heads, *self.content))}

@@ -127,7 +127,10 @@ def match_words(
     pools = _pools(vocabulary, head, adjectives, parts_first, upon)
     grades = {entry.grade(head) for entry in everything} - {None}
     if not grades:
-        pools.append(vocabulary.of_category(head) or vocabulary.short_names(head, place=place))
+        before = words[-2] if len(words) > 1 and phrase.split()[0] != words[0] else ""
+        pools.append(
+            vocabulary.of_category(head) or vocabulary.short_names(head, place=place, before=before)
+        )
     elif grades == {GENERIC} and singular(head) != head:
         pools.insert(0, vocabulary.of_category(head))  # plates are dishes, too, beside a bowl
     for pool in pools:

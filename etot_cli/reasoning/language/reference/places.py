@@ -13,7 +13,11 @@ from etot_cli.reasoning.language.grammar.destinations import TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
-from etot_cli.reasoning.language.reference.coreference import latest_place, places_spoken_of
+from etot_cli.reasoning.language.reference.coreference import (
+    antecedents,
+    latest_place,
+    places_spoken_of,
+)
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.instances import check_not_part
@@ -91,7 +95,7 @@ class Places:
                 found = [
                     place
                     for phrase in destination.targets
-                    for place in self._targets(destination.toward, phrase, themes)
+                    for place in self._targets(destination, phrase, themes)
                 ]
                 inside = any(place.relation is Relation.INSIDE for place in found)
                 if inside and destination.word == OVER:
@@ -104,7 +108,10 @@ class Places:
             places.update(dict.fromkeys(found))
         return tuple(places)
 
-    def _targets(self, toward: Toward, phrase: NounPhrase, themes: Sequence[int]) -> list[Place]:
+    def _targets(
+        self, destination: Destination, phrase: NounPhrase, themes: Sequence[int]
+    ) -> list[Place]:
+        toward = destination.toward
         role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
         bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
         targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
@@ -112,7 +119,8 @@ class Places:
         if bare and (toward is Toward.TO or not spoken):
             raise ReferenceProblem(phrase.text, "say to which side of what", 2)
         found = []
-        for index in self._phrases.refer(phrase, role, themes):
+        topmost = destination.word == TOP and self._lies_on_it(phrase, role, themes)
+        for index in self._phrases.refer(phrase, role, themes, topmost=topmost):
             options = self.discourse.referents[index].options
             every = quantity_of(usual_form(phrase).determiner).every
             if every and any(len(option) > 1 for option in options):
@@ -126,6 +134,17 @@ class Places:
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
+
+    def _lies_on_it(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> bool:
+        """Whether things lie on what was put somewhere last, and do not sink into it."""
+        laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        with suppress(ReferenceProblem):
+            found = antecedents(
+                self.discourse, phrase.pronoun, role, phrase.text, themes, topmost=True
+            )
+            things = [thing for index in found for thing in self.discourse.things(index)]
+            return all(lies_on(laid, thing, self._scene) for thing in things)
+        return False
 
     def _on_first(self, phrase: NounPhrase, places: list[Place]) -> list[Place]:
         """What is brought to a chest of drawers goes on top of it rather than into a drawer, unless

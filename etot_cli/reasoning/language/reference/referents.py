@@ -97,9 +97,16 @@ class Phrases(Meanings):
             raise AmbiguousReference(phrase.text, named, f"{text!r} may be meant, too:")
 
     def refer(
-        self, phrase: NounPhrase, role: Role, excluded: Sequence[int] = ()
+        self,
+        phrase: NounPhrase,
+        role: Role,
+        excluded: Sequence[int] = (),
+        *,
+        topmost: bool = False,
     ) -> tuple[int, ...]:
-        """The referents of a phrase, none of ``excluded``; a plural pronoun may have several."""
+        """The referents of a phrase, none of ``excluded``; a plural pronoun may have several.
+        ``topmost``: as for :func:`antecedents`.
+        """
         phrase = self.told_by_themes(phrase)
         plain_pronoun = phrase.pronoun and not phrase.modifiers
         if plain_pronoun and not chooses(phrase.determiner):
@@ -109,6 +116,7 @@ class Phrases(Meanings):
                 role,
                 phrase.text,
                 excluded,
+                topmost=topmost,
             )
             for index in found:
                 self.discourse.mention_again(index, role)

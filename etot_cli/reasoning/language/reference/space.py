@@ -139,6 +139,17 @@ def _levels_up(low: Thing, high: Thing, scene: SceneState) -> int:
     return found[1] - found[0] if len(found) == 2 else 0
 
 
+def _level_of(thing: Thing, furniture: Thing, scene: SceneState) -> Thing:
+    """The part or board of a piece of furniture that a thing is in or on, else the thing."""
+    if furniture.name in (thing.name, DESK) or thing.name not in scene.states:
+        return thing
+    info = scene.infos[furniture.name]
+    levels = [Thing(info.name, part.name) for part in info.parts]
+    levels += [Thing(info.name, board=board) for board in info.boards]
+    found = (it for it in levels if rests_on(thing, it, scene) or lies_in(thing, it, scene))
+    return next(found, thing)
+
+
 def holds_at(
     prep: Prep, thing: Thing, landmarks: Sequence[Thing], scene: SceneState
 ) -> bool | None:
@@ -163,7 +174,8 @@ def holds_at(
             or _levels_up(thing, landmark, scene) == 1
         ),
         Prep.ABOVE: lambda landmark: (
-            landmark.name in _bearers(thing, scene) or _levels_up(landmark, thing, scene) == 1
+            landmark.name in _bearers(thing, scene)
+            or _levels_up(_level_of(landmark, thing, scene), thing, scene) == 1
         ),
     }
     if prep in tests:

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
     ORDINALS,
     PACKS,
+    PAIRED,
     SIDES,
     SIZES,
     is_descriptive,
@@ -70,13 +71,21 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         head = out.phrases[0].words[-1]
         return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
     of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
-    if of is not None and singular(last) in PACKS and of.phrases[0].words:
-        (inner,) = of.phrases
-        if not (inner.determiner or inner.modifiers or is_descriptive(inner.words[0])):
+    if of is not None and last and of.phrases[0].words:
+        (inner, *_) = of.phrases
+        if singular(last) in PACKS and not (
+            inner.determiner or inner.modifiers or is_descriptive(inner.words[0])
+        ):
             # "The packet of rice" is the rice packet.
             words = (*phrase.words[:-1], *inner.words, last)
             rest = tuple(item for item in phrase.modifiers if item is not of)
             return usual_form(replace(phrase, words=words, modifiers=rest))
+        if singular(last) == "pair" and inner.words[-1] in PAIRED and not inner.determiner:
+            words = (*phrase.words[:-1], *inner.words)
+            rest = tuple(item for item in phrase.modifiers if item is not of)
+            return usual_form(replace(phrase, words=words, modifiers=(*inner.modifiers, *rest)))
+    if phrase.determiner == "a pair of" and last in PAIRED:
+        phrase = replace(phrase, determiner="a")
     first = phrase.words[0] if phrase.words else ""
     several = (quantity_of(phrase.determiner).count or 1) > 1
     if several and LEVELS.get(first) in ("top", "bottom") and len(phrase.words) > 1:

@@ -59,12 +59,14 @@ class Vocabulary:
             entry.thing: entry for entry in (*self.objects, *self.parts, *self.boards, self.desk)
         }
 
-    def short_names(self, noun: str, *, place: bool) -> list[Entry]:
+    def short_names(self, noun: str, *, place: bool, before: str = "") -> list[Entry]:
         """Entries of one label that a noun is short for, with it as a noun of theirs.
 
         Args:
             noun: what nothing else is called by.
             place: something is to go there, so that rubbish is what is for it.
+            before: the word before it, where an article says that a thing is meant and not some of
+                what is in a pack.
         """
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
@@ -75,9 +77,14 @@ class Vocabulary:
             told = [entry for entry in told if entry.info is None or not entry.info.container]
         if word not in RUBBISH and any(word in group for group in TWINS):
             return []  # a remote of the TV is no TV
-        if is_general_noun(word) or len({entry.called[:1] for entry in told}) > 1:
+        packed = [entry for entry in told if entry.is_pack_of(before, word)]
+        sorts = len({entry.called[:1] for entry in told}) > 1
+        if is_general_noun(word) or (
+            sorts and not packed and not all(entry.is_sort_of(word) for entry in told)
+        ):
             return []
-        fitting = all(
+        told = packed or told
+        fitting = bool(packed) or all(
             entry.info is not None and entry.info.container if for_it else entry.is_short_for(word)
             for entry in told
         )

@@ -38,6 +38,13 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
 KIND_NOUNS = {
     kind: tuple(noun for group in groups for noun in group) for kind, groups in KIND_GROUPS.items()
 }
+PAIRED = word_set(
+    """
+    scissors pliers tongs tweezers shears clippers pincers forceps goggles binoculars sunglasses
+    headphones trousers pants jeans shorts tights
+    """
+)
+"""Of these a pair is one thing."""
 PACKS = (
     *KIND_GROUPS["box"][1],
     *(n for group in KIND_GROUPS["cylinder"][1:] for n in group),

@@ -97,6 +97,8 @@ HERE = "inside, in there, on there, there, on top, in, into it"
 HOME = """
     back [to its place], to (its|their|the) [original|old|previous] (place|places|position|spot),
     back to (its|their) [original|old] (place|places|position|spot),
+    back in (its|their) (place|places|position|spot),
+    [back] in (its|their) (original|old|previous) (place|places|position|spot),
     [back] (to|) where (it|they) (was|were|came from),
     [back] to where (it|they) (was|were) before, to its original position,
     back where (it|they) belong[s]
