@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import statistics
 import time
 from collections.abc import Iterator
@@ -60,6 +61,9 @@ def test_refused(name: str, text: str, wanted: str) -> None:
     assert head == "  what would be "
     assert goal_of(instead, SCENES[name]) is not None
     assert "_" not in instead, "things are called what people call them"
+    sentence = text.split(".")[0]
+    denied = re.search(r"\b(not|never|neither|without|except)\b|n't", sentence)
+    assert not (denied and instead.startswith("Put ")) or re.search(r"not|n't|without|exc", instead)
 
 
 @pytest.mark.parametrize(

@@ -30,10 +30,12 @@ Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _UNMADE = re.compile(
-    r"\b(?:not|never|neither|nor|no|none|nothing|without|except|but|instead)\b", re.IGNORECASE
+    r"\b(?:not|never|neither|nor|no|none|nothing|without|except|but|instead|\w+n't)\b",
+    re.IGNORECASE,
 )
 """Words that turn a meaning round: what they are about is no part of a rewording, nor are they
 left out of one."""
+_NEARNESS = re.compile(r"\bclose(?:r|st)? (?:to|as)\b")
 _BARE = re.compile(r"(?:the|a|an)\b", re.IGNORECASE)
 """What begins so has lost its verb."""
 _ATTRIBUTES = ("color", "colour", "size", "shape", "side", "same")
@@ -75,31 +77,43 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
 
 
 def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
-    text = refused.instruction
-    names = _Names(scene)
-    meant = re.sub(r"\bclose(?:r|st)? (?:to|as)\b", "near", normalized(text))
-    meant, *denied = _UNMADE.split(meant, maxsplit=1)
-    meant = re.sub("[^,;.]*$", "", meant) if denied else meant  # the clause with it means another
+    text, names = normalized(refused.instruction), _Names(scene)
+    unmade = _UNMADE.findall(text)
+    meant = _UNMADE.split(_NEARNESS.sub("near", text), maxsplit=1)[0]
+    if unmade:
+        meant = re.sub("[^;.]*$", "", meant)  # the sentence with it means another
     mentions = _mentions(meant, scene, names)
-    said = [mention.info.name for mention in mentions]
+    said = [mention.info for mention in mentions]
+    yield from (
+        near
+        for near in _changed(refused, said, names, scene)
+        if _UNMADE.findall(normalized(near)) == unmade
+    )
+    barred = [mention.info for mention in _mentions(text, scene, names) if unmade]
+    yield from _same_shape(meant, mentions, names, scene, barred)
+
+
+def _changed(
+    refused: Refused, said: Sequence[ObjectInfo], names: _Names, scene: SceneState
+) -> Iterator[str]:
+    """The sentence with the words exchanged or left out at which it was refused."""
+    text = refused.instruction
     part = re.search(rf"\bof\s+{re.escape(refused.phrase)}", normalized(text))
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
         yield _replaced(text, refused.phrase, names.of(name))
-    unmade = _UNMADE.findall(normalized(text))
     if refused.without and not refused.understood:
         yield f"Put {refused.without}"  # in place of a verb that is not known
         if _BARE.match(refused.without):
             yield f"Pick up {refused.without}"
     for shorter in (refused.word and _replaced(text, refused.word, ""), refused.without):
-        if shorter and not _BARE.match(shorter) and _UNMADE.findall(normalized(shorter)) == unmade:
+        if shorter and not _BARE.match(shorter):
             yield shorter
-    if refused.understood and _UNMADE.findall(normalized(refused.understood)) == unmade:
+    if refused.understood:
         yield refused.understood
-    if refused.word and not (
-        refused.candidates or unmade or refused.word in REASONS or _is_attribute(refused.word)
-    ):
+    denied = _UNMADE.search(normalized(text)) or refused.word in REASONS
+    if refused.word and not (refused.candidates or denied or _is_attribute(refused.word)):
         others = sorted(
-            (info for info in scene.infos.values() if info.name not in said),
+            (info for info in scene.infos.values() if info not in said),
             key=lambda info: (
                 not info.movable,
                 -SequenceMatcher(None, refused.word, info.label).ratio(),
@@ -107,7 +121,6 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
         )
         for info in others[:4]:
             yield _replaced(text, refused.phrase, names.of(info.name))
-    yield from _same_shape(meant, mentions, names, scene)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,9 +163,13 @@ def _kinds(info: ObjectInfo) -> tuple[str, ...]:
 
 
 def _same_shape(
-    text: str, mentions: Sequence[_Mention], names: _Names, scene: SceneState
+    text: str,
+    mentions: Sequence[_Mention],
+    names: _Names,
+    scene: SceneState,
+    barred: Sequence[ObjectInfo],
 ) -> Iterator[str]:
-    """Requests of the sentence's own kind about what it speaks of."""
+    """Requests of the sentence's own kind about what it speaks of, and nothing that is barred."""
     words = set(re.findall(r"[^\W_]+", text))
     infos = [mention.info for mention in mentions]
     called = {mention.info.name: mention.name for mention in mentions}
@@ -175,12 +192,12 @@ def _same_shape(
     for place in places[::-1]:
         if place.before in _AWAY or (not place.before and place.info.movable):
             continue
-        for info in (*held, *_free(infos, scene)):
+        for info in (*held, *_free((*infos, *barred), scene)):
             if info is not place.info:
                 yield f"Put {name(info)} {_preposition(place)} {place.name}"
     if words & set(DESK_NOUNS) and not words & set(_AWAY):
         yield from (f"Put {name(info)} on the desk" for info in held[:2])
-    yield from (f"Pick up {name(info)}" for info in (*held, *_free(infos, scene))[:3])
+    yield from (f"Pick up {name(info)}" for info in (*held, *_free((*infos, *barred), scene))[:3])
 
 
 def _is_attribute(word: str) -> bool:
