@@ -8,14 +8,14 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Destination, Things
+from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.referents import Phrases
-from etot_cli.reasoning.language.reference.space import is_support
+from etot_cli.reasoning.language.reference.space import is_support, touches
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -49,7 +49,9 @@ class Context:
         return self.discourse.add(alone, text, Role.THEME)
 
     def tell_others(self, things: Things, destinations: Sequence[Destination]) -> None:
-        """Before anything is spoken of, "the other cups" are those that go on "the red cup"."""
+        """Before anything is spoken of, "the other cups" are those that go on "the red cup", and
+        "the other glove" that goes on the bench is the one that is not there.
+        """
         targets = [np for item in destinations for np in item.targets if np.words]
         for phrase in (np for np in things.phrases if np.words):
             noun = phrase.words[-1]
@@ -60,6 +62,24 @@ class Context:
                     words = (*np.words[:-1], singular(noun)) if one else np.words
                     if same_noun(words[-1], noun):
                         self.phrases.refer(replace(np, words=words), Role.ANY)
+                    else:
+                        self._tell_there(phrase, np)
+
+    def _tell_there(self, phrase: NounPhrase, place: NounPhrase) -> None:
+        """Speaks of those of some things that are at a place already."""
+        every = replace(phrase, determiner="all", modifiers=())
+        with suppress(ReferenceProblem):
+            named = self.phrases.meaning(every, Role.THEME)
+            marks = self.phrases.meaning(place, Role.PLACE).options
+            there = tuple(
+                thing
+                for thing in named.options[0]
+                if len(marks) == 1 and any(touches(thing, mark, self.scene) for mark in marks[0])
+            )
+            plural = singular(phrase.words[-1]) != phrase.words[-1]
+            if there and len(named.options[0]) - len(there) > plural:
+                here = replace(named, options=(there,), definite=False)
+                self.discourse.add(here, phrase.text, Role.ANY)
 
     def only(self, index: int, why: str) -> tuple[Thing, ...]:
         """What a referent stands for, where there must be no choice."""

@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
-from etot_cli.reasoning.language.grammar.putting import PUT
+from etot_cli.reasoning.language.grammar.putting import PUT, PUT_GROUP
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
@@ -75,6 +75,13 @@ def _of_the_things(clause: Clause, said: Modifier) -> Clause | None:
     return replace(found, far_fetched=1) if isinstance(found, PutClause) else None
 
 
+def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
+    """All of them go to one place but for some that go to another."""
+    out = excepting(group.things.phrases)
+    found = None if out is None or group.things.either else excluding(clause, out)
+    return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
+
+
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
@@ -89,6 +96,7 @@ CLAUSE = located(
             _ASKED,
             sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
             sequence(PUT, OPTIONAL_COMMA, either(CONTRASTED, APPOSED), build=_of_the_things),
+            sequence(PUT, OPTIONAL_COMMA, silent(phrase("but")), PUT_GROUP, build=_but_some),
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),
