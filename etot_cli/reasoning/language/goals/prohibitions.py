@@ -42,7 +42,8 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         # "there" is.
         said = context.discourse.mentions[before:]
         kept = [mention for mention in said if mention.role is Role.THEME and not before]
-        kept += [replace(m, role=Role.ANY, clause=0) for m in said if m.role in _TARGETS]
+        targets = [replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
+        kept += [replace(m, clause=0) for m in targets] if before else targets
         context.discourse.mentions[before:] = kept
         return
     indices = context.phrases.things(clause.things, role)
