@@ -107,16 +107,18 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
 
     A slip is a letter too many, missing, wrong, or two exchanged; two of them in words of eight
     letters or more. Words of up to three letters and first letters are taken as they are, though
-    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural.
+    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural,
+    nor what has the ending of a verb ("locked") for a word without it ("locker").
     """
     if len(word) < 4 or not word.isalpha():
         return None
     allowed = 2 if len(word) >= 8 else 1
+    ending = next((item for item in ("ed", "ing") if word.endswith(item)), "")
     near = {
         item: slips(word, item)
         for item in known
         if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
-        if word.endswith("s") or singular(item) == item
+        if (word.endswith("s") or singular(item) == item) and item.endswith(ending)
     }
     least = min(near.values(), default=allowed + 1)
     close = [item for item, count in near.items() if count == least]

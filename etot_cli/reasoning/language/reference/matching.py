@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.reference.entries import (
     CONTENT,
     EXACT,
@@ -156,8 +157,10 @@ def _packed(
     single = singular(head)
     if not adjectives or single not in PACKS:
         return None
-    if any(e.has_word(head) and e.has_word(adjectives[-1]) for e in vocabulary.objects):
-        return None
+    several = singular(adjectives[-1]) != adjectives[-1]
+    called = [entry for entry in vocabulary.objects if entry.has_word(head)]
+    if any(several or entry.has_word(adjectives[-1]) for entry in called):
+        return None  # a jar of nails, where there is a jar, is no nail
     inner = [
         entry
         for entry in vocabulary.objects
@@ -168,6 +171,9 @@ def _packed(
     found = _match_in(inner, adjectives[:-1], adjectives[-1], None, vocabulary, phrase)
     if found is None:
         return None
+    if any(entry.info is not None and entry.info.container for entry in called):
+        names = names_of([*found.entries, *called])
+        raise ReferenceProblem(phrase, f"it may mean {names}", 2, word=head)
     notes = (*found.notes, f"read {head!r} as what {names_of(found.entries)} is in")
     return replace(found, plural=single != head, notes=notes)
 
