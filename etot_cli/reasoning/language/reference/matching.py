@@ -23,7 +23,7 @@ from etot_cli.reasoning.language.reference.sifting import (
 )
 from etot_cli.reasoning.language.reference.unmatched import names_of, not_understood, nothing_fits
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
-from etot_cli.reasoning.language.words.categories import MASS_NOUNS
+from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
@@ -189,6 +189,8 @@ def _by_color(
     words = (*adjectives, color)
     basic = basic_color(color)
     colored = [entry for entry in vocabulary.objects if basic and entry.has_color(basic)]
+    if singular(color) in CATEGORIES["food"]:  # an orange carrot is not "the orange"
+        colored = [entry for entry in colored if not entry.counts_among(CATEGORIES["food"])]
     found = _match_in(colored, words, "object", number, vocabulary, phrase)
     if found is None:
         return None
