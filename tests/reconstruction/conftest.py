@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -17,18 +18,18 @@ PICTURES = 4
 """Renderings that are kept: tests add the noise of several sensors to one after the other."""
 
 
-def render(what: Scene, **options: Any) -> Picture:
+def render(what: Scene, *, joints: Mapping[str, float] | None = None, **options: Any) -> Picture:
     """A capture of a scene; the test is skipped where there is no OpenGL.
 
     Its arrays belong to other tests, too, and cannot be written to.
     """
     need_opengl()
-    return _rendered(what.model_dump_json(), **options)
+    return _rendered(what.model_dump_json(), tuple((joints or {}).items()), **options)
 
 
 @lru_cache(maxsize=PICTURES)
-def _rendered(what: str, **options: Any) -> Picture:
-    picture = capture(Scene.model_validate_json(what), **options)
+def _rendered(what: str, joints: tuple[tuple[str, float], ...], **options: Any) -> Picture:
+    picture = capture(Scene.model_validate_json(what), joints=dict(joints), **options)
     for array in (picture.color, picture.depth, *picture.masks.values()):
         array.flags.writeable = False
     return picture
