@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from etot_cli.skills.action import GraspPose
+from etot_cli.skills.grasps import pick
+from etot_cli.skills.grasps.candidates import Grasp, GraspSet
+from etot_cli.world.pose import Pose
 from etot_cli.world.state import CauseKind
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
 from tests.world.helpers import make_scene
@@ -56,6 +62,14 @@ def test_too_wide_slippery_cup_slips_from_the_side(seed: int, diameter: float) -
     assert record.cause is not None
     assert record.cause.kind in (CauseKind.SLIP, CauseKind.NO_GRASP)
     assert record.cause.objects[0] == "cup"
+
+
+def test_a_hand_that_dips_goes_no_further_around_what_is_too_wide() -> None:
+    pose = Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
+    wide = Grasp(pose, 0.087, 0.085, GraspPose.HORIZONTAL, 0.0)
+    fitting = replace(wide, width=0.06)
+    assert [*pick._variants(GraspSet((), (wide,), wide.width))] == [wide]
+    assert len([*pick._variants(GraspSet((fitting,), (wide,), fitting.width))]) > 1
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -181,10 +181,12 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
     for the gripper are tried all the same when nothing else is left: physics decides.
     """
     ranked = found.grasps or found.too_wide[:12]
+    # A dip makes room for the wrist, not between the fingers.
+    tilts = TILTS if found.grasps else {**TILTS, GraspPose.HORIZONTAL: ()}
     order = [
         (grasp.score + LEAN_COST * abs(tilt), abs(tilt), rank, tilt)
         for rank, grasp in enumerate(ranked)
-        for tilt in (0.0, *TILTS[grasp.pose])
+        for tilt in (0.0, *tilts[grasp.pose])
     ]
     for *_, rank, tilt in sorted(order)[:MAX_PREPARED]:
         yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
