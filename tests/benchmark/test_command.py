@@ -120,6 +120,7 @@ def test_what_no_trial_could_do_without_is_missed_before_the_first(
     assert not (tmp_path / "out" / "bench.json").exists()
 
 
+@pytest.mark.slow
 def test_a_task_that_no_trial_could_read_is_missed_before_the_first(
     tmp_path: Path, task: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -136,6 +137,7 @@ def made(folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_report_keeps_to_its_schema(tmp_path: Path, task: Path) -> None:
     folder = made(tmp_path / "out")
     report = run_bench(options(task), folder, perform=TOYS)

@@ -61,6 +61,7 @@ def test_the_shortest_way_is_taken_and_of_equals_the_first() -> None:
 
 
 @given(TEXTS)
+@pytest.mark.slow
 def test_what_is_imagined_keeps_the_scene_whole(texts: list[str]) -> None:
     now = scene()
     for action in parse_plan(" ".join(texts)):

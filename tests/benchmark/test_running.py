@@ -74,6 +74,7 @@ def run(
 
 
 @given(RESULTS)
+@pytest.mark.slow
 def test_a_result_survives_its_line(result: TrialResult) -> None:
     assert from_document(json.loads(json.dumps(to_document(result)))) == result
 
@@ -98,6 +99,7 @@ def test_a_finished_trial_is_not_repeated(tmp_path: Path) -> None:
     assert sorted(begun) == sorted(item.key.name for item in toys.work())
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_once_costs_nothing(tmp_path: Path) -> None:
     assert run(tmp_path, toys.dies_once) == [toys.result(item) for item in toys.work()]
 
@@ -105,6 +107,7 @@ def test_a_process_that_dies_once_costs_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("perform", "reason"), [(toys.dies_always, "SIGKILL"), (toys.defective, "no such thing")]
 )
+@pytest.mark.slow
 def test_what_cannot_be_done_is_an_error_on_record(
     tmp_path: Path, perform: Perform, reason: str
 ) -> None:
@@ -189,6 +192,7 @@ def test_a_service_that_is_gone_is_not_asked_for_ever(tmp_path: Path, jobs: int)
     engine.close()
 
 
+@pytest.mark.slow
 def test_a_service_that_was_away_for_a_moment_costs_its_trials_alone(tmp_path: Path) -> None:
     # Two trials have ended whenever somebody looks: they count in the order of their beginning.
     work = toys.work(1, 1, 60)

@@ -70,6 +70,7 @@ def test_mcnemar_is_a_fair_coin_on_what_differs_alone(table: Paired) -> None:
 
 
 @given(st.integers(1, 10_000).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
+@pytest.mark.slow
 def test_wilsons_interval_is_that_of_scipy(counts: tuple[int, int]) -> None:
     from scipy.stats import binomtest
 

@@ -303,6 +303,7 @@ def test_a_limit_shows_how_far_the_search_came(etot: Etot) -> None:
     }
 
 
+@pytest.mark.slow
 def test_page_is_written_beside_the_report(
     etot: Etot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

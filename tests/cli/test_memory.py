@@ -33,6 +33,7 @@ def narrow(folder: Path, mib: int, files: int, *arguments: str) -> subprocess.Co
 
 
 @pytest.mark.parametrize("mib", [100, 150, 250, 400, NEEDED_MIB - 1])
+@pytest.mark.slow
 def test_too_little_address_space_is_refused_at_once(tmp_path: Path, mib: int) -> None:
     begun = time.monotonic()
     done = narrow(tmp_path, mib, 64, "plan", TASK, "--jobs", "2")
@@ -49,6 +50,7 @@ def test_too_little_address_space_is_refused_at_once(tmp_path: Path, mib: int) -
         ("new", "mine.yaml", "--object", "ball=sphere@0.4,0.2", "--instruction", "Take the ball."),
     ],
 )
+@pytest.mark.slow
 def test_so_does_every_command(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     done = narrow(tmp_path, 200, 64, *arguments)
     assert done.returncode == 3 and f"at least {NEEDED_MIB} MiB" in done.stderr

@@ -30,6 +30,7 @@ def call(command: list[str], folder: Path, **changes: str) -> subprocess.Complet
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_help_is_quick(tmp_path: Path) -> None:
     times = []
     for _ in range(5):

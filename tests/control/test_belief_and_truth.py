@@ -67,6 +67,7 @@ def test_what_is_seen_does_not_stand_in_each_other(draw: int) -> None:
     assert (believed.contact.dist[level > 0.5] > -0.002).all()
 
 
+@pytest.mark.slow
 def test_a_displaced_drawer_is_opened_where_it_is_seen() -> None:
     scene = make_scene(unit=unit(), ball=BALL | {"at": [0.30, 0.30]})
     twin = SimulatedWorld(scene)

@@ -29,6 +29,7 @@ def test_without_a_deadline_nothing_ends() -> None:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 @pytest.mark.parametrize("share", [0.05, 0.3])
+@pytest.mark.slow
 def test_an_action_under_way_ends(jobs: int, share: float) -> None:
     """... and the next one, without a deadline, is what it would have been."""
     rooms = default_rooms()

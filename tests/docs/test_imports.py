@@ -113,6 +113,7 @@ def test_physics_and_network_stay_in_their_rooms(library: str, without: tuple[st
     assert "mujoco" in everywhere, "the parser finds imports at all"
 
 
+@pytest.mark.slow
 def test_who_plans_a_motion_does_not_step_physics() -> None:
     """Skills read a belief; only control steps a world."""
     for path in files("skills"):
@@ -125,6 +126,7 @@ def test_who_plans_a_motion_does_not_step_physics() -> None:
         assert not called & {"mj_step", "mj_step1", "mj_step2", "rollout"}, path
 
 
+@pytest.mark.slow
 def test_the_judge_of_trials_is_not_that_of_actions() -> None:
     """They share the state alone; a formal goal is read as a task's conditions are."""
     for module in ("execution/evaluation.py", "planning/conditions.py"):

@@ -14,11 +14,13 @@ from tests.docs.formats import SECTIONS, formats_text
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow
 def test_page_of_keys_is_up_to_date() -> None:
     text = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
     assert text == formats_text(), "make docs writes it anew"
 
 
+@pytest.mark.slow
 def test_every_key_of_every_model_is_told() -> None:
     text = formats_text()
     for _, models in SECTIONS:

@@ -107,6 +107,7 @@ def test_the_figures_of_the_readme_are_those_of_the_results(eyes: str) -> None:
     assert f"{done} of {trials}" in (ROOT / "README.md").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_files_and_classes_that_are_named_are_there() -> None:
     files = {f"/{path.relative_to(ROOT)}" for top in ("etot_cli", "tests", "docs")
              for path in (ROOT / top).rglob("*.py")}  # fmt: skip

@@ -198,6 +198,7 @@ def a_rod():
 
 
 @pytest.mark.parametrize("alike", [False, True])
+@pytest.mark.slow
 def test_a_rod_is_found_by_its_colour_where_that_stands_out(alike):
     """Also where other things of its colour are seen beyond its end, and one side is in shade."""
     rod = a_rod()

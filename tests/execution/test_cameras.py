@@ -264,6 +264,7 @@ def test_rendered_pictures_have_noise_and_whole_millimetres():
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_files(folder, tmp_path):
     camera = FileCamera(folder.parent)
     assert "1 captures" in camera.connect()

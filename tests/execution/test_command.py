@@ -72,6 +72,7 @@ def test_trials_side_by_side_say_what_they_do_and_give_the_same(
     assert first != second  # another world each
 
 
+@pytest.mark.slow
 def test_words_keep_their_meaning_when_things_are_moved(tmp_path: Path) -> None:
     """The left ball is brought to the right of the other one before the robot has begun."""
     file = tmp_path / "balls.yaml"
@@ -90,6 +91,7 @@ def test_words_keep_their_meaning_when_things_are_moved(tmp_path: Path) -> None:
     assert [action["action"] for action in trial["actions"]] == ["[PICK UP, ball]"]
 
 
+@pytest.mark.slow
 def test_nothing_can_be_done(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     task = write(tmp_path, REMOVED)
     assert run(["execute", task, "--html", "--out", str(tmp_path / "out")]) == 1
@@ -153,6 +155,7 @@ def test_a_signal_leaves_a_report(tmp_path: Path) -> None:
     assert report["trials"][-1]["looks"]
 
 
+@pytest.mark.slow
 def test_the_terminal_shows_plan_looks_and_replans(tmp_path: Path) -> None:
     task = Path(write(tmp_path, REMOVED.replace("remove: chosen", "move: chosen, by: [0, -0.1]")))
     plain, screen = io.StringIO(), io.StringIO()

@@ -51,6 +51,7 @@ def after(world: ExecutionWorld, **given: object) -> SceneState:
     return world.read()
 
 
+@pytest.mark.slow
 def test_every_deed(world: ExecutionWorld, task: Task) -> None:
     start = world.read()
     assert "brick" not in start.states

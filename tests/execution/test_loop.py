@@ -36,6 +36,7 @@ def run(task: Task, planner: Scripted, **options: object) -> Trial:
     return run_trial(task, planner, TrialOptions(**options))  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_a_plan_is_carried_out_look_by_look(tmp_path: Path) -> None:
     planner = Scripted([IN_TWO])
     trial = run(small_task(tmp_path), planner)
@@ -57,6 +58,7 @@ def test_a_plan_is_carried_out_look_by_look(tmp_path: Path) -> None:
     assert held.holding == "ball"
 
 
+@pytest.mark.slow
 def test_what_was_moved_is_seen_before_the_next_motion_and_planned_anew(tmp_path: Path) -> None:
     planner = Scripted([IN_TWO, IN_TWO])
     trial = run(small_task(tmp_path, MOVED), planner)
@@ -74,6 +76,7 @@ def test_what_was_moved_is_seen_before_the_next_motion_and_planned_anew(tmp_path
     )
 
 
+@pytest.mark.slow
 def test_without_disturbances_nothing_happens(tmp_path: Path) -> None:
     trial = run(small_task(tmp_path, AWAY), Scripted([IN_TWO]), disturb=False)
     assert trial.success
@@ -96,6 +99,7 @@ def test_the_target_taken_away_ends_with_the_reason(tmp_path: Path) -> None:
     assert "ball is off the desk; replanning is switched off" in stubborn.reason
 
 
+@pytest.mark.slow
 def test_what_the_instruction_forbids_ends_the_trial_whoever_planned_it(tmp_path: Path) -> None:
     task = small_task(tmp_path)
     told = task.model_copy(update={"instruction": "Pick up the ball without moving the cup."})
@@ -107,6 +111,7 @@ def test_what_the_instruction_forbids_ends_the_trial_whoever_planned_it(tmp_path
     assert run(told.model_copy(update={"success": ()}), Scripted(["[PICK UP, ball]"])).success
 
 
+@pytest.mark.slow
 def test_another_look_may_show_a_way(tmp_path: Path) -> None:
     class Hesitant(Scripted):
         def plan(self, *given: Any) -> Planned:
@@ -126,6 +131,7 @@ def test_another_look_may_show_a_way(tmp_path: Path) -> None:
         (KeyboardInterrupt(), "interrupted"),
     ],
 )
+@pytest.mark.slow
 def test_what_was_done_is_kept_where_a_second_plan_comes_to_nothing(
     error: BaseException, status: str, tmp_path: Path
 ) -> None:
@@ -144,6 +150,7 @@ def test_what_was_done_is_kept_where_a_second_plan_comes_to_nothing(
     assert trial.looks[-1].scene is not None
 
 
+@pytest.mark.slow
 def test_something_new_comes_into_a_new_twin(tmp_path: Path) -> None:
     planner = Scripted([IN_TWO, "[PUT INTO, cup]"])
     trial = run(small_task(tmp_path, NEW), planner)
@@ -157,6 +164,7 @@ def test_something_new_comes_into_a_new_twin(tmp_path: Path) -> None:
     assert [str(action) for action in done] == ["[PICK UP, ball]"]
 
 
+@pytest.mark.slow
 def test_in_the_middle_of_a_motion(tmp_path: Path) -> None:
     trial = run(small_task(tmp_path, DURING), Scripted([IN_TWO, IN_TWO]))
     assert trial.success, trial.reason
@@ -167,6 +175,7 @@ def test_in_the_middle_of_a_motion(tmp_path: Path) -> None:
     assert not trial.harm
 
 
+@pytest.mark.slow
 def test_replans_are_bounded(tmp_path: Path) -> None:
     impossible = "[PICK UP, cup] (horizontal) [PUT INTO, ball]"
     trial = run(small_task(tmp_path), Scripted([impossible] * 9), max_replans=2)
@@ -265,6 +274,7 @@ def test_trials_do_not_depend_on_those_before_them(tmp_path: Path) -> None:
     assert other.looks[0].observation.objects != first.looks[0].observation.objects
 
 
+@pytest.mark.slow
 def test_failures_are_attributed_by_experiment(tmp_path: Path) -> None:
     task = small_task(tmp_path)
     slippery = simulated_cell(task, TrialOptions())
@@ -278,6 +288,7 @@ def test_failures_are_attributed_by_experiment(tmp_path: Path) -> None:
     assert trial.failure_class is FailureClass.WORLD_MODEL
 
 
+@pytest.mark.slow
 def test_the_twin_foresees_what_happens(tmp_path: Path) -> None:
     """What the film of the twin shows is the motion that was run, and it ends much the same."""
     trial = run(small_task(tmp_path), Scripted(["[PICK UP, ball]"]), record=True)

@@ -57,6 +57,7 @@ def controller(faults: Faults) -> FakeController:
         (Faults(after=40, frozen=True), "lost", "stale"),
     ],
 )
+@pytest.mark.slow
 def test_a_fault_ends_the_trial_with_a_stopped_arm(
     tmp_path: Path, faults: Faults, status: str, words: str
 ) -> None:

@@ -101,6 +101,7 @@ def test_a_limit_is_no_lost_robot():
     robot.close()
 
 
+@pytest.mark.slow
 def test_a_worker_that_does_not_listen_ends_with_the_program():
     command = shlex.join([sys.executable, "-c", "import time; time.sleep(60)"])
     program = (

@@ -125,6 +125,7 @@ def test_it_fits_a_narrow_window(browser: Browser, page: Path) -> None:
     assert rows == 8
 
 
+@pytest.mark.slow
 def test_two_runs_are_compared_on_a_page(browser: Browser, tmp_path: Path) -> None:
     pair = PairedModel(
         first="etot", second="etot", both=4, first_only=12, second_only=0, neither=4,

@@ -72,6 +72,7 @@ def test_top_view_is_an_svg_that_marks_culprits() -> None:
     assert "cup ⚠" in words and "box" in words and "robot" in words
 
 
+@pytest.mark.slow
 def test_nodes_open_by_mouse_and_keyboard(browser: Browser, page: Path) -> None:
     browser.open(page)
     boxes = "return document.querySelectorAll('#tree [role=treeitem]').length"
@@ -91,6 +92,7 @@ def test_nodes_open_by_mouse_and_keyboard(browser: Browser, page: Path) -> None:
     assert browser.fetched() == []
 
 
+@pytest.mark.slow
 def test_frames_of_a_node_load(browser: Browser, page: Path) -> None:
     browser.open(page)
     browser.run("document.querySelector('.box.plan').click()")
@@ -118,6 +120,7 @@ def test_page_looks_like_something_everywhere(browser: Browser, page: Path) -> N
         assert browser.faint() == []
 
 
+@pytest.mark.slow
 def test_faint_text_and_what_is_too_wide_are_noticed(browser: Browser, page: Path) -> None:
     browser.open(page)
     browser.run(

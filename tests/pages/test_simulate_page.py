@@ -27,6 +27,7 @@ def page(simulation: Simulation, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return write_simulate_page(simulation, tmp_path_factory.mktemp("page"))
 
 
+@pytest.mark.slow
 def test_replay_can_be_scrubbed(browser: Browser, page: Path) -> None:
     browser.open(page)
     first = browser.run("return document.querySelector('img.screen').src")

@@ -257,6 +257,7 @@ def test_a_plan_is_found_exactly_where_there_is_one(
     st.integers(1, 4),
     st.integers(1, 30),
 )
+@pytest.mark.slow
 def test_infeasible_is_never_said_where_a_bound_cut_something_off(
     texts: Sequence[Sequence[str]], broken: set[str], depth: int, width: int, nodes: int
 ) -> None:
@@ -285,6 +286,7 @@ def test_infeasible_is_never_said_where_a_bound_cut_something_off(
 
 
 @given(cluttered())
+@pytest.mark.slow
 def test_the_best_prefix_has_succeeded_throughout(
     world: tuple[dict[str, list[str]], set[str]],
 ) -> None:

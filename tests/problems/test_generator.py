@@ -81,6 +81,7 @@ def test_reach_is_that_of_the_arm_as_its_maker_describes_it() -> None:
 
 
 @pytest.mark.parametrize("family", ALL)
+@pytest.mark.slow
 def test_the_waiting_arm_is_clear_of_everything(family: str, tmp_path: Path) -> None:
     for seed in range(ALL[family]):
         stage = set_up(load_task(problem(family, seed).write(tmp_path)).scene, settle=0.0)

@@ -72,6 +72,7 @@ def cause(plan: str, objects: Objects, desk: dict[str, Any] | None = None) -> Ca
     ],
     ids=["pushed", "carried along", "toppled", "lost", "stranded", "rebound"],
 )  # fmt: skip
+@pytest.mark.slow
 def test_without_the_blamed_objects_the_action_works(
     kind: CauseKind,
     plan: str,
@@ -87,6 +88,7 @@ def test_without_the_blamed_objects_the_action_works(
     assert judged(plan, rest, desk).outcome is Outcome.SUCCESS
 
 
+@pytest.mark.slow
 def test_what_the_action_acts_on_is_blamed_where_nothing_else_has_a_part_in_it() -> None:
     """A chest that comes along when its drawer is pulled: fastened it opens."""
     pull = "[OPEN, chest]"

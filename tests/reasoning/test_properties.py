@@ -94,6 +94,7 @@ def test_cycles_cover_every_action_once(plan: list[Action]) -> None:
 
 @QUICK
 @given(goals, st.lists(st.tuples(st.integers(0, 30), causes), min_size=1, max_size=12), st.data())
+@pytest.mark.slow
 def test_revisions_are_well_formed_keep_the_purpose_and_stay_short(
     goal: list[dict[str, Any]], failures: list[tuple[int, Cause]], data: st.DataObject
 ) -> None:

@@ -138,6 +138,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
 
 
 @pytest.mark.parametrize("case", BAD)
+@pytest.mark.slow
 def test_one_clear_error(case: str, folder: Path) -> None:
     spoil, message = BAD[case]
     spoil(folder)
@@ -237,6 +238,7 @@ def test_a_tilted_pose_is_levelled_and_said_so(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("shift", [(4.0, 2.0), (-3.0, 4.0), (0.0, -5.0)])
+@pytest.mark.slow
 def test_displaced_depth_is_moved_back(picture, tmp_path: Path, shift: tuple[float, float]) -> None:
     from etot_cli.world.capture import Noise, add_noise, write_capture
 

@@ -97,6 +97,7 @@ def off(found: Array, true: Array) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("text", [CHESS, CHARUCO, "9x6,25mm@0.50,-0.12,-140,0.02"])
+@pytest.mark.slow
 def test_the_pose_is_found(text: str, tmp_path: Path) -> None:
     view, board = camera(), read_board(text)
     capture(tmp_path, view, board)
@@ -111,6 +112,7 @@ def test_the_pose_is_found(text: str, tmp_path: Path) -> None:
     assert np.abs(found.outline.max(axis=0) - high).max() < 1.5
 
 
+@pytest.mark.slow
 def test_a_focal_length_that_is_missing_comes_from_the_board(tmp_path: Path) -> None:
     view, board = camera(), read_board(CHESS)
     capture(tmp_path, view, board, fx=None, cy=None)

@@ -24,6 +24,7 @@ from tests.reconstruction.scenes import BALL, scene
 
 
 @pytest.mark.parametrize(("cx", "cy"), [(320.0, 240.0), (250.0, 290.0)])
+@pytest.mark.slow
 def test_pixels_and_depth_agree_with_the_intrinsics(cx: float, cy: float) -> None:
     where = [0.5, 0.1]
     what = scene(

@@ -31,6 +31,7 @@ RODS = [
 
 @pytest.mark.parametrize(("family", "values"), RODS, ids=["capsule", "pen"])
 @pytest.mark.parametrize("hint", ["pen", "capsule", None])
+@pytest.mark.slow
 def test_rods_are_told_apart_by_their_ends_whatever_their_name(family, values, hint) -> None:
     truth = np.array(values)
     observation, evidence = observed(*trace(family, truth))
@@ -40,6 +41,7 @@ def test_rods_are_told_apart_by_their_ends_whatever_their_name(family, values, h
     assert best.params[4] == pytest.approx(truth[4], rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_thin_cup_gets_out_of_a_local_minimum() -> None:
     """Readings inside the far wall must not be taken for its outside."""
     family = ConicalCup()
@@ -93,6 +95,7 @@ def test_a_drawer_that_stands_open_a_little_is_seen_despite_noise() -> None:
     assert best.params[4:7] == pytest.approx(truth[4:7], rel=0.03)
 
 
+@pytest.mark.slow
 def test_gross_errors_do_not_decide_between_shapes() -> None:
     truth = np.array([0.42, 0.03, DESK, 0.4, 0.08, 0.06, 0.05])
     mask, depth = trace(Block(), truth)

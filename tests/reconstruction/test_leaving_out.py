@@ -50,6 +50,7 @@ def test_what_stands_outside_is_counted_and_leaves_the_rest_as_it_is(
     assert y + depth / 2 < 0.105
 
 
+@pytest.mark.slow
 def test_found_things_outside_are_left_out_whole(folder: Path) -> None:
     seen = calibrate(read_capture(folder, use_masks=False), workspace=WITHOUT_MUG)
     found = find_segments(seen)

@@ -70,6 +70,7 @@ def mesh_reply(data: bytes, kind: str = "obj") -> dict[str, str]:
     return {"mesh": base64.b64encode(data).decode(), "format": kind}
 
 
+@pytest.mark.slow
 def test_masks(etot: Run, folder: Path, picture: Picture, tmp_path: Path) -> None:
     def answer(request: dict[str, Any]) -> Any:
         shown = decode_png(base64.b64decode(request["color"]), "color")

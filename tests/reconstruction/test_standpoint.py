@@ -61,6 +61,7 @@ def test_objects_come_out_where_the_true_pose_puts_them(folder: Path) -> None:
         ({"position": [1.25, -0.35, 0.55], "look_at": [0.50, 0.0, 0.10]}, [-0.75, 0.35]),
     ],
 )
+@pytest.mark.slow
 def test_from_any_height_with_a_noisy_sensor(
     camera: dict[str, object], direction: list[float], tmp_path: Path
 ) -> None:

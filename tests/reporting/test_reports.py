@@ -48,6 +48,7 @@ def planned(
 
 
 @pytest.mark.parametrize("name", REPORTS | INPUTS)
+@pytest.mark.slow
 def test_schema_files_are_up_to_date(name: str) -> None:
     """If this fails: python -m tests.docs.schemas docs/schemas."""
     assert (SCHEMAS / name).read_text(encoding="utf-8") == schema_text((REPORTS | INPUTS)[name])
@@ -65,6 +66,7 @@ def test_suites_keep_to_their_schema_and_name_it() -> None:
             jsonschema.validate({**yaml.safe_load(text), "trails": 3}, schema)
 
 
+@pytest.mark.slow
 def test_schemas_are_schemas() -> None:
     for path in SCHEMAS.glob("*.json"):
         jsonschema.Draft202012Validator.check_schema(json.loads(path.read_text(encoding="utf-8")))

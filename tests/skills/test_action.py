@@ -42,12 +42,14 @@ actions = st.one_of(plain, placed)
 
 @given(st.lists(actions, min_size=1, max_size=8))
 @settings(deadline=None, max_examples=50)
+@pytest.mark.slow
 def test_reading_what_was_written_gives_the_same_plan(plan: list[Action]) -> None:
     assert parse_plan(format_plan(plan)) == tuple(plan)
 
 
 @given(st.lists(actions, min_size=1, max_size=5), st.sampled_from([", ", "\n", ";", " ", ""]))
 @settings(deadline=None, max_examples=50)
+@pytest.mark.slow
 def test_separators_and_numbers_do_not_matter(plan: list[Action], separator: str) -> None:
     written = separator.join(f"{i}. {action}" for i, action in enumerate(plan, 1))
     assert parse_plan(written) == tuple(plan)

@@ -18,6 +18,7 @@ SEEDS = range(3)
     ("yaw", "at"),
     [(0, [0.20, 0.40]), (45, [0.30, -0.25]), (-90, [0.45, 0.0]), (130, [0.35, -0.30])],
 )
+@pytest.mark.slow
 def test_drawer_with_a_handle(yaw: float, at: list[float], seed: int) -> None:
     unit = UNIT | {"at": at, "yaw_deg": yaw, "drawers": drawers(handle={})}
     run = episode(seed, unit=unit)
@@ -32,6 +33,7 @@ def test_drawer_with_a_handle(yaw: float, at: list[float], seed: int) -> None:
     ("yaw", "at"),
     [(0, [0.30, 0.25]), (45, [0.30, -0.25]), (-90, [0.45, 0.0]), (130, [0.45, 0.0])],
 )
+@pytest.mark.slow
 def test_drawer_that_is_ajar(yaw: float, at: list[float], seed: int) -> None:
     unit = UNIT | {"at": at, "yaw_deg": yaw, "drawers": drawers(open=0.03)}
     run = episode(seed, unit=unit)
@@ -52,6 +54,7 @@ def test_drawer_that_is_ajar(yaw: float, at: list[float], seed: int) -> None:
         (130, [0.35, -0.30], "right"),
     ],
 )
+@pytest.mark.slow
 def test_door_that_is_ajar(yaw: float, at: list[float], hinge: str, seed: int) -> None:
     oven = OVEN | {"at": at, "yaw_deg": yaw, "door": {"open_deg": 20, "hinge": hinge}}
     run = episode(seed, oven=oven)
@@ -93,6 +96,7 @@ def test_what_lies_low_in_a_drawer_does_not_block_it(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_heavy_block_before_a_drawer_keeps_it_shut_and_is_named(seed: int) -> None:
     unit = UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers(open=0.03)}
     block = {"kind": "box", "size": [0.25, 0.24, 0.13], "mass": 40.0, "at": [0.45, -0.31]}
@@ -112,6 +116,7 @@ def test_nothing_to_do_is_done(verb: str) -> None:
     assert after == pytest.approx(before, abs=0.01)
 
 
+@pytest.mark.slow
 def test_out_of_reach_is_said() -> None:
     unit = UNIT | {"at": [0.62, 0.45], "yaw_deg": 40, "drawers": drawers(handle={})}
     record = episode(unit=unit).do("[OPEN, unit]").record

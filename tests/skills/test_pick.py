@@ -176,6 +176,7 @@ def test_comes_off_a_covered_board(board: str) -> None:
 
 @pytest.mark.parametrize("seed", [0, 1])
 @pytest.mark.parametrize("diameter", [0.15, 0.17, 0.20])
+@pytest.mark.slow
 def test_the_hand_comes_down_along_a_wall_that_leans(diameter: float, seed: int) -> None:
     """Walls that lean by 37°, 42° and 49° from a foot of 6 cm."""
     bowl = {"kind": "bowl", "diameter": diameter, "height": 0.06, "foot_diameter": 0.06,
@@ -187,6 +188,7 @@ def test_the_hand_comes_down_along_a_wall_that_leans(diameter: float, seed: int)
 
 
 @pytest.mark.parametrize("yaw_deg", [0, 70, 200])
+@pytest.mark.slow
 def test_a_pan_too_wide_for_the_hand_is_taken_by_its_handle(tmp_path: Path, yaw_deg: int) -> None:
     """The handle is thin, and so high up that it lies off the object's own middle."""
     (tmp_path / "pan.xml").write_text(

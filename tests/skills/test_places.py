@@ -87,6 +87,7 @@ def hand() -> Hand:
     arrays(bool, array_shapes(min_dims=2, max_dims=2, max_side=30), elements=st.booleans()),
     st.integers(1, 40),
 )
+@pytest.mark.slow
 def test_free_distances_are_exact(mask: NDArray[np.bool_], rarity: int) -> None:
     blocked = mask & (np.arange(mask.size).reshape(mask.shape) % rarity == 0)
     if blocked.any():
@@ -95,6 +96,7 @@ def test_free_distances_are_exact(mask: NDArray[np.bool_], rarity: int) -> None:
         assert (free_distance(blocked, 0.5) == 10.0).all()
 
 
+@pytest.mark.slow
 def test_places_are_free_and_on_the_desk(hand: Hand) -> None:
     found = hand.spots()
     assert len(found) > 30
@@ -110,6 +112,7 @@ def test_places_are_free_and_on_the_desk(hand: Hand) -> None:
     assert np.hypot(*found.T).min() > 0.1, "not in the robot's foot"
 
 
+@pytest.mark.slow
 def test_keepout_is_respected(hand: Hand) -> None:
     first = hand.spots()[0]
     disc = Keepout(float(first[0]), float(first[1]), 0.12)
@@ -133,6 +136,7 @@ def sweep_distance(hand: Hand, points: Iterable[np.ndarray]) -> list[float]:
     return [float(np.linalg.norm(middles - point, axis=1).min()) for point in points]
 
 
+@pytest.mark.slow
 def test_way_of_the_drawer_stays_free(hand: Hand) -> None:
     """The closed drawer slides 0.14 m towards -y; a safe place is never there, others come last."""
     strict = hand.spots(strict=True)
@@ -162,6 +166,7 @@ def test_way_of_a_door_stays_free() -> None:
     assert min(sweep_distance(hand, found)) > HALF + DESK_GAP
 
 
+@pytest.mark.slow
 def test_places_on_furniture_lie_on_its_top(hand: Hand) -> None:
     found = hand.places("unit")
     assert found
@@ -171,6 +176,7 @@ def test_places_on_furniture_lie_on_its_top(hand: Hand) -> None:
         assert place.bearers == {"unit"}
 
 
+@pytest.mark.slow
 def test_the_middle_of_an_empty_top_comes_first() -> None:
     plate = {"kind": "cylinder", "diameter": 0.16, "height": 0.02, "mass": 0.3, "at": [0.45, 0.1]}
     hand = Hand(plate=plate)
@@ -178,6 +184,7 @@ def test_the_middle_of_an_empty_top_comes_first() -> None:
 
 
 @pytest.mark.parametrize("size", [0.036, 0.04, 0.05, 0.06])
+@pytest.mark.slow
 def test_a_top_as_small_as_the_object_has_its_middle(size: float) -> None:
     hand = Hand(base=BLOCK | {"size": [size] * 3, "at": [0.45, 0.1]})
     first = hand.places("base")[0]
@@ -185,6 +192,7 @@ def test_a_top_as_small_as_the_object_has_its_middle(size: float) -> None:
     assert first.quality in (Quality.GOOD, Quality.PILED)
 
 
+@pytest.mark.slow
 def test_nothing_stays_on_the_edge_of_a_top() -> None:
     """All places offered have the centre of mass well over the top."""
     hand = Hand(base=BLOCK | {"size": [0.04] * 3, "at": [0.45, 0.1]})
@@ -193,6 +201,7 @@ def test_nothing_stays_on_the_edge_of_a_top() -> None:
         assert offset.max() < 0.016
 
 
+@pytest.mark.slow
 def test_what_stands_on_furniture_is_an_obstacle_there() -> None:
     unit = UNIT | {"at": [0.47, 0.0], "yaw_deg": -90, "drawers": drawers()}
     hand = Hand(unit=unit, box=BOX | {"on": "unit", "at": [0.47, 0.06]})
@@ -203,12 +212,14 @@ def test_what_stands_on_furniture_is_an_obstacle_there() -> None:
     assert np.linalg.norm(alone - [0.47, 0.06], axis=1).min() < HALF
 
 
+@pytest.mark.slow
 def test_nothing_fits_on_a_full_top() -> None:
     lid = {"kind": "box", "on": "unit", "size": [0.22, 0.17, 0.02]}
     hand = Hand(unit=UNIT | {"at": [0.47, 0.0], "drawers": drawers()}, lid=lid)
     assert not hand.places("unit")
 
 
+@pytest.mark.slow
 def test_nearer_places_come_first_other_things_being_equal() -> None:
     left, right = (Hand(thing=BLOCK) for _ in range(2))
     for hand, side in ((left, 0.25), (right, -0.25)):
@@ -217,6 +228,7 @@ def test_nearer_places_come_first_other_things_being_equal() -> None:
     assert left.spots()[0][1] > 0.1 and right.spots()[0][1] < -0.1
 
 
+@pytest.mark.slow
 def test_same_question_same_answer(hand: Hand) -> None:
     np.testing.assert_array_equal(hand.spots(), hand.spots())
 
@@ -234,6 +246,7 @@ def test_a_lid_lies_on_the_rim_of_a_cup_and_a_small_block_does_not() -> None:
 # -- containers ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_an_empty_bowl_is_filled_in_the_middle() -> None:
     first = Hand(bowl=BOWL).places("bowl", into=True)[0]
     np.testing.assert_allclose(first.pose.position[:2], BOWL["at"], atol=0.004)
@@ -255,6 +268,7 @@ def test_a_bowl_is_filled_beside_what_is_in_it(count: int) -> None:
         assert away > 2 * HALF
 
 
+@pytest.mark.slow
 def test_the_inside_of_a_bowl_is_what_its_walls_leave() -> None:
     wide = BOWL | {"foot_diameter": 0.10}
     found = [p for p in Hand(bowl=wide).places("bowl", into=True) if p.quality is Quality.GOOD]
@@ -263,6 +277,7 @@ def test_the_inside_of_a_bowl_is_what_its_walls_leave() -> None:
     assert away.max() < 0.05 - HALF
 
 
+@pytest.mark.slow
 def test_a_full_box_takes_another_on_top() -> None:
     """Where the floor is covered and the rim is high, things are piled where they are stable."""
     tray = {"kind": "cup", "diameter": 0.09, "height": 0.12, "mass": 0.4, "at": [0.42, -0.2]}
@@ -271,6 +286,7 @@ def test_a_full_box_takes_another_on_top() -> None:
     assert first.quality is Quality.PILED and first.bearers == {"below"}
 
 
+@pytest.mark.slow
 def test_a_lid_lies_across_the_mouth_of_a_cup_and_nothing_smaller_does() -> None:
     cup = {"kind": "cup", "diameter": 0.064, "height": 0.08, "mass": 0.2, "at": [0.42, -0.2]}
     lid = {"kind": "cylinder", "diameter": 0.070, "height": 0.016, "mass": 0.04}

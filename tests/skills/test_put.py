@@ -37,6 +37,7 @@ def test_put_on_the_desk(thing: dict[str, object], seed: int) -> None:
     assert not after.in_hand and not after.toppled and not after.lost and after.reachable
 
 
+@pytest.mark.slow
 def test_what_lies_is_stood_up_where_that_is_asked_for() -> None:
     lying = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15}
     lying |= {"at": [0.4, -0.15, 0.155], "quaternion": [0.7071068, 0, 0.7071068, 0]}
@@ -68,6 +69,7 @@ def test_what_a_level_hand_took_from_a_board_is_let_go_just_above_the_desk() -> 
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("thing", [BOX, PEN, CUP], ids=lambda item: str(item["kind"]))
+@pytest.mark.slow
 def test_put_on_furniture(thing: dict[str, object], seed: int) -> None:
     unit = UNIT | {"at": [0.44, 0.0], "yaw_deg": -90, "drawers": drawers()}
     run = episode(seed, unit=unit, thing=thing | {"at": [0.38, 0.27]})
@@ -94,6 +96,7 @@ def test_ball_into_a_cup(seed: int, side: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("yaw", [0, 80])
+@pytest.mark.slow
 def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
     """It lies on the desk, and goes in point down."""
     cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.2, "at": [0.42, -0.15]}
@@ -113,6 +116,7 @@ def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
     ],
     ids=["spoon", "stick"],
 )  # fmt: skip
+@pytest.mark.slow
 def test_long_things_without_a_point_stand_in_a_cup_too(thing: dict[str, Any]) -> None:
     cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.3, "at": [0.42, -0.15]}
     run = episode(thing=thing, cup=cup)
@@ -122,6 +126,7 @@ def test_long_things_without_a_point_stand_in_a_cup_too(thing: dict[str, Any]) -
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("thing", [BOX | {"size": [0.04, 0.04, 0.04]}, BALL | {"diameter": 0.05}],
                          ids=lambda item: str(item["kind"]))  # fmt: skip
+@pytest.mark.slow
 def test_put_into_an_open_drawer(thing: dict[str, object], seed: int) -> None:
     unit = UNIT | {"at": [0.45, 0.05], "yaw_deg": -90, "drawers": drawers(open=0.13)}
     run = episode(seed, unit=unit, thing=thing | {"at": [0.35, -0.3]})
@@ -130,6 +135,7 @@ def test_put_into_an_open_drawer(thing: dict[str, object], seed: int) -> None:
     assert after.states["unit"].openness["top"] > 0.5
 
 
+@pytest.mark.slow
 def test_closed_drawer_takes_nothing() -> None:
     unit = UNIT | {"at": [0.45, 0.05], "yaw_deg": -90, "drawers": drawers()}
     run = episode(unit=unit, box=BOX | {"size": [0.04, 0.04, 0.04], "at": [0.35, -0.25]})
@@ -140,6 +146,7 @@ def test_closed_drawer_takes_nothing() -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_ball_on_the_mouth_keeps_the_pen_out(seed: int) -> None:
     """The apple as wide as the mouth stays; the pen does not get in."""
     cup = CUP | {"diameter": 0.092, "wall": 0.008, "height": 0.079, "at": [0.42, -0.2]}
@@ -151,6 +158,7 @@ def test_ball_on_the_mouth_keeps_the_pen_out(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_light_cup_with_a_narrow_foot_topples_under_the_pen(seed: int) -> None:
     cup = CUP | {"diameter": 0.044, "height": 0.075, "mass": 0.012, "wall": 0.002,
                  "floor": 0.002, "foot_diameter": 0.031, "at": [0.42, -0.2]}  # fmt: skip
@@ -162,6 +170,7 @@ def test_light_cup_with_a_narrow_foot_topples_under_the_pen(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_safe_place_keeps_clear_of_the_discs(seed: int) -> None:
     run = episode(seed, ball=BALL)
     run.must("[PICK UP, ball]")
@@ -175,6 +184,7 @@ def test_safe_place_keeps_clear_of_the_discs(seed: int) -> None:
     assert np.hypot(u - x, v - y) > disc.radius + 0.03
 
 
+@pytest.mark.slow
 def test_full_surface_has_no_room() -> None:
     unit = UNIT | {"at": [0.44, 0.0], "yaw_deg": -90, "drawers": drawers()}
     lid = {"kind": "box", "on": "unit", "size": [0.17, 0.21, 0.02], "mass": 0.3}
@@ -187,6 +197,7 @@ def test_full_surface_has_no_room() -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_two_things_end_up_apart(seed: int) -> None:
     run = episode(seed, one=BOX, two=BALL)
     after = run.must("[PICK UP, one]", "[PUT ON, desk]", "[PICK UP, two]", "[PUT ON, desk]")
@@ -211,6 +222,7 @@ RACK = {"kind": "shelf", "size": [0.22, 0.36, 0.45], "mass": 6.0, "at": [0.52, 0
     [MUG, BOX | {"size": [0.05, 0.05, 0.12]}, BOX | {"size": [0.05, 0.05, 0.035]}],
     ids=["mug", "box", "lower than half a wrist"],
 )
+@pytest.mark.slow
 def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) -> None:
     run = episode(seed, oven=FURNACE, thing=thing | {"at": [0.42, -0.15]})
     after = run.must("[PICK UP, thing] (horizontal)", "[PUT INTO, oven]")
@@ -220,6 +232,7 @@ def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) ->
     assert after.openness(door) > 0.85, "the door stays as it was"
 
 
+@pytest.mark.slow
 def test_what_lies_is_stood_up_where_the_hand_has_to_come_level() -> None:
     """From above it has no room under the roof."""
     can = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15}
@@ -229,6 +242,7 @@ def test_what_lies_is_stood_up_where_the_hand_has_to_come_level() -> None:
     assert after.states["can"].on == ("rack.lower",) and not after.states["can"].toppled
 
 
+@pytest.mark.slow
 def test_goes_into_a_cabinet_from_a_file(tmp_path: Path) -> None:
     (tmp_path / "locker.xml").write_text(LOCKER.format(axis="0 0 1"))
     locker = {"kind": "mjcf", "file": "locker.xml", "at": [0.40, 0.42], "yaw_deg": -90,
@@ -239,6 +253,7 @@ def test_goes_into_a_cabinet_from_a_file(tmp_path: Path) -> None:
     assert after.states["mug"].inside == "locker"
 
 
+@pytest.mark.slow
 def test_hand_from_above_has_no_room_in_a_cabinet() -> None:
     run = episode(oven=FURNACE, mug=MUG)
     run.must("[PICK UP, mug] (vertical)")
@@ -258,6 +273,7 @@ def test_goes_on_every_board_of_a_shelf(board: str, seed: int) -> None:
     assert not after.states["mug"].toppled
 
 
+@pytest.mark.slow
 def test_what_is_too_tall_for_a_board_is_refused() -> None:
     tall = BOX | {"size": [0.05, 0.05, 0.24], "at": [0.36, -0.25]}
     run = episode(rack=RACK, tall=tall)
@@ -270,6 +286,7 @@ def test_what_is_too_tall_for_a_board_is_refused() -> None:
     "where",
     ["left of cup", "behind cup, near cup", "between cup and ball", "at left", "at 0.35 0.1"],
 )
+@pytest.mark.slow
 def test_put_beside_things(where: str) -> None:
     run = episode(
         0,
@@ -283,12 +300,14 @@ def test_put_beside_things(where: str) -> None:
     assert after.states["box"].on == ("desk",)
 
 
+@pytest.mark.slow
 def test_a_deep_cup_is_carried_with_what_is_in_it() -> None:
     ball = BALL | {"inside": "cup", "diameter": 0.06, "at": None}
     after = episode(cup=CUP, ball=ball).must("[PICK UP, cup]", "[PUT ON, desk]")
     assert after.states["cup"].on == ("desk",) and after.states["ball"].inside == "cup"
 
 
+@pytest.mark.slow
 def test_what_slips_its_last_centimetres_into_place_is_there() -> None:
     """Placements are told by where the object is; a slip elsewhere stays a failure."""
     run = episode(ball=BALL, cup=CUP)

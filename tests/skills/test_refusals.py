@@ -67,6 +67,7 @@ def without(objects: dict[str, dict[str, Any]], names: tuple[str, ...]) -> dict[
     ],
     ids=["a full top", "two on a top", "a full drawer", "a place that is built on"],
 )  # fmt: skip
+@pytest.mark.slow
 def test_no_room_names_who_fills_it(
     action: str, scene: dict[str, dict[str, Any]], guilty: set[str]
 ) -> None:
@@ -107,6 +108,7 @@ SMALL_CUP = CUP | {"diameter": 0.07}
     ],
     ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof"],
 )  # fmt: skip
+@pytest.mark.slow
 def test_no_grasp_names_who_is_in_the_way(
     action: str, scene: dict[str, dict[str, Any]], guilty: list[str]
 ) -> None:
@@ -125,6 +127,7 @@ def test_the_arm_alone_is_to_blame_for_what_is_too_far() -> None:
     assert outcome("[PUT INTO, bowl]", bowl=BOWL) is None
 
 
+@pytest.mark.slow
 def test_what_is_too_large_is_to_blame_itself() -> None:
     """No movable object is named where none has a part in it."""
     small = BOWL | {"diameter": 0.046}
@@ -137,6 +140,7 @@ def test_what_is_too_large_is_to_blame_itself() -> None:
         assert "bystander" not in record.cause.objects
 
 
+@pytest.mark.slow
 def test_things_that_are_not_in_the_way_are_not_named() -> None:
     """An object beside the full top has no part in it."""
     lid = {"kind": "box", "size": [0.09, 0.09, 0.03], "mass": 0.2, "on": "top"}

@@ -68,6 +68,7 @@ def put_into_cup(clearance: float, kind: str) -> Episode:
 
 @pytest.mark.parametrize("clearance", [0.012, 0.022, 0.025, 0.026, 0.027, 0.032, 0.045])
 @pytest.mark.parametrize("kind", ["sphere", "cylinder"])
+@pytest.mark.slow
 def test_what_is_let_go_stays_in_the_vessel(clearance: float, kind: str) -> None:
     after = put_into_cup(clearance, kind).state
     assert after.states["thing"].inside == "cup"

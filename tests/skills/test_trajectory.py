@@ -37,6 +37,7 @@ def at_rest_before_and_after(path: np.ndarray, timed: np.ndarray) -> np.ndarray:
 
 @given(seeds, speeds, st.sampled_from([0.002, 0.05, 0.3, 1.5]))
 @settings(deadline=None, max_examples=150)
+@pytest.mark.slow
 def test_speed_acceleration_and_jerk_stay_below_their_limits(
     seed: int, speed: float, scale: float
 ) -> None:
@@ -50,6 +51,7 @@ def test_speed_acceleration_and_jerk_stay_below_their_limits(
 
 @given(seeds, speeds)
 @settings(deadline=None, max_examples=50)
+@pytest.mark.slow
 def test_progress_is_monotonic_and_on_a_straight_path(seed: int, speed: float) -> None:
     path = random_path(seed)[:2]
     timed = time_path(path, limits(speed))

@@ -249,6 +249,7 @@ def test_yaml_like_text_gives_data_or_one_line(text: str) -> None:
 
 @settings(max_examples=40)
 @given(st.dictionaries(KEYS, PLAIN, min_size=1, max_size=4).filter(lambda d: "<<" not in str(d)))
+@pytest.mark.slow
 def test_every_value_has_a_place(data: dict[str, object]) -> None:
     lines = [json.dumps({key: item}, ensure_ascii=False)[1:-1] for key, item in data.items()]
     node = parse_document("\n".join(lines), "f")

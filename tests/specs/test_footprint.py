@@ -76,6 +76,7 @@ def test_a_disc_contains_what_is_within_its_radius() -> None:
 
 
 @given(st.lists(st.tuples(PLACE, PLACE), min_size=3, max_size=12, unique=True))
+@pytest.mark.slow
 def test_hull_contains_its_points(points: list[tuple[float, float]]) -> None:
     outline = hull(points)
     if len(outline.corners) > 2:

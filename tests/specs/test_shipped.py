@@ -91,6 +91,7 @@ def test_task_examples_of_the_documentation(text: str, tmp_path: Path) -> None:
     load_task(file)
 
 
+@pytest.mark.slow
 def test_loading_needs_no_heavy_library() -> None:
     """Start-up matters: these take hundreds of milliseconds to import."""
     code = (

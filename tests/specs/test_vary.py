@@ -208,6 +208,7 @@ def test_heights_and_orientations(tmp_path: Path) -> None:
     assert item.yaw_deg == 0.0
 
 
+@pytest.mark.slow
 def test_crowded_scenes_are_drawn_with_less_amplitude(tmp_path: Path) -> None:
     # Balls that touch each other all around: hardly any draw of ±10 cm parts them.
     balls = {

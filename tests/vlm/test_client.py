@@ -377,6 +377,7 @@ def test_parameters_that_a_model_does_not_know(make_settings: Make) -> None:
     assert server.requests[-1].body["max_completion_tokens"] == 2000
 
 
+@pytest.mark.slow
 def test_pictures_shrink_until_they_are_taken(make_settings: Make) -> None:
     noise = np.random.default_rng(0).integers(0, 255, (600, 800, 3)).astype(np.uint8)
     picture = Picture.of_pixels("Now:", noise)
@@ -400,6 +401,7 @@ def test_pictures_shrink_until_they_are_taken(make_settings: Make) -> None:
         assert len(server.requests) <= 13
 
 
+@pytest.mark.slow
 def test_pictures_fit_their_limits(make_settings: Make) -> None:
     noise = np.random.default_rng(0).integers(0, 255, (600, 800, 3)).astype(np.uint8)
     question = Question("scene", "scene/1", (Turn("user", "?", (Picture.of_pixels("", noise),)),))

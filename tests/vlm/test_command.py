@@ -149,6 +149,7 @@ def test_a_disagreement_is_in_the_report(etot: Etot) -> None:
         "Step 1: [FLY, cup]",
     ],
 )
+@pytest.mark.slow
 def test_a_model_that_always_answers_nonsense(etot: Etot, nonsense: str) -> None:
     answer = etot(lambda _: Reply(nonsense))
     assert answer.code == 1 and answer.report["status"] == "infeasible"
@@ -158,6 +159,7 @@ def test_a_model_that_always_answers_nonsense(etot: Etot, nonsense: str) -> None
     assert any(note["kind"] == "dropped" for note in answer.report["vlm"]["notes"])
 
 
+@pytest.mark.slow
 def test_a_model_that_always_proposes_the_same_failing_plan(etot: Etot) -> None:
     answer = etot(lambda _: Reply("1. [PICK UP, cup]\n2. [PUT ON, box]"), world=fails("cup"))
     assert answer.code == 1 and answer.report["status"] == "infeasible"
@@ -186,6 +188,7 @@ def test_a_model_that_varies_a_hopeless_plan_without_end(etot: Etot) -> None:
     assert len(answer.requests) < 400
 
 
+@pytest.mark.slow
 def test_a_model_that_stalls(etot: Etot) -> None:
     begun = time.monotonic()
     answer = etot(lambda _: Reply(stall_s=3.0))
@@ -196,6 +199,7 @@ def test_a_model_that_stalls(etot: Etot) -> None:
     assert answer.report["status"] == "limit" and "fell silent" in answer.report["stopped"]
 
 
+@pytest.mark.slow
 def test_a_service_that_dies_on_the_way(etot: Etot) -> None:
     def script(received: Received) -> Reply:
         dead = received.role == "compare" and "PUT ON" in received.text
@@ -207,6 +211,7 @@ def test_a_service_that_dies_on_the_way(etot: Etot) -> None:
     assert statuses == ["success", "pending"]
 
 
+@pytest.mark.slow
 def test_a_refused_key(etot: Etot) -> None:
     body = json.dumps({"error": {"message": f"Incorrect API key provided: {KEY}."}}).encode()
     answer = etot(lambda _: Reply(status=401, raw=body))
@@ -214,6 +219,7 @@ def test_a_refused_key(etot: Etot) -> None:
     assert "OPENAI_API_KEY" in answer.err and "[redacted]" in answer.err
 
 
+@pytest.mark.slow
 def test_nobody_listens(etot: Etot) -> None:
     answer = etot(GOOD, url="http://127.0.0.1:9/v1")
     assert answer.code == 3 and "no connection" in answer.err and answer.report["stopped"]
@@ -235,6 +241,7 @@ def interruptible() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("interruptible")
+@pytest.mark.slow
 def test_ctrl_c_while_a_server_stalls(etot: Etot) -> None:
     def script(received: Received) -> Reply:
         if received.role == "compare":
@@ -258,6 +265,7 @@ def test_a_missing_key_is_told_before_anything_is_asked(
 # -- limits and settings -------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_limits_end_it_cleanly(etot: Etot) -> None:
     answer = etot(GOOD, "--max-calls", "3")
     assert answer.code == 1 and len(answer.requests) == 3
@@ -306,6 +314,7 @@ def test_record_and_replay_give_the_same_tree(etot: Etot) -> None:
     assert other.code == 3 and "has no answer" in other.err
 
 
+@pytest.mark.slow
 def test_the_cache_is_on_by_default(etot: Etot, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ETOT_VLM_CACHE")
     with FakeServer(Player(GOOD)) as server:
@@ -337,6 +346,7 @@ def test_a_model_that_does_not_see_is_found_out(
     assert "probe" not in etot(GOOD, "--max-calls", "1").report["vlm"]["roles"]
 
 
+@pytest.mark.slow
 def test_help_imports_no_http_client() -> None:
     script = (
         "import sys\nfrom etot_cli.cli.app import run\n"

@@ -42,6 +42,7 @@ def compressed(body: bytes, layers: int) -> Reply:
 
 
 @pytest.mark.parametrize("layers", [1, 2])
+@pytest.mark.slow
 def test_a_bomb_is_refused_before_it_unpacks(make_settings: Make, layers: int) -> None:
     bomb = compressed(b" " * 60_000_000, layers)
     tracemalloc.start()
@@ -86,6 +87,7 @@ def test_absurd_error_codes_are_no_crash(make_settings: Make, code: str) -> None
     assert "HTTP 500: no" in said
 
 
+@pytest.mark.slow
 def test_a_huge_reply_is_not_sent_back_whole(make_settings: Make) -> None:
     """Seven megabytes of nonsense, as often as it is asked."""
     huge = "no plan here. " * 500_000
@@ -128,6 +130,7 @@ def test_a_secret_in_the_address_is_not_echoed(make_settings: Make) -> None:
         ('{"goal_holds": true, "branches": []}', "nothing is to be done, but"),
     ],
 )
+@pytest.mark.slow
 def test_a_plan_that_does_not_do_the_task_is_no_plan(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -261,6 +264,7 @@ def test_a_label_is_not_another_thing(make_settings: Make) -> None:
         (Reply("", message={"refusal": "I will not."}), "I will not."),
     ],
 )
+@pytest.mark.slow
 def test_why_there_is_no_plan_is_said(make_settings: Make, reply: Reply, said: str) -> None:
     with FakeServer(one_after_the_other(reply)) as server:
         client = ChatClient(make_settings(server.url, repairs=1))

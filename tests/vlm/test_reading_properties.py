@@ -175,6 +175,7 @@ def test_wrapping_changes_nothing(case: tuple[list[Step], str]) -> None:
         ]
     ),
 )
+@pytest.mark.slow
 def test_branches_stay_apart(one: list[Step], two: list[Step], words: str, heading: str) -> None:
     texts = []
     for n, plan in enumerate((one, two), 1):
@@ -211,6 +212,7 @@ def test_the_correction_counts_and_not_what_it_quotes(
 
 @QUICK
 @given(plans, st.booleans(), st.booleans(), st.sampled_from(["", "Here:\n", "```json\n"]))
+@pytest.mark.slow
 def test_json_in_every_wrapping(plan: list[Step], text: bool, tool: bool, before: str) -> None:
     steps: list[object] = [
         f"[{verb.value}, {name}]"

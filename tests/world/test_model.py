@@ -123,6 +123,7 @@ def test_inertia_is_that_of_a_real_body(folder: Path, kind: str) -> None:
     assert c <= body.mass[0] * float(np.sum(np.square(SIZES[kind]))) / 4 + 1e-9
 
 
+@pytest.mark.slow
 def test_only_furniture_is_fastened(folder: Path) -> None:
     for kind in KINDS:
         entry = build(folder, kind).entries["thing"]

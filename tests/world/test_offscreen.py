@@ -39,6 +39,7 @@ def renderer() -> tuple[OffscreenRenderer, mujoco.MjModel]:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_colours_depths_and_geoms_agree_with_the_model() -> None:
     made, model = renderer()
     with made:
@@ -57,6 +58,7 @@ def test_colours_depths_and_geoms_agree_with_the_model() -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_two_renderers_and_a_closed_one_do_not_mix() -> None:
     one, two = renderer()[0], renderer()[0]
     expected = one.color()

@@ -59,6 +59,7 @@ def test_dressed_world_has_the_same_joints_and_contacts(path: Path) -> None:
 
 @pytest.mark.render
 @pytest.mark.parametrize("path", SCENES, ids=[path.stem for path in SCENES])
+@pytest.mark.slow
 def test_robot_and_objects_are_wholly_in_the_picture(path: Path) -> None:
     scene = load_scene(path)
     world = build_world(scene, dressed=True)
@@ -94,6 +95,7 @@ def test_samples_soften_edges_and_shadows(qpos: np.ndarray) -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_culprits_are_outlined_in_red(qpos: np.ndarray) -> None:
     with PictureRenderer(SCENE, qpos, 640, 400, 1) as renderer:
         plain = renderer.take(qpos).astype(int)
@@ -118,6 +120,7 @@ def test_long_captions_are_cut() -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_captions_cover_nothing(qpos: np.ndarray) -> None:
     """Pictures of one film show the same piece of the world, whatever is written below them."""
     captions = ("", "short", "long words " * 40)
@@ -144,6 +147,7 @@ def test_processes_take_the_same_pictures(qpos: np.ndarray) -> None:
 
 
 @pytest.mark.render
+@pytest.mark.slow
 def test_time_limit_leaves_pictures_out(qpos: np.ndarray) -> None:
     began = time.monotonic()
     studio = Studio(SCENE, qpos, *SIZE, samples=1, encoding="webp")

@@ -38,6 +38,7 @@ def drive(stage: Stage, controls: np.ndarray, blocks: range) -> None:
 
 @given(seed=st.integers(0, 2**32 - 1), cut=st.integers(0, 11), pickled=st.booleans())
 @settings(max_examples=12, deadline=None)
+@pytest.mark.slow
 def test_restored_state_continues_byte_for_byte(
     stage: Stage, seed: int, cut: int, pickled: bool
 ) -> None:

@@ -112,6 +112,7 @@ def test_a_lost_worker_is_replaced_and_its_task_tried_again(
     assert [future.result(SOON_S) for future in others] == list(range(20))
 
 
+@pytest.mark.slow
 def test_a_task_that_kills_twice_is_given_up(pool: WorkerPool) -> None:
     with pytest.raises(WorkerLostError, match="ended 2 times, last time killed by SIGKILL"):
         pool.submit(die_by, signal.SIGKILL).result(SOON_S)
@@ -120,6 +121,7 @@ def test_a_task_that_kills_twice_is_given_up(pool: WorkerPool) -> None:
     assert pool.alive and pool.submit(add, 2, 2).result(SOON_S) == 4
 
 
+@pytest.mark.slow
 def test_idle_workers_that_die_are_replaced(pool: WorkerPool) -> None:
     for _ in range(3):
         os.kill(pool.submit(who).result(SOON_S), signal.SIGKILL)
@@ -159,6 +161,7 @@ if __name__ == "__main__":
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
 @pytest.mark.parametrize("method", ["fork", "spawn"])
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+@pytest.mark.slow
 def test_no_worker_outlives_its_parent(tmp_path: Path, method: str, number: int) -> None:
     if method == "fork" and not sys.platform.startswith("linux"):
         pytest.skip("workers are forked on Linux alone")
@@ -188,6 +191,7 @@ def lose_worker(*_: object) -> None:
     os._exit(9)
 
 
+@pytest.mark.slow
 def test_an_action_that_kills_its_workers_has_failed(monkeypatch: pytest.MonkeyPatch) -> None:
     from etot_cli.control import simulator
     from tests.skills.helpers import BALL
