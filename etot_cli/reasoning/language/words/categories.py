@@ -118,13 +118,16 @@ SORTS: dict[str, frozenset[str]] = {
 }
 """Category words, several for one thing, with the nouns of what counts among it."""
 PACKED = _DRINKS | _SPICES | _SAUCES | _SWEETS | _OTHER_FOOD | _FRUIT | _VEGETABLES | _TOILETRIES
-"""What a can, carton or slice of it is still called by (a milk carton is among "the drinks")."""
+"""What :data:`PACKS` of it are still called by (a milk carton is among "the drinks")."""
 _POURED = word_set(
     "shampoo conditioner lotion toothpaste perfume detergent bleach glue oil honey soup sugar flour"
 ).union(_DRINKS, _SPICES, _SAUCES)
+"""What comes out of its pack bit by bit: without an article some of it is meant, not the pack."""
 _KEEPING = word_set("basket hamper crate box bin bag tray rack cooler caddy cart sink trash can")
+"""Where packs are kept or carried as they are: nobody pours ketchup into a basket."""
 _OF_A_PIECE = word_set("bar leaf slice wedge fillet clove")
 PACKS = _OF_A_PIECE | word_set("can tin carton bottle jar packet pack bag box tube pouch")
+"""Nouns for what food and drink come in, or come off in."""
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
@@ -156,10 +159,10 @@ def is_poured(noun: str, name: str, label: str) -> bool:
     """Whether a noun without an article is rather some of what a thing so called holds."""
     head, _, content = label.casefold().partition(" of ")
     if noun and content == noun:
-        return singular(noun) == noun and head.split()[-1] in PACKS - _OF_A_PIECE
+        return singular(noun) == noun and head.rpartition(" ")[2] in PACKS - _OF_A_PIECE
     return noun in _POURED and noun in f"{label} {name}".casefold().replace("_", " ").split()
 
 
 def is_keeping(label: str) -> bool:
     """Whether things are put into what has a label to be carried or kept, in their packs."""
-    return singular(label.casefold().split()[-1]) in _KEEPING
+    return singular(label.casefold().rpartition(" ")[2]) in _KEEPING
