@@ -8,35 +8,20 @@ from dataclasses import dataclass
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
+from etot_cli.reasoning.language.grammar.spelling import Correction, corrected, exchanged
 from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
 from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
     QUESTION,
-    Correction,
-    corrected,
-    exchanged,
     normalized,
     sentences_of,
     spaced,
     words_in,
 )
 from etot_cli.reasoning.language.words import known
-from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
-    LEVELS,
-    MATERIALS,
-    NUMBERS,
-    ORDINALS,
-    PURPOSES,
-    SIDES,
-    SIZES,
-    STATES,
-    basic_color,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import WITHOUT_MEANING
 
@@ -134,21 +119,9 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
 
 
 def _is_known(word: str, vocabulary: Iterable[str]) -> bool:
-    """Whether a word is one of the scene's, of the grammar's, or of the lexicon's."""
-    tables = (SIDES, SIZES, ORDINALS, STATES, LEVELS, NUMBERS)
+    """Whether a word is one of the scene's or of the grammar's."""
     single = singular(word)
-    return (
-        word in vocabulary
-        or any(single == singular(item) for item in vocabulary)
-        or word in known.ALL_WORDS
-        or single in COMMON_NOUNS
-        or single in PURPOSES
-        or is_category(word)
-        or word in MATERIALS
-        or any(word in table for table in tables)
-        or basic_color(word) is not None
-        or known.is_adverb(word)
-    )
+    return word in known.ALL_WORDS or any(single == singular(item) for item in vocabulary)
 
 
 def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -> Sentence:

@@ -1,13 +1,12 @@
-"""An instruction's text: normalized, cut into sentences and words, small typos put right."""
+"""An instruction's text: normalized, cut into sentences and words."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -35,17 +34,6 @@ _CLITICS = (
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Correction:
-    """A word that was read as another one."""
-
-    written: str
-    read: str
-
-    def __str__(self) -> str:
-        return f'"{self.written}" as "{self.read}"'
 
 
 def normalized(text: str) -> str:
@@ -100,49 +88,3 @@ def spaced(words: Sequence[str]) -> str:
         .replace(" 's", "'s")
         .replace("_", " ")
     )
-
-
-def corrected(word: str, known: Iterable[str]) -> str | None:
-    """The one known word that differs from a word by a slip of the pen; None when there is none.
-
-    A slip is a letter too many, missing, wrong, or two exchanged; two of them in words of eight
-    letters or more. Words of up to three letters and first letters are taken as they are, though
-    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural,
-    nor what has the ending of a verb ("locked") for a word without it ("locker").
-    """
-    if len(word) < 4 or not word.isalpha():
-        return None
-    allowed = 2 if len(word) >= 8 else 1
-    ending = next((item for item in ("ed", "ing") if word.endswith(item)), "")
-    near = {
-        item: slips(word, item)
-        for item in known
-        if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
-        if (word.endswith("s") or singular(item) == item) and item.endswith(ending)
-    }
-    least = min(near.values(), default=allowed + 1)
-    close = [item for item, count in near.items() if count == least]
-    only = close[0] if len(close) == 1 and least <= allowed else ""
-    return only if len(only) >= 4 else None
-
-
-def exchanged(word: str, known: Iterable[str]) -> str | None:
-    """The one known word of the same letters ("teh" for "the"); None when there is none."""
-    letters = sorted(word)
-    found = [item for item in known if len(word) > 2 and sorted(item) == letters]
-    return found[0] if len(found) == 1 else None
-
-
-def slips(first: str, second: str) -> int:
-    """Slips of the pen between two words (optimal string alignment distance)."""
-    before: list[int] = []
-    last = list(range(len(second) + 1))
-    for i, left in enumerate(first, 1):
-        row = [i]
-        for j, right in enumerate(second, 1):
-            cost = min(last[j] + 1, row[j - 1] + 1, last[j - 1] + (left != right))
-            if i > 1 and j > 1 and left == second[j - 2] and first[i - 2] == right:
-                cost = min(cost, before[j - 2] + 1)
-            row.append(cost)
-        before, last = last, row
-    return last[-1]

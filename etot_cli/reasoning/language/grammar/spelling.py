@@ -1,0 +1,81 @@
+"""Slips of the pen: what is no word of English is read as the one known word that is nearly it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from etot_cli.reasoning.language.words.lexicon import singular
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """A word that was read as another one."""
+
+    written: str
+    read: str
+
+    def __str__(self) -> str:
+        return f'"{self.written}" as "{self.read}"'
+
+
+def corrected(word: str, known: Iterable[str]) -> str | None:
+    """The one known word that differs from a word by a slip of the pen; None when there is none.
+
+    A slip is a letter too many, missing, wrong, or two exchanged; two of them in words of eight
+    letters or more. Words of up to three letters and first letters are taken as they are, though
+    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural,
+    and a word of English ("tablet") none at all.
+    """
+    if len(word) < 4 or not word.isalpha():
+        return None
+    allowed = 2 if len(word) >= 8 else 1
+    near = {
+        item: slips(word, item)
+        for item in known
+        if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
+        if word.endswith("s") or singular(item) == item
+    }
+    least = min(near.values(), default=allowed + 1)
+    close = [item for item, count in near.items() if count == least]
+    only = close[0] if len(close) == 1 and least <= allowed else ""
+    return only if len(only) >= 4 and not _is_english(word) else None
+
+
+def exchanged(word: str, known: Iterable[str]) -> str | None:
+    """The one known word of the same letters ("teh" for "the"); None when there is none."""
+    letters = sorted(word)
+    found = [item for item in known if len(word) > 2 and sorted(item) == letters]
+    return found[0] if len(found) == 1 and not _is_english(word) else None
+
+
+def slips(first: str, second: str) -> int:
+    """Slips of the pen between two words (optimal string alignment distance)."""
+    before: list[int] = []
+    last = list(range(len(second) + 1))
+    for i, left in enumerate(first, 1):
+        row = [i]
+        for j, right in enumerate(second, 1):
+            cost = min(last[j] + 1, row[j - 1] + 1, last[j - 1] + (left != right))
+            if i > 1 and j > 1 and left == second[j - 2] and first[i - 2] == right:
+                cost = min(cost, before[j - 2] + 1)
+            row.append(cost)
+        before, last = last, row
+    return last[-1]
+
+
+def _is_english(word: str) -> bool:
+    """Whether a word is spelt as it should be, whatever it is about."""
+    return word.isascii() and bool(_dictionary().spell(word))
+
+
+@lru_cache(maxsize=1)
+def _dictionary() -> Any:
+    """Hunspell's own, with its rules for endings; loaded where a word may be a slip, and not before
+    (0.1 s).
+    """
+    from hunspell import Hunspell
+
+    return Hunspell("en_US")
