@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, OR, WITH
+from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import destination
 from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
@@ -16,13 +16,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
-    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import Modifier, PutClause, PutGroup, State, Things
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
-from etot_cli.reasoning.language.words import manner, places
+from etot_cli.reasoning.language.words import manner, places, small_words
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 GROUPING = either(
@@ -30,20 +29,20 @@ GROUPING = either(
     phrase(manner.TOGETHER, Grouping.TOGETHER),
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
-CONDITION = sequence(WITH, NP_LIST, PREDICATE, build=state_of)
+CONDITION = sequence("with", NP_LIST, PREDICATE, build=state_of)
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
         GROUPING,
         CONDITION,
         phrase(manner.STANDING, ("upright", ())),
-        silent(phrase(manner.FITTING)),
+        manner.FITTING,
         sequence(
-            silent(phrase(places.BUT_NOT)),
-            separated(destination, OR, most=3),
+            places.BUT_NOT,
+            separated(destination, small_words.OR, most=3),
             build=lambda found: ("not", found),
         ),
-        sequence(silent(optional(phrase("but"), None)), TURN, build=lambda turn: turn),
+        sequence(optional("but"), TURN),
         phrase(manner.BY_COLOR, ("color", ())),
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
@@ -56,7 +55,7 @@ EXTRA = sequence(
             either(PLAIN_MODIFIER, quality_alone),
             build=lambda several, modifier: ("that", (several, modifier)),
         ),
-        silent(phrase(f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)")),
+        f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)",
     ),
     build=lambda *found: found[0] if found else (),
 )

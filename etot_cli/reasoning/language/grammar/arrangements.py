@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA, WITH
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
@@ -16,7 +16,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
-    silent,
     some,
     variants,
     word,
@@ -45,16 +44,16 @@ REORIENT = either(
         build=lambda verb, things, upright: ReorientClause(things, upright or verb == "upright"),
     ),
     sequence(
-        silent(phrase(verbs.TURN)),
+        verbs.TURN,
         THINGS,
-        silent(phrase(f"back {manner.UPRIGHT}, {manner.UPRIGHT}")),
+        f"back {manner.UPRIGHT}, {manner.UPRIGHT}",
         build=lambda things: ReorientClause(things, upright=True),
     ),
 )
 _ENDS = separated(
     sequence(
         noun_phrase,
-        optional(BE),
+        optional(verbs.BE),
         one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP}),
         build=lambda np, end: (np, end),
     ),
@@ -87,45 +86,40 @@ def _of_its_ends(base: Any, ends: Any) -> tuple[TowerClause, ...]:
     return tuple(tower for tower in found if tower is not None)
 
 
-_ON = silent(phrase(places.ONTO))
 _COLOR = sequence(
     word(lambda given, text: basic_color(text) is not None),
     build=lambda text: NounPhrase(words=(text,), text=text),
 )
 """A colour alone ("stack red on blue")."""
 _UPWARD = sequence(
-    OPTIONAL_COMMA,
-    either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False)),
-    build=lambda upward: upward,
+    OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
-_TOWER_ENDS = optional(
-    sequence(OPTIONAL_COMMA, optional(WITH), _ENDS, build=lambda ends: ends), None
-)
+_TOWER_ENDS = optional(sequence(OPTIONAL_COMMA, optional("with"), _ENDS), None)
 TOWER = either(
     sequence(
         # "Stack the red block on the green one on the blue one"
-        silent(phrase(verbs.STACK)),
+        verbs.STACK,
         noun_phrase,
-        some(sequence(_ON, noun_phrase, build=lambda np: np), least=2, most=5),
+        some(sequence(places.ONTO, noun_phrase), least=2, most=5),
         build=lambda top, below: TowerClause(Things((top, *below)), upward=False),
     ),
     sequence(
-        silent(phrase(verbs.STACK)),
+        verbs.STACK,
         _COLOR,
-        _ON,
+        places.ONTO,
         _COLOR,
         build=lambda top, below: TowerClause(Things((top, below)), upward=False),
     ),
     sequence(
-        silent(phrase(verbs.STACK)),
+        verbs.STACK,
         THINGS,
-        silent(optional(phrase(f"{manner.UPON_EACH_OTHER}, up"), None)),
+        optional(f"{manner.UPON_EACH_OTHER}, up"),
         optional(_UPWARD, None),
         _TOWER_ENDS,
         build=_tower,
     ),
     sequence(
-        silent(phrase(verbs.STACK)),
+        verbs.STACK,
         THINGS,
         optional(_UPWARD, None),
         DESTINATIONS,
@@ -133,17 +127,17 @@ TOWER = either(
         build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
     ),
     sequence(
-        silent(phrase(verbs.PUT)),
+        verbs.PUT,
         THINGS,
-        silent(phrase(manner.UPON_EACH_OTHER)),
+        manner.UPON_EACH_OTHER,
         optional(_UPWARD, None),
         _TOWER_ENDS,
         build=_tower,
     ),
     sequence(
-        silent(phrase(verbs.BUILD)),
+        verbs.BUILD,
         optional(_UPWARD, None),
-        silent(phrase(verbs.OUT_OF)),
+        verbs.OUT_OF,
         THINGS,
         optional(_UPWARD, None),
         _TOWER_ENDS,
@@ -155,19 +149,19 @@ TOWER = either(
     ),
     variants(
         sequence(
-            silent(phrase(verbs.BUILD)),
-            silent(phrase("a tower, a stack, a pile")),
+            verbs.BUILD,
+            "a tower, a stack, a pile",
             optional(DESTINATIONS, ()),
             OPTIONAL_COMMA,
-            WITH,
+            "with",
             _ENDS,
             build=lambda base, ends: (base, ends),
         ),
         lambda found: _of_its_ends(*found),
     ),
     sequence(
-        silent(phrase(verbs.BUILD)),
-        silent(phrase("a tower, a stack, a pile")),
+        verbs.BUILD,
+        "a tower, a stack, a pile",
         _UPWARD,
         COMMA,
         THINGS,
@@ -175,16 +169,11 @@ TOWER = either(
     ),
 )
 SWAP = either(
+    sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
-        silent(phrase(verbs.SWAP)),
-        THINGS,
-        silent(optional(phrase("around, over"), None)),
-        build=SwapClause,
-    ),
-    sequence(
-        silent(phrase("swap[ping], exchang(e|ing), switch[ing], replac(e|ing)")),
+        "swap[ping], exchang(e|ing), switch[ing], replac(e|ing)",
         noun_phrase,
-        silent(phrase("with, for")),
+        "with, for",
         noun_phrase,
         build=lambda one, two: SwapClause(Things((one, two))),
     ),

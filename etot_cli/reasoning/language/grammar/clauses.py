@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
-from etot_cli.reasoning.language.grammar.common import BE, COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
@@ -24,7 +24,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     phrase,
     sequence,
-    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
@@ -58,12 +57,12 @@ from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
 LEFT_OUT = either(
-    sequence(silent(phrase(f"{nouns.EXCEPT}, without")), exceptions, build=excepting),
-    sequence(silent(optional(phrase("but"), None)), ONLY_THOSE, build=lambda kept: kept),
+    sequence(f"{nouns.EXCEPT}, without", exceptions, build=excepting),
+    sequence(optional("but"), ONLY_THOSE),
     sequence(
-        silent(phrase("[but|and] leav(e|ing) [out], [but|and] keep[ing]")),
+        "[but|and] leav(e|ing) [out], [but|and] keep[ing]",
         exceptions,
-        silent(optional(phrase(manner.AS_IT_IS), None)),
+        optional(manner.AS_IT_IS),
         build=excepting,
     ),
 )
@@ -96,7 +95,7 @@ CLAUSE = located(
             _ASKED,
             sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
             sequence(PUT, OPTIONAL_COMMA, either(CONTRASTED, APPOSED), build=_of_the_things),
-            sequence(PUT, OPTIONAL_COMMA, silent(phrase("but")), PUT_GROUP, build=_but_some),
+            sequence(PUT, OPTIONAL_COMMA, "but", PUT_GROUP, build=_but_some),
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),
@@ -124,14 +123,13 @@ ORDER_WORDS = one_of(
 LEAD = sequence(
     some(
         either(
-            silent(phrase(small_words.FRAMES)),
-            silent(phrase(small_words.WITHOUT_MEANING)),
-            sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA, build=lambda order: order),
+            small_words.FRAMES,
+            small_words.WITHOUT_MEANING,
+            sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
         ),
         most=6,
-    ),
-    build=lambda orders: orders,
+    )
 )
 
 
@@ -168,8 +166,8 @@ def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Cla
 
 _ONLY_THESE = located(
     sequence(
-        silent(phrase(verbs.DO_NOT)),
-        silent(phrase(verbs.PUT)),
+        verbs.DO_NOT,
+        verbs.PUT,
         THINGS,
         DESTINATIONS,
         OPTIONAL_COMMA,
@@ -187,7 +185,7 @@ LED_CLAUSE = Rule(
             LEAD,
             located(PUT, lambda at, clause: (at, clause)),
             OPTIONAL_COMMA,
-            silent(phrase("without")),
+            "without",
             NP_LIST,
             build=_bared,
         ),
@@ -199,7 +197,7 @@ _GONE = located(
     either(
         sequence(
             NP_LIST,
-            silent(phrase(small_words.GONE)),
+            small_words.GONE,
             DESTINATIONS,
             build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
         ),
@@ -209,7 +207,7 @@ _GONE = located(
             build=lambda nps, opens: MoveClause(Things(nps), opens),
         ),
         sequence(
-            silent(phrase(verbs.DONE)),
+            verbs.DONE,
             NP_LIST,
             DESTINATIONS,
             build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
@@ -227,14 +225,16 @@ _SO_BY_THEN = located(
     either(
         sequence(
             NP_LIST,
-            BE,
+            verbs.BE,
             DESTINATIONS,
             build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
         ),
-        sequence(NP_LIST, BE, SOURCE, build=lambda nps, source: RemoveClause(Things(nps), source)),
+        sequence(
+            NP_LIST, verbs.BE, SOURCE, build=lambda nps, source: RemoveClause(Things(nps), source)
+        ),
         sequence(
             NP_LIST,
-            BE,
+            verbs.BE,
             OPEN_OR_CLOSED,
             build=lambda nps, word: MoveClause(Things(nps), word == "open"),
         ),
@@ -243,7 +243,6 @@ _SO_BY_THEN = located(
 )
 """What is so by then; "when" might ask whether it is."""
 EARLIER = either(
-    sequence(silent(phrase(small_words.AFTER)), either(LED_CLAUSE, _GONE), build=lambda done: done),
-    sequence(silent(phrase("once, after")), _SO_BY_THEN, build=lambda done: done),
+    sequence(small_words.AFTER, either(LED_CLAUSE, _GONE)), sequence("once, after", _SO_BY_THEN)
 )
 """What comes before the rest of a sentence."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from etot_cli.reasoning.language.grammar import text
 from etot_cli.reasoning.language.grammar.parsing import (
     Input,
     Parser,
@@ -16,30 +17,22 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     word,
 )
-from etot_cli.reasoning.language.words import known, small_words, verbs
+from etot_cli.reasoning.language.words import known, small_words
 
-COMMA = silent(phrase("~comma"))
-AND = silent(phrase(small_words.AND))
-OR = silent(phrase(small_words.OR))
-EITHER = silent(phrase(small_words.EITHER))
-OF = silent(phrase("of, belonging to"))
-WITH = silent(phrase("with"))
-BE = silent(phrase(verbs.BE))
+COMMA = text.COMMA
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
-LISTED = either(AND, sequence(COMMA, optional(AND), build=lambda: ()))
-LIST = silent(LISTED)
-ALTERNATIVE = silent(either(COMMA, OR))
+LIST = either(small_words.AND, sequence(COMMA, optional(small_words.AND)))
 
 
-def _is_noun(given: Input, text: str) -> bool:
-    if text in given.nouns:
-        return text not in known.NEVER_NOUNS
-    return text[:1].isalnum() and text not in known.GRAMMAR_WORDS and not known.is_adverb(text)
+def _is_noun(given: Input, said: str) -> bool:
+    if said in given.nouns:
+        return said not in known.NEVER_NOUNS
+    return said[:1].isalnum() and said not in known.GRAMMAR_WORDS and not known.is_adverb(said)
 
 
 NOUN_WORD = word(_is_noun)
 OPTIONAL_COMMA = optional(COMMA)
-EXACTLY = silent(optional(phrase(small_words.EXACTLY), None))
+EXACTLY = optional(small_words.EXACTLY)
 
 
 def _alternatives(
@@ -56,10 +49,7 @@ def alternatives(parser: Parser, most: int) -> Parser:
     return sequence(
         optional(phrase(small_words.EITHER, True), False),
         parser,
-        some(sequence(ALTERNATIVE, parser, build=lambda item: item), most=most),
-        optional(
-            sequence(optional(COMMA), OR, parser, build=lambda item: item),
-            None,
-        ),
+        some(sequence(either(COMMA, small_words.OR), parser), most=most),
+        optional(sequence(OPTIONAL_COMMA, small_words.OR, parser), None),
         build=_alternatives,
     )

@@ -5,12 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
-    LEVELS,
-    NUMBERS,
-    is_descriptive,
-)
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, NUMBERS, is_descriptive
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:

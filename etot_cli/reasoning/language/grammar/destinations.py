@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EITHER, EXACTLY, OF, OR, alternatives
+from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -17,12 +17,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
-    silent,
     spanned,
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
-from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words import places, small_words
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
@@ -85,55 +84,49 @@ BESIDE = spanned(
             build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
         ),
         sequence(
-            silent(phrase("on, to, at")),
+            "on, to, at",
             noun_phrase,
-            silent(phrase("'s")),
+            "'s",
             _SIDE_OF_IT,
             build=lambda np, relation: _beside(relation, np),
         ),
         sequence(
-            silent(phrase("in, on, to, at, near, by")),
+            "in, on, to, at, near, by",
             noun_phrase,
-            silent(phrase("'s")),
+            "'s",
             _REGION_OF_IT,
             build=lambda np, regions: _region(regions, np),
         ),
         _ABREAST,
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
-        sequence(
-            _REGION, optional(sequence(OF, noun_phrase, build=lambda np: np), None), build=_region
-        ),
+        sequence(_REGION, optional(sequence("of, belonging to", noun_phrase), None), build=_region),
     ),
     lambda text, found: tuple(replace(item, text=text) for item in found),
 )
 BESIDES = valued(
-    separated(BESIDE, silent(either(COMMA, phrase("and, but"))), most=3),
+    separated(BESIDE, either(COMMA, "and, but"), most=3),
     lambda found: tuple(item for several in found for item in several),
 )
-INTO = sequence(silent(phrase(places.INTO)), TARGETS, build=_toward(Toward.INSIDE))
+INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
 ONTO = sequence(
     phrase(places.ONTO),
     TARGETS,
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
 _AT_END = sequence(
-    one_of(places.AT_END),
-    TARGETS,
-    build=lambda end, targets: Destination(Toward.ON, targets, end),
+    one_of(places.AT_END), TARGETS, build=lambda end, targets: Destination(Toward.ON, targets, end)
 )
 OVER = sequence(
-    silent(phrase(places.OVER)),
-    TARGETS,
-    build=lambda targets: Destination(Toward.ON, targets, places.OVER),
+    places.OVER, TARGETS, build=lambda targets: Destination(Toward.ON, targets, places.OVER)
 )
 
 
-_to = sequence(silent(phrase(places.TO)), TARGETS, build=_toward(Toward.TO))
+_to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
 _top_of = sequence(
-    silent(phrase(places.ONTO)),
+    places.ONTO,
     noun_phrase,
-    silent(phrase("'s")),
-    silent(phrase("top, surface")),
+    "'s",
+    "top, surface",
     build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
 destination = Rule(
@@ -154,7 +147,7 @@ destination = Rule(
         ),
         sequence(
             either(ONTO, _to, INTO),
-            silent(optional(phrase("~comma"), None)),
+            OPTIONAL_COMMA,
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
         ),
@@ -162,17 +155,17 @@ destination = Rule(
 )
 DESTINATIONS = Rule(
     either(
-        separated(destination, OR, most=5),
+        separated(destination, small_words.OR, most=5),
         sequence(
-            EITHER,
-            separated(destination, OR, most=5),
+            small_words.EITHER,
+            separated(destination, small_words.OR, most=5),
             build=lambda found: found if len(found) > 1 else None,
         ),
     )
 )
 _directed = either(
-    sequence(silent(phrase(places.INTO_DIRECTED)), TARGETS, build=_toward(Toward.INSIDE)),
-    sequence(silent(phrase(places.ONTO_DIRECTED)), TARGETS, build=_toward(Toward.ON)),
+    sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
+    sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),
     _to,
 )
-DIRECTED = sequence(optional(EITHER), separated(_directed, OR, most=5), build=lambda found: found)
+DIRECTED = sequence(optional(small_words.EITHER), separated(_directed, small_words.OR, most=5))

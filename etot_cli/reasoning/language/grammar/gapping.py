@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.parsing import one_of, phrase, sequence, silent
+from etot_cli.reasoning.language.grammar.parsing import one_of, sequence
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -124,6 +124,6 @@ RESPECTIVE_GROUPS = sequence(
     NP_LIST,
     one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO, Toward.TO: places.TO}),
     NP_LIST,
-    silent(phrase("[~comma] respectively")),
+    "[~comma] respectively",
     build=_respective,
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OR, WITH
+from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -25,13 +25,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
-    silent,
     some,
     valued,
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import manner, nouns, places
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -43,11 +42,8 @@ from etot_cli.reasoning.language.words.places import Prep
 
 noun_phrase = Rule()
 exceptions = Rule()
-RELATIVE = silent(phrase(nouns.RELATIVE))
-DENIED = silent(phrase(nouns.RELATIVE_NOT))
 ADJECTIVE = either(
-    word(lambda given, text: is_descriptive(text) or text in given.nouns),
-    phrase(manner.STATES),
+    word(lambda given, text: is_descriptive(text) or text in given.nouns), phrase(manner.STATES)
 )
 ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
 PREPOSITION = one_of(places.PREPOSITIONS)
@@ -61,18 +57,15 @@ def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
 
 
 BETWEEN = sequence(
-    silent(phrase("[in] between")),
+    "[in] between",
     noun_phrase,
-    optional(sequence(silent(phrase("and")), noun_phrase, build=lambda np: np), None),
+    optional(sequence("and", noun_phrase), None),
     build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
 )
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
-        EXACTLY,
-        silent(phrase(places.ON_TOP_OF)),
-        noun_phrase,
-        build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
+        EXACTLY, places.ON_TOP_OF, noun_phrase, build=lambda np: Modifier(Prep.ON, (np,), ("top",))
     ),
     valued(BETWEEN, lambda pair: Modifier(Prep.BETWEEN, pair)),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
@@ -82,13 +75,12 @@ PLAIN_MODIFIER = either(
         build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
     ),
 )
-_INSIDE_IT = silent(either(phrase("inside, in there, in"), phrase("(inside|in) (it|them|which)")))
-_UPON_IT = silent(phrase("on [top of] (it|them), on top"))
-_WITHOUT = silent(phrase(nouns.LACKING))
-_HAVING = silent(either(WITH, phrase(nouns.CONTAINING)))
+_INSIDE_IT = "inside, in there, in, (inside|in) (it|them|which)"
+_UPON_IT = "on [top of] (it|them), on top"
+_HAVING = f"with, {nouns.CONTAINING}"
 
 
-def _contents_with(having: Parser, denied: bool) -> Parser:
+def _contents_with(having: str, denied: bool) -> Parser:
     return either(
         sequence(
             having,
@@ -120,7 +112,7 @@ _CAME_FROM = """
 """
 _contents = either(
     sequence(
-        silent(optional(phrase("that, which"), None)),
+        optional("that, which"),
         phrase(_CAME_FROM),
         build=lambda said: Modifier(
             Prep.WITH,
@@ -129,22 +121,22 @@ _contents = either(
         ),
     ),
     _contents_with(_HAVING, denied=False),
-    _contents_with(_WITHOUT, denied=True),
+    _contents_with(nouns.LACKING, denied=True),
     sequence(
         _HAVING,
-        silent(phrase("nothing")),
+        "nothing",
         either(_INSIDE_IT, _UPON_IT),
         build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
     ),
     sequence(
-        silent(phrase("where")),
+        "where",
         noun_phrase,
-        silent(phrase("(is|are|stands|stand|lies|lie|sits|sit|belongs) [currently]")),
+        "(is|are|stands|stand|lies|lie|sits|sit|belongs) [currently]",
         build=lambda np: Modifier(Prep.WITH, (np,)),
     ),
     quiet(
         sequence(
-            silent(optional(phrase("that, which"), None)),
+            optional("that, which"),
             noun_phrase,
             either(
                 phrase("(is|are|lies|lie|sits) [currently] in", Prep.CONTAINING),
@@ -155,14 +147,14 @@ _contents = either(
     ),
 )
 _matching = sequence(
-    silent(phrase(nouns.MATCHING)),
-    silent(optional(phrase("as (it|them|its own|their own)"), None)),
+    nouns.MATCHING,
+    optional("as (it|them|its own|their own)"),
     build=lambda: Modifier(Prep.MATCHING),
 )
 QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
 _none_of = sequence(
     ADJECTIVE,
-    some(sequence(OR, ADJECTIVE, build=lambda text: text), least=1, most=2),
+    some(sequence(small_words.OR, ADJECTIVE), least=1, most=2),
     build=lambda first, more: Modifier(Prep.QUALITY, words=(first, *more)),
 )
 
@@ -216,7 +208,7 @@ MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
 CONTRASTED = quiet(
     sequence(
-        silent(phrase(nouns.CONTRAST)),
+        nouns.CONTRAST,
         noun_phrase,
         build=lambda np: (
             Modifier(Prep.CONTRAST, (_one_of_them(np),)) if np.determiner and np.words else None
@@ -226,69 +218,47 @@ CONTRASTED = quiet(
 APPOSED = either(
     sequence(
         # "The lamp, the one on the left, …"
-        silent(phrase("~comma the (one|ones)")),
-        silent(optional(RELATIVE, None)),
+        "~comma the (one|ones)",
+        optional(nouns.RELATIVE),
         _described,
         either(COMMA, at_end),
-        build=lambda modifier: modifier,
     ),
-    sequence(
-        silent(phrase("~comma the")),
-        QUALITY,
-        silent(phrase("one, ones")),
-        either(COMMA, at_end),
-        build=lambda modifier: modifier,
-    ),
+    sequence("~comma the", QUALITY, "one, ones", either(COMMA, at_end)),
 )
 _modifier = either(
     PLAIN_MODIFIER,
     _contents,
     _matching,
-    sequence(RELATIVE, _described, build=lambda modifier: modifier),
+    sequence(nouns.RELATIVE, _described),
     sequence(
-        silent(phrase("whose (color|colour) is")),
+        "whose (color|colour) is",
         optional(phrase("not", True), False),
         QUALITY,
         build=lambda denied, modifier: replace(modifier, denied=denied),
     ),
-    sequence(
-        silent(phrase("~comma which (is|are)")),
-        either(PLAIN_MODIFIER, QUALITY),
-        COMMA,
-        build=lambda modifier: modifier,
-    ),
+    sequence("~comma which (is|are)", either(PLAIN_MODIFIER, QUALITY), COMMA),
     APPOSED,
     sequence(
-        DENIED,
+        nouns.RELATIVE_NOT,
         either(_described, _none_of),
         build=lambda modifier: replace(modifier, denied=True),
     ),
+    sequence(nouns.RELATIVE_NOT, noun_phrase, build=_other_than),
     sequence(
-        DENIED,
-        noun_phrase,
-        build=_other_than,
-    ),
-    sequence(
-        silent(phrase(nouns.RELATIVE_NEITHER)),
+        nouns.RELATIVE_NEITHER,
         valued(
-            separated(ADJECTIVE, silent(phrase("nor, or")), most=3),
+            separated(ADJECTIVE, "nor, or", most=3),
             lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
         ),
-        build=lambda modifier: modifier,
     ),
     sequence(
-        silent(phrase(nouns.NOT_PLACED)),
+        nouns.NOT_PLACED,
         PLAIN_MODIFIER,
         # "The right not of the cup" is no English.
         build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
     ),
-    sequence(silent(optional(phrase("~comma"), None)), CONTRASTED, build=lambda found: found),
-    sequence(
-        silent(optional(phrase("~comma"), None)),
-        silent(phrase(nouns.EXCEPT)),
-        exceptions,
-        build=excepting,
-    ),
-    sequence(silent(phrase("~comma but, ~comma, but")), ONLY_THOSE, build=lambda kept: kept),
+    sequence(OPTIONAL_COMMA, CONTRASTED),
+    sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, build=excepting),
+    sequence("~comma but, ~comma, but", ONLY_THOSE),
 )
 MODIFIER.define(_modifier)

@@ -6,11 +6,9 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
-    AND,
     COMMA,
     NOUN_WORD,
     OPTIONAL_COMMA,
-    OR,
     alternatives,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
@@ -29,14 +27,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     quiet,
     sequence,
-    silent,
     some,
     spanned,
     valued,
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
-from etot_cli.reasoning.language.words import nouns
+from etot_cli.reasoning.language.words import nouns, small_words
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -50,9 +47,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.places import Prep
 
 _NUMBER = sequence(
-    word(lambda given, text: text.isdigit() and len(text) < 3),
-    silent(optional(phrase("of [the|these|those]"), None)),
-    build=lambda number: number,
+    word(lambda given, text: text.isdigit() and len(text) < 3), optional("of [the|these|those]")
 )
 DETERMINER = either(
     phrase(", ".join(nouns.DETERMINERS)),
@@ -60,8 +55,6 @@ DETERMINER = either(
     sequence(phrase("the, these, those"), _NUMBER, build=lambda *words: " ".join(words)),
 )
 PRONOUN = phrase("it, them, they, this, that, these, those, its")
-NON = silent(phrase("non, not"))
-_MATCHING_ADJECTIVE = silent(phrase(nouns.MATCHING_ADJECTIVES))
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
 
@@ -121,14 +114,14 @@ def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
-_OR_OTHER = some(sequence(OR, _DESCRIPTIVE, build=lambda text: text), least=1, most=3)
+_OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
 noun_phrase.define(
     spanned(
         either(
             sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
             sequence(
                 # "The top two drawers"
-                silent(phrase("the")),
+                "the",
                 word(lambda given, text: is_descriptive(text) or text in LEVELS),
                 word(lambda given, text: NUMBERS.get(text, 1) > 1),
                 WORDS,
@@ -138,67 +131,52 @@ noun_phrase.define(
                 ),
             ),
             sequence(
-                silent(phrase("whichever, whatever")),
+                "whichever, whatever",
                 WORDS,
-                silent(phrase("is")),
+                "is",
                 either(PLAIN_MODIFIER, quality_alone),
                 build=lambda words, modifier: NounPhrase("the only", words, (modifier,)),
             ),
             sequence(
-                silent(phrase("the")),
+                "the",
                 phrase("near"),
                 WORDS,
                 MODIFIERS,
                 build=lambda near, words, modifiers: NounPhrase("the", (near, *words), modifiers),
             ),
             sequence(
-                silent(phrase("a")),
+                "a",
                 WORDS,
-                silent(phrase("of (its|their) own")),
+                "of (its|their) own",
                 build=lambda words: NounPhrase("a", ("different", *words)),
             ),
-            quiet(
-                sequence(
-                    silent(phrase("[the] same")),
-                    WORDS,
-                    silent(phrase("as")),
-                    noun_phrase,
-                    build=_where_it_is,
-                )
-            ),
-            sequence(_FREE_CHOICE, WORDS, silent(phrase(nouns.AS_YOU_LIKE)), build=NounPhrase),
+            quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
+            sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
             sequence(
-                silent(optional(phrase("the, a, their, its, his"), None)),
-                _MATCHING_ADJECTIVE,
+                optional("the, a, their, its, his"),
+                nouns.MATCHING_ADJECTIVES,
                 WORDS,
                 build=lambda words: NounPhrase("the", words, (Modifier(Prep.MATCHING),)),
             ),
             sequence(
-                silent(phrase(nouns.FREE_RELATIVE)),
+                nouns.FREE_RELATIVE,
                 PLAIN_MODIFIER,
                 MODIFIERS,
                 build=lambda first, more: NounPhrase("all", ("objects",), (first, *more)),
             ),
             sequence(OPTIONAL_DETERMINER, ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
-            sequence(OPTIONAL_DETERMINER, NON, NOUN_WORD, WORDS, MODIFIERS, build=_negative),
+            sequence(OPTIONAL_DETERMINER, "non, not", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
             sequence(
                 OPTIONAL_DETERMINER,
                 some(NOUN_WORD, least=1, most=2),
-                silent(phrase("and")),
+                "and",
                 WORDS,
                 MODIFIERS,
                 build=_joined,
             ),
+            sequence(OPTIONAL_DETERMINER, _DESCRIPTIVE, _OR_OTHER, WORDS, MODIFIERS, build=_any_of),
             sequence(
-                OPTIONAL_DETERMINER,
-                _DESCRIPTIVE,
-                _OR_OTHER,
-                WORDS,
-                MODIFIERS,
-                build=_any_of,
-            ),
-            sequence(
-                silent(phrase("everything, anything")),
+                "everything, anything",
                 _DESCRIPTIVE,
                 _OR_OTHER,
                 MODIFIERS,
@@ -215,7 +193,7 @@ noun_phrase.define(
             sequence(
                 OPTIONAL_DETERMINER,
                 WORDS,
-                silent(phrase("'s")),
+                "'s",
                 WORDS,
                 MODIFIERS,
                 build=lambda det, owner, words, mods: NounPhrase(
@@ -248,7 +226,7 @@ _COORDINATION = sequence(
     some(
         either(
             sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
-            sequence(OPTIONAL_COMMA, AND, noun_phrase, build=lambda np: (True, np)),
+            sequence(OPTIONAL_COMMA, small_words.AND, noun_phrase, build=lambda np: (True, np)),
         ),
         most=9,
     ),
@@ -272,8 +250,5 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 
 THINGS = Rule(
-    either(
-        valued(NP_LIST, Things),
-        sequence(alternatives(noun_phrase, 5), build=_one_of),
-    )
+    either(valued(NP_LIST, Things), sequence(alternatives(noun_phrase, 5), build=_one_of))
 )

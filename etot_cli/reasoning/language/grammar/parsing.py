@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 from etot_cli.reasoning.language.words.patterns import spellings
 
 Result = tuple[int, Any]
 Parser = Callable[["Input", int], Sequence[Result]]
+Part = Parser | str
+"""What larger parsers are put together of; a text is patterns of words that have no value."""
 MAX_WORK = 4000
 """Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
 need some hundreds."""
@@ -94,6 +97,15 @@ def phrase(patterns: str, value: Any = None) -> Parser:
     return one_of({value: patterns})
 
 
+@cache
+def _read_over(patterns: str) -> Parser:
+    return phrase(patterns, NOTHING)
+
+
+def _parser(part: Part) -> Parser:
+    return _read_over(part) if isinstance(part, str) else part
+
+
 def one_of(table: Mapping[Any, str]) -> Parser:
     """One of several phrases with the value that they stand behind, the phrase itself for None."""
     root = _Node()
@@ -144,8 +156,14 @@ def word(test: Callable[[Input, str], bool]) -> Parser:
     return parse
 
 
-def sequence(*parsers: Parser, build: Callable[..., Any]) -> Parser:
+def _only(*values: Any) -> Any:
+    """The values of a sequence of which nothing else is made: the only one, if it is one."""
+    return values[0] if len(values) == 1 else values or NOTHING
+
+
+def sequence(*parts: Part, build: Callable[..., Any] = _only) -> Parser:
     """One after the other; ``build`` gets the values of those that have one."""
+    parsers = tuple(map(_parser, parts))
 
     def parse(given: Input, at: int) -> list[Result]:
         partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
@@ -163,8 +181,9 @@ def sequence(*parsers: Parser, build: Callable[..., Any]) -> Parser:
     return parse
 
 
-def either(*parsers: Parser) -> Parser:
+def either(*parts: Part) -> Parser:
     """All that any of them finds."""
+    parsers = tuple(map(_parser, parts))
     return lambda given, at: [item for parser in parsers for item in parser(given, at)]
 
 
@@ -173,8 +192,9 @@ def at_end(given: Input, at: int) -> list[Result]:
     return [(at, NOTHING)] if at == len(given.words) else []
 
 
-def optional(parser: Parser, default: Any = NOTHING) -> Parser:
+def optional(part: Part, default: Any = NOTHING) -> Parser:
     """What a parser finds, or nothing at all."""
+    parser = _parser(part)
     return lambda given, at: [*parser(given, at), (at, default)]
 
 
@@ -200,9 +220,9 @@ def some(parser: Parser, least: int = 0, most: int = 12) -> Parser:
     return parse
 
 
-def separated(parser: Parser, separator: Parser, most: int = 12) -> Parser:
-    """One or more with separators between; the value is a tuple."""
-    rest = some(sequence(separator, parser, build=lambda *values: values[-1]), most=most)
+def separated(parser: Parser, separator: Part, most: int = 12) -> Parser:
+    """One or more with separators between, which have no value; the value is a tuple."""
+    rest = some(sequence(separator, parser), most=most)
     return sequence(parser, rest, build=lambda first, more: (first, *more))
 
 

@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     left,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
@@ -26,7 +26,6 @@ from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lendi
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
-    NOTHING,
     Parser,
     Rule,
     either,
@@ -56,9 +55,7 @@ from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 
 
-_ASIDE = silent(
-    either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA, build=lambda: ()))
-)
+_ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 
 def _group(directions: Parser, particle: str) -> Parser:
@@ -77,14 +74,14 @@ PUT_GROUP = _group(
     "one (by one|at a time|after the other|after another)",
 )
 _GROUPED = sequence(
-    silent(phrase(verbs.PUT)),
+    verbs.PUT,
     THINGS,
     GROUPING,
     DESTINATIONS,
     build=lambda things, grouping, where: PutClause((PutGroup(things, where),), grouping),
 )
 _IN_TURNS = sequence(
-    silent(phrase(verbs.PUT)),
+    verbs.PUT,
     THINGS,
     COMMA,
     TURN,
@@ -93,7 +90,7 @@ _IN_TURNS = sequence(
     build=lambda things, turn, where: put_of((PutGroup(things, where),), (turn,)),
 )
 _WITH_WHAT_IT_HOLDS = sequence(
-    silent(phrase(verbs.PUT)),
+    verbs.PUT,
     THINGS,
     COMMA,
     CONDITION,
@@ -105,10 +102,7 @@ PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 _FRONTED = quiet(
     sequence(
         either(
-            sequence(silent(phrase(verbs.PUT)), DESTINATIONS, build=lambda where: where),
-            sequence(
-                DESTINATIONS, OPTIONAL_COMMA, silent(phrase(verbs.PUT)), build=lambda where: where
-            ),
+            sequence(verbs.PUT, DESTINATIONS), sequence(DESTINATIONS, OPTIONAL_COMMA, verbs.PUT)
         ),
         noun_phrase,
         build=lambda where, np: PutClause((PutGroup(Things((np,)), where),)),
@@ -116,19 +110,17 @@ _FRONTED = quiet(
 )
 """The place before the thing."""
 _ALONG_WITH = sequence(
-    silent(phrase(verbs.PUT)),
+    verbs.PUT,
     NP_LIST,
     DESTINATIONS,
     OPTIONAL_COMMA,
-    silent(phrase("together with, along with")),
+    "together with, along with",
     NP_LIST,
     build=lambda things, where, more: PutClause((PutGroup(Things((*things, *more)), where),)),
 )
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
-_BY_COLOR = sequence(
-    THINGS, silent(phrase(manner.BY_COLOR)), OPTIONAL_COMMA, DESTINATIONS, build=PutGroup
-)
+_BY_COLOR = sequence(THINGS, manner.BY_COLOR, OPTIONAL_COMMA, DESTINATIONS, build=PutGroup)
 
 
 def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
@@ -146,15 +138,12 @@ def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -
 _FIRST_THEN = sequence(
     optional(phrase("first", True), False),
     noun_phrase,
-    silent(optional(phrase("first"), None)),
+    optional("first"),
     some(
         either(
             sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
             sequence(
-                OPTIONAL_COMMA,
-                silent(phrase(small_words.THEN_JOINTS)),
-                noun_phrase,
-                build=lambda np: (True, np),
+                OPTIONAL_COMMA, small_words.THEN_JOINTS, noun_phrase, build=lambda np: (True, np)
             ),
         ),
         least=1,
@@ -163,24 +152,24 @@ _FIRST_THEN = sequence(
     build=_in_this_order,
 )
 _ONE_BY_ONE = sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=PutGroup)
-_ONES_THAT_GO = sequence(_FIRST_THEN, silent(phrase(verbs.MODAL)), DESTINATIONS, build=PutGroup)
+_ONES_THAT_GO = sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=PutGroup)
 _SO_THAT_IT_IS = sequence(
     THINGS,
     OPTIONAL_COMMA,
-    silent(phrase(small_words.SO_THAT)),
+    small_words.SO_THAT,
     either(
-        sequence(silent(phrase("it, they")), BE, build=lambda: NOTHING),
-        silent(phrase("it (stands|sits|lies), they (stand|sit|lie)")),
+        sequence("it, they", verbs.BE),
+        "it (stands|sits|lies), they (stand|sit|lie)",
     ),
     DESTINATIONS,
     build=PutGroup,
 )
 _NEITHER = quiet(
     sequence(
-        silent(phrase("neither")),
-        separated(destination, silent(phrase("nor, or")), most=4),
+        "neither",
+        separated(destination, "nor, or", most=4),
         OPTIONAL_COMMA,
-        silent(phrase("but [rather|instead]")),
+        "but [rather|instead]",
         DESTINATIONS,
         build=lambda out, where: (out, where) if len(out) > 1 else None,
     )
@@ -188,7 +177,7 @@ _NEITHER = quiet(
 _INSTEAD = sequence(
     DESTINATIONS,
     OPTIONAL_COMMA,
-    silent(phrase("but [rather|instead]")),
+    "but [rather|instead]",
     DESTINATIONS,
     build=lambda out, where: (out, where),
 )
@@ -217,25 +206,19 @@ PUT = either(
     _WITH_WHAT_IT_HOLDS,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
-        silent(phrase(verbs.PLACE)),
+        verbs.PLACE,
         either(INTO, ONTO),
         build=lambda where: PutClause((PutGroup(_IT, (where,)),)),
     ),
     sequence(
-        silent(phrase(verbs.PUT)),
-        either(_ONE_BY_ONE, _SO_THAT_IT_IS),
-        build=lambda group: PutClause((group,)),
+        verbs.PUT, either(_ONE_BY_ONE, _SO_THAT_IT_IS), build=lambda group: PutClause((group,))
     ),
+    sequence(verbs.PUT, _BY_COLOR, build=lambda group: PutClause((group,), by_color=True)),
     sequence(
-        silent(phrase(verbs.PUT)),
-        _BY_COLOR,
-        build=lambda group: PutClause((group,), by_color=True),
-    ),
-    sequence(
-        silent(phrase(verbs.DISTRIBUTE)),
+        verbs.DISTRIBUTE,
         sequence(
             THINGS,
-            silent(phrase(places.AMONG)),
+            places.AMONG,
             NP_LIST,
             build=lambda things, nps: PutGroup(things, (Destination(Toward.TO, nps),)),
         ),
@@ -243,45 +226,39 @@ PUT = either(
         build=lambda group, extras: put_of((group,), extras, Grouping.SPREAD),
     ),
     sequence(
-        silent(phrase(verbs.STACK)),
-        PUT_GROUPS,
-        build=lambda groups: PutClause(groups) if len(groups) > 1 else None,
+        verbs.STACK, PUT_GROUPS, build=lambda groups: PutClause(groups) if len(groups) > 1 else None
     ),
-    sequence(silent(phrase(verbs.SET_DOWN)), PUT_GROUPS, EXTRAS, build=put_of),
+    sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
     THROWN,
-    sequence(silent(phrase("leav(e|ing)")), PUT_GROUPS, EXTRAS, build=left),
-    sequence(silent(phrase("keep[ing]")), PUT_GROUPS, EXTRAS, build=kept),
+    sequence("leav(e|ing)", PUT_GROUPS, EXTRAS, build=left),
+    sequence("keep[ing]", PUT_GROUPS, EXTRAS, build=kept),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
-        silent(phrase("get[ting]")),
+        "get[ting]",
         PUT_GROUP,
         build=lambda group: PutClause((group,), far_fetched=2),
     ),
     sequence(
-        silent(phrase(verbs.PUT)),
+        verbs.PUT,
         THINGS,
-        either(_NEITHER, sequence(silent(phrase("not")), _INSTEAD, build=lambda places: places)),
+        either(_NEITHER, sequence("not", _INSTEAD)),
         build=lambda things, places: _elsewhere(things, *places),
     ),
     sequence(
-        silent(phrase(verbs.DO_NOT)),
-        silent(phrase(verbs.PUT)),
+        verbs.DO_NOT,
+        verbs.PUT,
         THINGS,
         _INSTEAD,
         build=lambda things, places: _elsewhere(things, *places),
     ),
+    sequence(verbs.PUT, RESPECTIVE_GROUPS, build=lambda groups: PutClause(groups)),
     sequence(
-        silent(phrase(verbs.PUT)),
-        RESPECTIVE_GROUPS,
-        build=lambda groups: PutClause(groups),
-    ),
-    sequence(
-        silent(phrase(verbs.BRING)),
+        verbs.BRING,
         separated(
             sequence(
                 THINGS,
                 # "Off the tray and onto the shelf"
-                optional(sequence(SOURCE, silent(optional(LIST)), build=lambda np: np), None),
+                optional(sequence(SOURCE, optional(LIST)), None),
                 DIRECTED,
                 build=lambda things, source, where: PutGroup(from_source(things, source), where),
             ),
@@ -293,7 +270,7 @@ PUT = either(
     ),
     *(
         sequence(
-            silent(phrase(verb)),
+            verb,
             THINGS,
             silent(particle),
             build=lambda things, where=where: PutClause((PutGroup(things, where),)),

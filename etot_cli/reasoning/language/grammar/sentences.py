@@ -15,9 +15,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     located,
     optional,
-    phrase,
     sequence,
-    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
@@ -49,41 +47,32 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
 
 
 _JOINED = either(
-    sequence(silent(phrase("and")), LED_CLAUSE, build=lambda clause: ("mere and", clause)),
-    sequence(silent(phrase(small_words.JOINTS)), LED_CLAUSE, build=lambda clause: ("and", clause)),
+    sequence("and", LED_CLAUSE, build=lambda clause: ("mere and", clause)),
+    sequence(small_words.JOINTS, LED_CLAUSE, build=lambda clause: ("and", clause)),
     sequence(COMMA, LED_CLAUSE, build=lambda clause: ("and", clause)),
     sequence(
         OPTIONAL_COMMA,
-        silent(phrase(small_words.THEN_JOINTS)),
+        small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         LED_CLAUSE,
         build=lambda clause: ("then", clause),
     ),
+    sequence(OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE, build=lambda clause: ("then", clause)),
+    sequence(OPTIONAL_COMMA, EARLIER, build=lambda clause: ("after", clause)),
     sequence(
         OPTIONAL_COMMA,
-        silent(phrase(small_words.BEFORE)),
-        LED_CLAUSE,
-        build=lambda clause: ("then", clause),
-    ),
-    sequence(
-        OPTIONAL_COMMA,
-        EARLIER,
-        build=lambda clause: ("after", clause),
-    ),
-    sequence(
-        OPTIONAL_COMMA,
-        silent(phrase(small_words.SO_THAT)),
+        small_words.SO_THAT,
         located(states, lambda at, found: (Spoken(EnsureClause(found), at),)),
         build=lambda clause: ("and", clause),
     ),
     sequence(
-        silent(phrase("until")),
+        "until",
         located(states, lambda at, found: (Spoken(EnsureClause(found, waits=True), at),)),
         build=lambda clause: ("until", clause),
     ),
     sequence(
         OPTIONAL_COMMA,
-        silent(phrase(small_words.THEN_JOINTS)),
+        small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
         either(
@@ -94,9 +83,9 @@ _JOINED = either(
     ),
     sequence(
         OPTIONAL_COMMA,
-        silent(phrase(small_words.ONWARD)),
+        small_words.ONWARD,
         located(
-            sequence(silent(optional(phrase("back"), None)), DESTINATIONS, build=_onward),
+            sequence(optional("back"), DESTINATIONS, build=_onward),
             lambda at, clause: (Spoken(clause, at),),
         ),
         build=lambda clause: ("then", clause),
@@ -177,12 +166,8 @@ _NAMED = located(
     sequence(THINGS, build=lambda things: ReorientClause(things, only_named=True)),
     lambda at, clause: Spoken(clause, at),
 )
-_TOPIC = sequence(
-    silent(optional(phrase(small_words.LOOK_FOR), None)), _NAMED, build=lambda topic: topic
-)
-_BROUGHT = sequence(
-    silent(phrase(verbs.FETCH)), _NAMED, silent(phrase("over [here], here")), build=lambda np: np
-)
+_TOPIC = sequence(optional(small_words.LOOK_FOR), _NAMED)
+_BROUGHT = sequence(verbs.FETCH, _NAMED, "over [here], here")
 
 
 def _about(topic: Spoken, rest: Reading) -> Reading | None:
@@ -202,14 +187,14 @@ SENTENCE = either(
     sequence(
         LEAD,
         _TOPIC,
-        either(COMMA, silent(phrase("and, and then"))),
+        either(COMMA, "and, and then"),
         CHAIN,
         build=lambda orders, topic, rest: None if orders else _about(topic, rest),
     ),
     sequence(
         LEAD,
         _BROUGHT,
-        either(COMMA, silent(phrase("and, and then, then"))),
+        either(COMMA, "and, and then, then"),
         CHAIN,
         build=lambda orders, topic, rest: None if orders else _set_down(topic, rest),
     ),
@@ -220,7 +205,7 @@ SENTENCE = either(
     ),
     sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
-        silent(phrase(f"{small_words.LEADING_THEN}, [and] now")),
+        f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
         EMPTY_WORDS,
         located(THINGS, lambda at, things: Spoken(AgainClause(things), at, Order.THEN)),
@@ -242,29 +227,29 @@ SENTENCE = either(
     ),
     sequence(
         LEAD,
-        silent(phrase(small_words.BEFORE)),
+        small_words.BEFORE,
         LED_CLAUSE,
         COMMA,
         CHAIN,
         build=lambda orders, later, rest: None if orders else (*rest, *_then(later)),
     ),
 )
-_END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA, build=lambda: ())
+_END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
 WHOLE = either(
-    sequence(SENTENCE, silent(_END), silent(optional(phrase(QUESTION), None)), build=lambda r: r),
+    sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
         EMPTY_WORDS,
-        silent(optional(phrase(small_words.TIDY_UP), None)),
+        optional(small_words.TIDY_UP),
         _PLACED,
         some(_JOINED, most=12),
-        silent(_END),
+        _END,
         build=_verbless,
     ),
     sequence(
         EMPTY_WORDS,
-        optional(sequence(_PLACED, LIST, build=lambda put: put), ()),
+        optional(sequence(_PLACED, LIST), ()),
         _LEFT_SO,
-        silent(_END),
+        _END,
         build=lambda put, left: (*put, *left),
     ),
 )

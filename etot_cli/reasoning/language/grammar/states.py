@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import BE, COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
-    NOTHING,
     Rule,
     either,
     optional,
@@ -17,7 +16,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
-    silent,
     some,
     valued,
 )
@@ -33,9 +31,7 @@ from etot_cli.reasoning.language.words import manner, nouns, verbs
 
 _NONE = ("no", "none of the")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
-_NOT_SO = sequence(
-    silent(phrase("not [left|kept]")), OPEN_OR_CLOSED, build=lambda word: ("not", word)
-)
+_NOT_SO = sequence("not [left|kept]", OPEN_OR_CLOSED, build=lambda word: ("not", word))
 PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 
 
@@ -68,13 +64,13 @@ def _opposite(subjects: tuple[NounPhrase, ...], word: str) -> State:
 
 _STAYS = sequence(
     NP_LIST,
-    silent(phrase(verbs.STAY)),
+    verbs.STAY,
     PREDICATE,
     build=lambda nps, predicate: (
         None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
     ),
 )
-STATE = either(sequence(NP_LIST, BE, PREDICATE, build=state_of), _STAYS)
+STATE = either(sequence(NP_LIST, verbs.BE, PREDICATE, build=state_of), _STAYS)
 states = Rule(separated(STATE, LIST, most=6))
 
 
@@ -93,11 +89,7 @@ def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -
 
 _PLAIN_MOVE = either(
     *(
-        sequence(
-            silent(phrase(verb)),
-            THINGS,
-            build=lambda things, opens=opens: MoveClause(things, opens),
-        )
+        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
         for verb, opens in (
             (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
             (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
@@ -105,10 +97,7 @@ _PLAIN_MOVE = either(
     ),
     *(
         sequence(
-            silent(phrase(verb)),
-            THINGS,
-            silent(phrase(particle)),
-            build=lambda things, opens=opens: MoveClause(things, opens),
+            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
         )
         for verb, particle, opens in (
             (verbs.PULL, manner.OPEN_STATE, True),
@@ -135,44 +124,38 @@ MOVE = either(
 )
 IF_NOT_SO = quiet(
     sequence(
-        silent(phrase("if")),
+        "if",
         NP_LIST,
-        BE,
+        verbs.BE,
         OPEN_OR_CLOSED,
-        either(COMMA, sequence(OPTIONAL_COMMA, silent(phrase("then")), build=lambda: NOTHING)),
+        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
         _PLAIN_MOVE,
         build=_if_not_so,
     )
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
-_TO_BE = silent(optional(phrase("to (be|end up|go|stand|sit|lie)"), None))
-_EACH = silent(optional(phrase("each, both, all"), None))
+_TO_BE = optional("to (be|end up|go|stand|sit|lie)")
+_EACH = optional("each, both, all")
 ENSURE = either(
-    sequence(silent(phrase(verbs.ENSURE)), states, build=EnsureClause),
+    sequence(verbs.ENSURE, states, build=EnsureClause),
     sequence(
-        silent(phrase(verbs.KEEP)),
+        verbs.KEEP,
         NP_LIST,
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
-    sequence(
-        silent(phrase(verbs.DO_NOT)),
-        silent(phrase(verbs.KEEP)),
-        NP_LIST,
-        OPEN_OR_CLOSED,
-        build=not_left,
-    ),
+    sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     quiet(
         sequence(
             NP_LIST,
-            silent(phrase("(should|must|shall|may) not (be|stay|remain) [left|kept]")),
+            "(should|must|shall|may) not (be|stay|remain) [left|kept]",
             OPEN_OR_CLOSED,
             build=lambda nps, word: _ensured(opposite(nps, word)),
         )
     ),
     valued(_STAYS, lambda state: EnsureClause((state,))),
     sequence(
-        silent(phrase("there (should|must|has to|have to|needs to|need to|shall) be")),
+        "there (should|must|has to|have to|needs to|need to|shall) be",
         NP_LIST,
         DESTINATIONS,
         build=lambda nps, where: EnsureClause((State(nps, where),)),
@@ -180,21 +163,18 @@ ENSURE = either(
     sequence(
         NP_LIST,
         _EACH,
-        silent(phrase(verbs.MODAL)),
+        verbs.MODAL,
         PREDICATE,
         # "…, the ball in the cup": the verb is left out.
         some(sequence(LIST, NP_LIST, PREDICATE, build=state_of), most=4),
         build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
     sequence(
-        silent(phrase(verbs.WANT)),
+        verbs.WANT,
         NP_LIST,
         _TO_BE,
         PREDICATE,
-        some(
-            sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of),
-            most=4,
-        ),
+        some(sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of), most=4),
         build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
 )

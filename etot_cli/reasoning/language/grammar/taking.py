@@ -5,14 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import (
-    OPTIONAL_COMMA,
-    WITH,
-    alternatives,
-)
-from etot_cli.reasoning.language.grammar.destinations import (
-    DESTINATIONS,
-)
+from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, alternatives
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -22,7 +16,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     quiet,
     sequence,
-    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
@@ -47,9 +40,9 @@ POSE = either(
     phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
 )
 POSES = alternatives(POSE, 1)
-SOURCE = sequence(silent(phrase(places.SOURCE)), noun_phrase, build=lambda np: np)
+SOURCE = sequence(places.SOURCE, noun_phrase)
 OPTIONAL_SOURCE = optional(SOURCE, None)
-OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES, build=lambda found: found), None)
+OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES), None)
 
 
 def from_source(things: Things, source: NounPhrase | None) -> Things:
@@ -69,19 +62,19 @@ def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | 
 
 
 PICK = sequence(
-    optional(sequence(POSES, OPTIONAL_COMMA, build=lambda found: found), None),
-    silent(phrase(verbs.PICK)),
+    optional(sequence(POSES, OPTIONAL_COMMA), None),
+    verbs.PICK,
     THINGS,
-    silent(optional(phrase("up"), None)),
+    optional("up"),
     OPTIONAL_SOURCE,
     OPTIONAL_POSES,
     build=_pick,
 )
 HAND_OVER = quiet(
     sequence(
-        silent(phrase("hand[ing], bring[ing], giv(e|ing), pass[ing]")),
+        "hand[ing], bring[ing], giv(e|ing), pass[ing]",
         phrase("it, them"),
-        silent(phrase("[over] to me")),
+        "[over] to me",
         build=lambda text: PickClause(Things((NounPhrase(pronoun=text, text=text),))),
     )
 )
@@ -95,38 +88,27 @@ def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
 
 REMOVE = either(
     sequence(
-        silent(phrase(verbs.REMOVE)),
+        verbs.REMOVE,
         THINGS,
         OPTIONAL_SOURCE,
         build=lambda things, source: RemoveClause(things, source),
     ),
     sequence(
         # Without a source it is rather what holds them.
-        silent(phrase("unload[ing]")),
+        "unload[ing]",
         THINGS,
         SOURCE,
         build=RemoveClause,
     ),
     sequence(
-        silent(phrase(verbs.BRING)),
+        verbs.BRING,
         THINGS,
-        silent(phrase("out, off, away, down")),
+        "out, off, away, down",
         OPTIONAL_SOURCE,
         build=lambda things, source: RemoveClause(things, source),
     ),
-    sequence(
-        silent(phrase(verbs.BRING)),
-        THINGS,
-        silent(phrase("out of, off [of]")),
-        noun_phrase,
-        build=_taken,
-    ),
-    sequence(
-        silent(phrase(verbs.TAKE)),
-        THINGS,
-        SOURCE,
-        build=_taken,
-    ),
+    sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
+    sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
 )
 
 
@@ -150,48 +132,17 @@ def _tidied(verb: str, things: Things, where: Any) -> PutClause:
 
 
 EMPTY = either(
+    sequence("empty[ing] [out], unload[ing]", THINGS, optional(DESTINATIONS, None), build=_emptied),
+    sequence(phrase(verbs.TIDY), THINGS, optional("away, up"), DESTINATIONS, build=_tidied),
     sequence(
-        silent(phrase("empty[ing] [out], unload[ing]")),
-        THINGS,
-        optional(DESTINATIONS, None),
-        build=_emptied,
+        verbs.CLEAR, NP_LIST, DESTINATIONS, build=lambda nps, where: _emptied(Things(nps), where)
     ),
+    sequence(verbs.CLEAR, NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+    sequence(NP_LIST, verbs.MODAL, manner.EMPTIED, build=lambda nps: _emptied(Things(nps), None)),
+    sequence(verbs.NOTHING_IS, NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
+    sequence("mak(e|ing)", NP_LIST, manner.EMPTIED, build=lambda nps: _emptied(Things(nps), None)),
     sequence(
-        phrase(verbs.TIDY),
-        THINGS,
-        silent(optional(phrase("away, up"), None)),
-        DESTINATIONS,
-        build=_tidied,
-    ),
-    sequence(
-        silent(phrase(verbs.CLEAR)),
-        NP_LIST,
-        DESTINATIONS,
-        build=lambda nps, where: _emptied(Things(nps), where),
-    ),
-    sequence(silent(phrase(verbs.CLEAR)), NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
-    sequence(
-        NP_LIST,
-        silent(phrase(verbs.MODAL)),
-        silent(phrase(manner.EMPTIED)),
-        build=lambda nps: _emptied(Things(nps), None),
-    ),
-    sequence(
-        silent(phrase(verbs.NOTHING_IS)),
-        NP_LIST,
-        build=lambda nps: _emptied(Things(nps), None),
-    ),
-    sequence(
-        silent(phrase("mak(e|ing)")),
-        NP_LIST,
-        silent(phrase(manner.EMPTIED)),
-        build=lambda nps: _emptied(Things(nps), None),
-    ),
-    sequence(
-        silent(phrase("clear[ing]")),
-        THINGS,
-        SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
+        "clear[ing]", THINGS, SOURCE, build=lambda things, source: RemoveClause(things, source)
     ),
 )
 
@@ -207,7 +158,7 @@ FILL = quiet(
     sequence(
         one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
         noun_phrase,
-        WITH,
+        "with",
         THINGS,
         build=lambda toward, np, things: PutClause(
             (PutGroup(things, (Destination(toward, (np,)),)),)
@@ -215,22 +166,13 @@ FILL = quiet(
     )
 )
 COVER = either(
-    sequence(silent(phrase(verbs.PLACE)), THINGS, silent(phrase("[back] on")), build=_lidded),
+    sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
     sequence(
-        silent(phrase(verbs.COVER)),
-        THINGS,
-        WITH,
-        THINGS,
-        build=lambda things, cover: CoverClause(things, cover),
+        verbs.COVER, THINGS, "with", THINGS, build=lambda things, cover: CoverClause(things, cover)
     ),
+    sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
     sequence(
-        silent(phrase(verbs.COVER)),
-        THINGS,
-        silent(optional(phrase("with (its|their|a) lid"), None)),
-        build=CoverClause,
-    ),
-    sequence(
-        silent(phrase(verbs.UNCOVER)),
+        verbs.UNCOVER,
         NP_LIST,
         build=lambda nps: RemoveClause(Things(tuple(_contents_of(np, Prep.ON) for np in nps))),
     ),

@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
-    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
@@ -40,11 +39,11 @@ def _away(text: str, things: Things) -> PutClause:
 THROWN = quiet(
     either(
         sequence(
-            silent(phrase(verbs.THROW)),
+            verbs.THROW,
             separated(
                 sequence(
                     THINGS,
-                    silent(optional(phrase("away, out"), None)),
+                    optional("away, out"),
                     sequence(INTO, build=lambda place: (place,)),
                     build=_into_a_bin,
                 ),
@@ -55,10 +54,7 @@ THROWN = quiet(
         ),
         sequence(phrase(verbs.THROW_AWAY), THINGS, build=_away),
         sequence(
-            silent(phrase(verbs.THROW)),
-            THINGS,
-            phrase("away, out"),
-            build=lambda things, text: _away(text, things),
+            verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
         ),
     )
 )

@@ -11,10 +11,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
     optional,
-    phrase,
     separated,
     sequence,
-    silent,
     some,
     valued,
 )
@@ -28,27 +26,25 @@ def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
 
 
 _FIRST_OF_THEM = either(
-    sequence(separated(noun_phrase, LIST, most=2), silent(phrase("first")), build=_named_ones),
-    sequence(silent(phrase(manner.STARTING_WITH)), noun_phrase, build=lambda np: (np,)),
+    sequence(separated(noun_phrase, LIST, most=2), "first", build=_named_ones),
+    sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
-_LAST_OF_THEM = sequence(
-    separated(noun_phrase, LIST, most=2), silent(phrase("last")), build=_named_ones
-)
+_LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)
 SWEEP = one_of(manner.SWEEPS)
-_THEN = silent(either(LIST, sequence(OPTIONAL_COMMA, phrase(small_words.THEN_JOINTS), build=tuple)))
+_THEN = either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS))
 _ONE_BY_ONE = either(
     sequence(
-        silent(phrase("in the [following] order [of]")),
+        "in the [following] order [of]",
         OPTIONAL_COMMA,
         noun_phrase,
-        some(sequence(_THEN, noun_phrase, build=lambda np: np), least=1, most=5),
+        some(sequence(_THEN, noun_phrase), least=1, most=5),
         build=lambda first, more: (first, *more),
     ),
     sequence(
         noun_phrase,
-        silent(phrase("first")),
-        some(sequence(_THEN, noun_phrase, build=lambda np: np), least=1, most=5),
-        silent(optional(phrase("last"), None)),
+        "first",
+        some(sequence(_THEN, noun_phrase), least=1, most=5),
+        optional("last"),
         build=lambda first, more: _named_ones((first, *more)),
     ),
 )

@@ -4,16 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.destinations import (
-    DESTINATIONS,
-)
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.parsing import (
-    either,
-    phrase,
-    sequence,
-    silent,
-)
+from etot_cli.reasoning.language.grammar.parsing import either, sequence
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Clause,
@@ -32,45 +25,41 @@ from etot_cli.reasoning.language.words import small_words, verbs
 
 WANTED = either(
     sequence(
-        silent(phrase(verbs.WANT)),
+        verbs.WANT,
         NP_LIST,
-        silent(phrase(verbs.DONE)),
+        verbs.DONE,
         DESTINATIONS,
         build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
     ),
     sequence(
-        silent(phrase(verbs.WANT)),
+        verbs.WANT,
         NP_LIST,
-        silent(phrase(verbs.TAKEN)),
+        verbs.TAKEN,
         SOURCE,
         build=lambda nps, source: RemoveClause(Things(nps), source),
     ),
     sequence(
-        silent(phrase(verbs.WANT)),
+        verbs.WANT,
         NP_LIST,
-        silent(phrase(verbs.TAKEN)),
+        verbs.TAKEN,
         SOURCE,
-        silent(phrase("and")),
-        silent(phrase(verbs.DONE)),
+        "and",
+        verbs.DONE,
         DESTINATIONS,
         build=lambda nps, source, where: PutClause(
             (PutGroup(from_source(Things(nps), source), where),)
         ),
     ),
     sequence(
-        silent(phrase(verbs.WANT)),
+        verbs.WANT,
         NP_LIST,
-        silent(phrase("[to be] (picked up|lifted [up])")),
+        "[to be] (picked up|lifted [up])",
         build=lambda nps: PickClause(Things(nps)),
     ),
 )
 AGAIN = either(
-    sequence(silent(phrase(small_words.SAME_AGAIN)), THINGS, build=AgainClause),
-    sequence(
-        THINGS,
-        silent(phrase(small_words.ALSO)),
-        build=lambda things: AgainClause(things, trailing=True),
-    ),
+    sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
+    sequence(THINGS, small_words.ALSO, build=lambda things: AgainClause(things, trailing=True)),
 )
 
 
