@@ -15,8 +15,9 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     excepting,
     exceptions,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     Rule,
     either,
     located,
@@ -42,6 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     RemoveClause,
     Spoken,
     Things,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import (
     COVER,
@@ -56,6 +58,13 @@ from etot_cli.reasoning.language.grammar.wishes import AGAIN, WANTED, excluding
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 Reading = tuple[Spoken, ...]
+
+
+def plain(parser: Parser, order: Order = Order.SAID) -> Parser:
+    """A clause with nothing around it, as a reading."""
+    return located(parser, lambda at, clause: (Spoken(clause, at, order),))
+
+
 LEFT_OUT = either(
     sequence(f"{nouns.EXCEPT}, without", exceptions, build=excepting),
     sequence(optional("but"), ONLY_THOSE),
@@ -161,7 +170,7 @@ def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Cla
     """What is not to go somewhere, and what is ("…, only the green one")."""
     only = all(np.determiner.startswith("only") for np in meant.phrases)
     avoided = AvoidClause(Avoid.PUT, out, where, negated=True)
-    return (avoided, PutClause((PutGroup(meant, where),))) if joint or only else None
+    return (avoided, put_to(meant, where)) if joint or only else None
 
 
 _ONLY_THESE = located(
@@ -193,56 +202,34 @@ LED_CLAUSE = Rule(
 )
 
 
-_GONE = located(
-    either(
-        sequence(
-            NP_LIST,
-            small_words.GONE,
-            DESTINATIONS,
-            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-        ),
-        sequence(
-            NP_LIST,
-            either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
-            build=lambda nps, opens: MoveClause(Things(nps), opens),
-        ),
-        sequence(
-            verbs.DONE,
-            NP_LIST,
-            DESTINATIONS,
-            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-        ),
-        sequence(
-            either(phrase("opened", True), phrase("closed", False)),
-            THINGS,
-            build=lambda opens, things: MoveClause(things, opens),
-        ),
+_GONE = either(
+    sequence(ALL_THINGS, small_words.GONE, DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
+        build=MoveClause,
     ),
-    lambda at, clause: (Spoken(clause, at),),
+    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        either(phrase("opened", True), phrase("closed", False)),
+        THINGS,
+        build=lambda opens, things: MoveClause(things, opens),
+    ),
 )
 """What has been done by then ("once the pear has been put into the bowl")."""
-_SO_BY_THEN = located(
-    either(
-        sequence(
-            NP_LIST,
-            verbs.BE,
-            DESTINATIONS,
-            build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-        ),
-        sequence(
-            NP_LIST, verbs.BE, SOURCE, build=lambda nps, source: RemoveClause(Things(nps), source)
-        ),
-        sequence(
-            NP_LIST,
-            verbs.BE,
-            OPEN_OR_CLOSED,
-            build=lambda nps, word: MoveClause(Things(nps), word == "open"),
-        ),
+_SO_BY_THEN = either(
+    sequence(ALL_THINGS, verbs.BE, DESTINATIONS, build=put_to),
+    sequence(ALL_THINGS, verbs.BE, SOURCE, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        verbs.BE,
+        OPEN_OR_CLOSED,
+        build=lambda things, word: MoveClause(things, word == "open"),
     ),
-    lambda at, clause: (Spoken(clause, at),),
 )
 """What is so by then; "when" might ask whether it is."""
 EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, _GONE)), sequence("once, after", _SO_BY_THEN)
+    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_GONE))),
+    sequence("once, after", plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

@@ -249,6 +249,6 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
     return None if whole is None else Things(whole, either=True)
 
 
-THINGS = Rule(
-    either(valued(NP_LIST, Things), sequence(alternatives(noun_phrase, 5), build=_one_of))
-)
+ALL_THINGS = valued(NP_LIST, Things)
+"""Several things, and no choice between them."""
+THINGS = Rule(either(ALL_THINGS, sequence(alternatives(noun_phrase, 5), build=_one_of)))

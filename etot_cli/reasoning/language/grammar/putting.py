@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
@@ -26,7 +27,6 @@ from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lendi
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
-    Parser,
     Rule,
     either,
     optional,
@@ -36,7 +36,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
-    valued,
     variants,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -46,6 +45,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     Things,
     Toward,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
 from etot_cli.reasoning.language.grammar.throwing import THROWN
@@ -53,32 +53,26 @@ from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
-
-
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 
-def _group(directions: Parser, particle: str) -> Parser:
-    return sequence(
-        THINGS,
-        optional(either(phrase(manner.STANDING, True), phrase(particle, False)), False),
-        _ASIDE,
-        directions,
-        build=lambda things, upright, where: PutGroup(things, where, upright),
-    )
-
-
-PUT_GROUP = _group(
+_PARTICLE = """
+    down, up, away, back, over, inside, somewhere, anywhere, some place,
+    one (by one|at a time|after the other|after another)
+"""
+PUT_GROUP = sequence(
+    THINGS,
+    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
+    _ASIDE,
     DESTINATIONS,
-    "down, up, away, back, over, inside, somewhere, anywhere, some place, "
-    "one (by one|at a time|after the other|after another)",
+    build=lambda things, upright, where: PutGroup(things, where, upright),
 )
 _GROUPED = sequence(
     verbs.PUT,
     THINGS,
     GROUPING,
     DESTINATIONS,
-    build=lambda things, grouping, where: PutClause((PutGroup(things, where),), grouping),
+    build=lambda things, grouping, where: replace(put_to(things, where), grouping=grouping),
 )
 _IN_TURNS = sequence(
     verbs.PUT,
@@ -87,7 +81,7 @@ _IN_TURNS = sequence(
     TURN,
     COMMA,
     DESTINATIONS,
-    build=lambda things, turn, where: put_of((PutGroup(things, where),), (turn,)),
+    build=lambda things, turn, where: put_of(put_to(things, where).groups, (turn,)),
 )
 _WITH_WHAT_IT_HOLDS = sequence(
     verbs.PUT,
@@ -96,7 +90,7 @@ _WITH_WHAT_IT_HOLDS = sequence(
     CONDITION,
     COMMA,
     DESTINATIONS,
-    build=lambda things, held, where: PutClause((PutGroup(things, where),), conditions=(held,)),
+    build=lambda things, held, where: replace(put_to(things, where), conditions=(held,)),
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 _FRONTED = quiet(
@@ -105,7 +99,7 @@ _FRONTED = quiet(
             sequence(verbs.PUT, DESTINATIONS), sequence(DESTINATIONS, OPTIONAL_COMMA, verbs.PUT)
         ),
         noun_phrase,
-        build=lambda where, np: PutClause((PutGroup(Things((np,)), where),)),
+        build=lambda where, np: put_to(Things((np,)), where),
     )
 )
 """The place before the thing."""
@@ -116,11 +110,10 @@ _ALONG_WITH = sequence(
     OPTIONAL_COMMA,
     "together with, along with",
     NP_LIST,
-    build=lambda things, where, more: PutClause((PutGroup(Things((*things, *more)), where),)),
+    build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
-_BY_COLOR = sequence(THINGS, manner.BY_COLOR, OPTIONAL_COMMA, DESTINATIONS, build=PutGroup)
 
 
 def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
@@ -151,18 +144,10 @@ _FIRST_THEN = sequence(
     ),
     build=_in_this_order,
 )
-_ONE_BY_ONE = sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=PutGroup)
-_ONES_THAT_GO = sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=PutGroup)
 _SO_THAT_IT_IS = sequence(
-    THINGS,
     OPTIONAL_COMMA,
     small_words.SO_THAT,
-    either(
-        sequence("it, they", verbs.BE),
-        "it (stands|sits|lies), they (stand|sit|lie)",
-    ),
-    DESTINATIONS,
-    build=PutGroup,
+    either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
 _NEITHER = quiet(
     sequence(
@@ -174,19 +159,12 @@ _NEITHER = quiet(
         build=lambda out, where: (out, where) if len(out) > 1 else None,
     )
 )
-_INSTEAD = sequence(
-    DESTINATIONS,
-    OPTIONAL_COMMA,
-    "but [rather|instead]",
-    DESTINATIONS,
-    build=lambda out, where: (out, where),
-)
+_INSTEAD = sequence(DESTINATIONS, OPTIONAL_COMMA, "but [rather|instead]", DESTINATIONS)
 
 
-def _elsewhere(
-    things: Things, out: tuple[Destination, ...], where: tuple[Destination, ...]
-) -> PutClause:
+def _elsewhere(things: Things, places: tuple[tuple[Destination, ...], ...]) -> PutClause:
     """Things that go to one place and not to another ("not in the red box but in the blue one")."""
+    out, where = places
     (*_, noun) = (word for item in out for np in item.targets for word in ("", *np.words[-1:]))
     group = PutGroup(things, where).going_to(
         lambda np: (
@@ -196,9 +174,14 @@ def _elsewhere(
     return PutClause((group,), ruled_out=out)
 
 
+def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
+    group = PutGroup(things, (Destination(Toward.TO, over),))
+    return put_of((group,), extras, Grouping.SPREAD)
+
+
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
-    valued(_ONES_THAT_GO, lambda group: PutClause((group,))),
+    sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _GROUPED,
     _FRONTED,
     _ALONG_WITH,
@@ -208,23 +191,19 @@ PUT = either(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
         either(INTO, ONTO),
-        build=lambda where: PutClause((PutGroup(_IT, (where,)),)),
+        build=lambda where: put_to(_IT, (where,)),
     ),
+    sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(
-        verbs.PUT, either(_ONE_BY_ONE, _SO_THAT_IT_IS), build=lambda group: PutClause((group,))
+        verbs.PUT,
+        THINGS,
+        manner.BY_COLOR,
+        OPTIONAL_COMMA,
+        DESTINATIONS,
+        build=lambda things, where: replace(put_to(things, where), by_color=True),
     ),
-    sequence(verbs.PUT, _BY_COLOR, build=lambda group: PutClause((group,), by_color=True)),
-    sequence(
-        verbs.DISTRIBUTE,
-        sequence(
-            THINGS,
-            places.AMONG,
-            NP_LIST,
-            build=lambda things, nps: PutGroup(things, (Destination(Toward.TO, nps),)),
-        ),
-        EXTRAS,
-        build=lambda group, extras: put_of((group,), extras, Grouping.SPREAD),
-    ),
+    sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(
         verbs.STACK, PUT_GROUPS, build=lambda groups: PutClause(groups) if len(groups) > 1 else None
     ),
@@ -238,20 +217,9 @@ PUT = either(
         PUT_GROUP,
         build=lambda group: PutClause((group,), far_fetched=2),
     ),
-    sequence(
-        verbs.PUT,
-        THINGS,
-        either(_NEITHER, sequence("not", _INSTEAD)),
-        build=lambda things, places: _elsewhere(things, *places),
-    ),
-    sequence(
-        verbs.DO_NOT,
-        verbs.PUT,
-        THINGS,
-        _INSTEAD,
-        build=lambda things, places: _elsewhere(things, *places),
-    ),
-    sequence(verbs.PUT, RESPECTIVE_GROUPS, build=lambda groups: PutClause(groups)),
+    sequence(verbs.PUT, THINGS, either(_NEITHER, sequence("not", _INSTEAD)), build=_elsewhere),
+    sequence(verbs.DO_NOT, verbs.PUT, THINGS, _INSTEAD, build=_elsewhere),
+    sequence(verbs.PUT, RESPECTIVE_GROUPS, build=PutClause),
     sequence(
         verbs.BRING,
         separated(
@@ -269,17 +237,12 @@ PUT = either(
         build=put_of,
     ),
     *(
-        sequence(
-            verb,
-            THINGS,
-            silent(particle),
-            build=lambda things, where=where: PutClause((PutGroup(things, where),)),
-        )
+        sequence(verb, THINGS, particle, build=partial(put_to, where=where))
         for verb, particle, where in (
-            (verbs.PUT_DOWN, optional(phrase("down"), None), DOWN),
-            (verbs.PUT, phrase("down"), DOWN),
-            (verbs.PUT_BACK, optional(phrase("back"), None), BACK),
-            (verbs.PUT, phrase("back"), BACK),
+            (verbs.PUT_DOWN, optional("down"), DOWN),
+            (verbs.PUT, "down", DOWN),
+            (verbs.PUT_BACK, optional("back"), BACK),
+            (verbs.PUT, "back", BACK),
         )
     ),
 )

@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.clauses import EARLIER, LEAD, LED_CLAUSE, LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.clauses import (
+    EARLIER,
+    LEAD,
+    LED_CLAUSE,
+    LEFT_OUT,
+    Reading,
+    plain,
+)
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Input,
+    Parser,
+    Part,
     complete,
     either,
-    located,
     optional,
     sequence,
     some,
@@ -46,49 +56,32 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
     return AgainClause(None, destinations=where) if named else None
 
 
+def _joint(name: str, *parts: Part) -> Parser:
+    """What goes on a sentence, with a name for what joins it."""
+    return sequence(*parts, build=lambda reading: (name, reading))
+
+
 _JOINED = either(
-    sequence("and", LED_CLAUSE, build=lambda clause: ("mere and", clause)),
-    sequence(small_words.JOINTS, LED_CLAUSE, build=lambda clause: ("and", clause)),
-    sequence(COMMA, LED_CLAUSE, build=lambda clause: ("and", clause)),
-    sequence(
-        OPTIONAL_COMMA,
-        small_words.THEN_JOINTS,
-        OPTIONAL_COMMA,
-        LED_CLAUSE,
-        build=lambda clause: ("then", clause),
-    ),
-    sequence(OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE, build=lambda clause: ("then", clause)),
-    sequence(OPTIONAL_COMMA, EARLIER, build=lambda clause: ("after", clause)),
-    sequence(
-        OPTIONAL_COMMA,
-        small_words.SO_THAT,
-        located(states, lambda at, found: (Spoken(EnsureClause(found), at),)),
-        build=lambda clause: ("and", clause),
-    ),
-    sequence(
-        "until",
-        located(states, lambda at, found: (Spoken(EnsureClause(found, waits=True), at),)),
-        build=lambda clause: ("until", clause),
-    ),
-    sequence(
+    _joint("mere and", "and", LED_CLAUSE),
+    _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
+    _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
+    _joint("after", OPTIONAL_COMMA, EARLIER),
+    _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    _joint("until", "until", plain(sequence(states, build=partial(EnsureClause, waits=True)))),
+    _joint(
+        "then",
         OPTIONAL_COMMA,
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        either(
-            located(THINGS, lambda at, things: (Spoken(AgainClause(things), at),)),
-            located(VERBLESS, lambda at, put: (Spoken(put, at),)),
-        ),
-        build=lambda clause: ("then", clause),
+        plain(either(sequence(THINGS, build=AgainClause), VERBLESS)),
     ),
-    sequence(
+    _joint(
+        "then",
         OPTIONAL_COMMA,
         small_words.ONWARD,
-        located(
-            sequence(optional("back"), DESTINATIONS, build=_onward),
-            lambda at, clause: (Spoken(clause, at),),
-        ),
-        build=lambda clause: ("then", clause),
+        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
     ),
 )
 
@@ -142,96 +135,78 @@ def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     return None if str(asks).startswith("what") else _chained(first, more)
 
 
-def _without(orders: tuple[Order, ...], out: Any, rest: Reading) -> Reading | None:
+def _without(out: Any, rest: Reading) -> Reading | None:
     """A sentence that begins with what is left out."""
     clause = excluding(rest[0].clause, out)
-    return None if orders or clause is None else (replace(rest[0], clause=clause), *rest[1:])
+    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
-def _state_left(nps: tuple[NounPhrase, ...], word: str) -> State | None:
+def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
     """Headlines have no articles; "the drawer shut" lacks a verb."""
-    return None if nps[0].determiner in ("the", "a", "an") else State(nps, word=word)
+    articled = nps[0].determiner in ("the", "a", "an")
+    return None if articled else EnsureClause((State(nps, word=word),))
 
 
-_PLACED = located(
-    either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)),
-    lambda at, clause: (Spoken(clause, at),),
-)
-_LEFT_SO = located(
-    sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left),
-    lambda at, state: (Spoken(EnsureClause((state,)), at),),
-)
+_PLACED = plain(either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)))
+_LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
-_NAMED = located(
-    sequence(THINGS, build=lambda things: ReorientClause(things, only_named=True)),
-    lambda at, clause: Spoken(clause, at),
-)
-_TOPIC = sequence(optional(small_words.LOOK_FOR), _NAMED)
-_BROUGHT = sequence(verbs.FETCH, _NAMED, "over [here], here")
+_NAMED = plain(sequence(THINGS, build=partial(ReorientClause, only_named=True)))
 
 
-def _about(topic: Spoken, rest: Reading) -> Reading | None:
+def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
-    return (topic, *rest) if next(pronouns(rest[0].clause), None) else None
+    return (*topic, *rest) if next(pronouns(rest[0].clause), None) else None
 
 
-def _set_down(topic: Spoken, rest: Reading) -> Reading | None:
+def _set_down(topic: Reading, rest: Reading) -> Reading | None:
     """What is brought over is put where the next clause says ("bring it over and set it …")."""
     put = rest[0].clause
     taken_up = isinstance(put, PutClause) and put.groups[0].things.phrases[0].pronoun
-    return (topic, *rest) if taken_up else None
+    return (*topic, *rest) if taken_up else None
 
 
+UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
+"""What stands before a sentence, without a word for order."""
 SENTENCE = either(
     CHAIN,
     sequence(
-        LEAD,
-        _TOPIC,
+        UNORDERED,
+        optional(small_words.LOOK_FOR),
+        _NAMED,
         either(COMMA, "and, and then"),
         CHAIN,
-        build=lambda orders, topic, rest: None if orders else _about(topic, rest),
+        build=_about,
     ),
     sequence(
-        LEAD,
-        _BROUGHT,
+        UNORDERED,
+        verbs.FETCH,
+        _NAMED,
+        "over [here], here",
         either(COMMA, "and, and then, then"),
         CHAIN,
-        build=lambda orders, topic, rest: None if orders else _set_down(topic, rest),
+        build=_set_down,
     ),
-    sequence(
-        LEAD,
-        located(IF_NOT_SO, lambda at, clause: (Spoken(clause, at),)),
-        build=lambda orders, reading: None if orders else reading,
-    ),
-    sequence(LEAD, LEFT_OUT, COMMA, CHAIN, build=_without),
+    sequence(UNORDERED, plain(IF_NOT_SO)),
+    sequence(UNORDERED, LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        located(THINGS, lambda at, things: Spoken(AgainClause(things), at, Order.THEN)),
-        build=lambda again: (again,),
+        plain(sequence(THINGS, build=AgainClause), Order.THEN),
     ),
     sequence(
-        LEAD,
-        located(WITHOUT, lambda at, clause: Spoken(clause, at)),
-        COMMA,
-        CHAIN,
-        build=lambda orders, avoided, rest: None if orders else (avoided, *rest),
+        UNORDERED, plain(WITHOUT), COMMA, CHAIN, build=lambda avoided, rest: (*avoided, *rest)
     ),
     sequence(
-        LEAD,
-        EARLIER,
-        COMMA,
-        CHAIN,
-        build=lambda orders, earlier, rest: None if orders else (*earlier, *_then(rest)),
+        UNORDERED, EARLIER, COMMA, CHAIN, build=lambda earlier, rest: (*earlier, *_then(rest))
     ),
     sequence(
-        LEAD,
+        UNORDERED,
         small_words.BEFORE,
         LED_CLAUSE,
         COMMA,
         CHAIN,
-        build=lambda orders, later, rest: None if orders else (*rest, *_then(later)),
+        build=lambda later, rest: (*rest, *_then(later)),
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)

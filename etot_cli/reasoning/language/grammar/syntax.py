@@ -165,6 +165,11 @@ class PutClause:
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
 
 
+def put_to(things: Things, where: tuple[Destination, ...]) -> PutClause:
+    """Bring things to one of several places."""
+    return PutClause((PutGroup(things, where),))
+
+
 @dataclass(frozen=True, slots=True)
 class RemoveClause:
     """Take something away from where it is."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -26,10 +27,10 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     PickClause,
     PutClause,
-    PutGroup,
     RemoveClause,
     Things,
     Toward,
+    put_to,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
@@ -41,8 +42,6 @@ POSE = either(
 )
 POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
-OPTIONAL_SOURCE = optional(SOURCE, None)
-OPTIONAL_POSES = optional(sequence(OPTIONAL_COMMA, POSES), None)
 
 
 def from_source(things: Things, source: NounPhrase | None) -> Things:
@@ -66,8 +65,8 @@ PICK = sequence(
     verbs.PICK,
     THINGS,
     optional("up"),
-    OPTIONAL_SOURCE,
-    OPTIONAL_POSES,
+    optional(SOURCE, None),
+    optional(sequence(OPTIONAL_COMMA, POSES), None),
     build=_pick,
 )
 HAND_OVER = quiet(
@@ -86,27 +85,12 @@ def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
     return None if source.words[-1:] in _DESKS else RemoveClause(things, source)
 
 
+_AWAY = "out, off, away, down"
 REMOVE = either(
-    sequence(
-        verbs.REMOVE,
-        THINGS,
-        OPTIONAL_SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
-    sequence(
-        # Without a source it is rather what holds them.
-        "unload[ing]",
-        THINGS,
-        SOURCE,
-        build=RemoveClause,
-    ),
-    sequence(
-        verbs.BRING,
-        THINGS,
-        "out, off, away, down",
-        OPTIONAL_SOURCE,
-        build=lambda things, source: RemoveClause(things, source),
-    ),
+    sequence(verbs.REMOVE, THINGS, optional(SOURCE, None), build=RemoveClause),
+    # Without a source "unload" and "clear" are rather said of what holds them.
+    sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
+    sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
     sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
 )
@@ -117,33 +101,25 @@ def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
     return NounPhrase("all", ("objects",), (modifier,), text=f"everything in {np.text}")
 
 
-def _emptied(things: Things, where: Any) -> Clause:
-    contents = Things(tuple(_contents_of(np, Prep.FROM) for np in things.phrases))
-    if where is None:
-        return RemoveClause(contents)
-    return PutClause((PutGroup(contents, where),))
+def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
+    contents = Things(tuple(_contents_of(np, held) for np in things.phrases))
+    return RemoveClause(contents) if where is None else put_to(contents, where)
 
 
 def _tidied(verb: str, things: Things, where: Any) -> PutClause:
     """Who tidies a place brings away what is there; several things are tidied away themselves."""
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
-    return PutClause((PutGroup(things, where),), far_fetched=0 if things_said else 1)
+    return replace(put_to(things, where), far_fetched=0 if things_said else 1)
 
 
 EMPTY = either(
     sequence("empty[ing] [out], unload[ing]", THINGS, optional(DESTINATIONS, None), build=_emptied),
     sequence(phrase(verbs.TIDY), THINGS, optional("away, up"), DESTINATIONS, build=_tidied),
-    sequence(
-        verbs.CLEAR, NP_LIST, DESTINATIONS, build=lambda nps, where: _emptied(Things(nps), where)
-    ),
-    sequence(verbs.CLEAR, NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
-    sequence(NP_LIST, verbs.MODAL, manner.EMPTIED, build=lambda nps: _emptied(Things(nps), None)),
-    sequence(verbs.NOTHING_IS, NP_LIST, build=lambda nps: _emptied(Things(nps), None)),
-    sequence("mak(e|ing)", NP_LIST, manner.EMPTIED, build=lambda nps: _emptied(Things(nps), None)),
-    sequence(
-        "clear[ing]", THINGS, SOURCE, build=lambda things, source: RemoveClause(things, source)
-    ),
+    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
+    sequence(ALL_THINGS, verbs.MODAL, manner.EMPTIED, build=_emptied),
+    sequence(verbs.NOTHING_IS, ALL_THINGS, build=_emptied),
+    sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED, build=_emptied),
 )
 
 
@@ -151,7 +127,7 @@ def _lidded(lids: Things) -> PutClause | None:
     """What was filled gets its lid ("put the lid on")."""
     here = (Destination(Toward.HERE, word=ON_IT),)
     named = all(np.words and singular(np.words[-1]) == "lid" for np in lids.phrases)
-    return PutClause((PutGroup(lids, here),)) if named else None
+    return put_to(lids, here) if named else None
 
 
 FILL = quiet(
@@ -160,20 +136,12 @@ FILL = quiet(
         noun_phrase,
         "with",
         THINGS,
-        build=lambda toward, np, things: PutClause(
-            (PutGroup(things, (Destination(toward, (np,)),)),)
-        ),
+        build=lambda toward, np, things: put_to(things, (Destination(toward, (np,)),)),
     )
 )
 COVER = either(
     sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
-    sequence(
-        verbs.COVER, THINGS, "with", THINGS, build=lambda things, cover: CoverClause(things, cover)
-    ),
+    sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
     sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
-    sequence(
-        verbs.UNCOVER,
-        NP_LIST,
-        build=lambda nps: RemoveClause(Things(tuple(_contents_of(np, Prep.ON) for np in nps))),
-    ),
+    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(_emptied, held=Prep.ON)),
 )

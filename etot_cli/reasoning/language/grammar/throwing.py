@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     Things,
     Toward,
+    put_to,
 )
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import BINS, singular
@@ -33,7 +34,7 @@ def _into_a_bin(things: Things, where: tuple[Destination, ...]) -> PutGroup | No
 
 def _away(text: str, things: Things) -> PutClause:
     trash = NounPhrase("the", ("trash",), text=text)
-    return PutClause((PutGroup(things, (Destination(Toward.INSIDE, (trash,)),)),))
+    return put_to(things, (Destination(Toward.INSIDE, (trash,)),))
 
 
 THROWN = quiet(

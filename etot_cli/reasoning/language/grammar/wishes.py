@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import either, sequence
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -15,47 +15,25 @@ from etot_cli.reasoning.language.grammar.syntax import (
     MoveClause,
     PickClause,
     PutClause,
-    PutGroup,
     RemoveClause,
     Things,
     TowerClause,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
 from etot_cli.reasoning.language.words import small_words, verbs
 
 WANTED = either(
+    sequence(verbs.WANT, ALL_THINGS, verbs.DONE, DESTINATIONS, build=put_to),
+    sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(
-        verbs.WANT,
-        NP_LIST,
-        verbs.DONE,
-        DESTINATIONS,
-        build=lambda nps, where: PutClause((PutGroup(Things(nps), where),)),
-    ),
-    sequence(
-        verbs.WANT,
-        NP_LIST,
-        verbs.TAKEN,
-        SOURCE,
-        build=lambda nps, source: RemoveClause(Things(nps), source),
-    ),
-    sequence(
-        verbs.WANT,
-        NP_LIST,
-        verbs.TAKEN,
-        SOURCE,
+        sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=from_source),
         "and",
         verbs.DONE,
         DESTINATIONS,
-        build=lambda nps, source, where: PutClause(
-            (PutGroup(from_source(Things(nps), source), where),)
-        ),
+        build=put_to,
     ),
-    sequence(
-        verbs.WANT,
-        NP_LIST,
-        "[to be] (picked up|lifted [up])",
-        build=lambda nps: PickClause(Things(nps)),
-    ),
+    sequence(verbs.WANT, ALL_THINGS, "[to be] (picked up|lifted [up])", build=PickClause),
 )
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
