@@ -16,11 +16,12 @@ from etot_cli.reasoning.builtin.goal import (
     Referent,
     Relation,
     Thing,
+    things_in,
 )
 from etot_cli.reasoning.builtin.ordering import Placement
-from etot_cli.reasoning.builtin.relations import container_parts, is_closed
+from etot_cli.reasoning.builtin.relations import container_parts, is_closed, is_open, parts_of
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import DESK, OPEN_AT, PartInfo, SceneState, owner_of
+from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +48,9 @@ class Choice:
         """
         found: dict[str, PartInfo] = {}
         for thing in self.things[step.what]:
-            for part in scene.infos[thing.name].parts:
-                every = thing.part is None or (thing.implied and step.final)
-                if every or part.name == thing.part:
-                    found[part.address] = part
+            every = thing.implied and step.final
+            own = parts_of(scene, replace(thing, part=None) if every else thing)
+            found |= {part.address: part for part in own}
         return tuple(found.values())
 
 
@@ -103,7 +103,7 @@ def address_of(thing: Thing, relation: Relation, scene: SceneState) -> tuple[str
         return (f"{thing.name}.{thing.board}" if thing.board else thing.name,)
     if thing.part is None and info.container:
         return (thing.name,)
-    return tuple(part.address for part in container_parts(info) if thing.part in (None, part.name))
+    return tuple(part.address for part in parts_of(scene, thing) if part.container)
 
 
 def _with_parts(goal: Goal, index: int, scene: SceneState) -> Referent:
@@ -125,8 +125,11 @@ def _with_parts(goal: Goal, index: int, scene: SceneState) -> Referent:
     opened_first = moved and isinstance(moved[0], Open) and not moved[0].final
     if moved and (opened_first or not inserted):
         # Whoever says "close the drawer" means one that is not closed.
-        test = _is_ajar if isinstance(moved[0], Close) else _is_not_open
-        needed = [sum(test(thing, scene) for thing in option) for option in options]
+        so = is_closed if isinstance(moved[0], Close) else is_open
+        needed = [
+            sum(not all(so(scene, part) for part in parts_of(scene, thing)) for thing in option)
+            for option in options
+        ]
         options = [o for o, count in zip(options, needed, strict=True) if count == max(needed)]
     return replace(referent, options=tuple(dict.fromkeys(options)))
 
@@ -144,24 +147,6 @@ def _implied_parts(option: tuple[Thing, ...], inserted: bool, scene: SceneState)
     return [Thing(info.name, part.name, implied=True) for part in parts]
 
 
-def _is_ajar(thing: Thing, scene: SceneState) -> bool:
-    if thing.name == DESK:
-        return False
-    return any(
-        not is_closed(scene, part)
-        for part in scene.infos[thing.name].parts
-        if thing.part in (None, part.name)
-    )
-
-
-def _is_not_open(thing: Thing, scene: SceneState) -> bool:
-    return any(
-        scene.openness(part) < OPEN_AT
-        for part in scene.infos[thing.name].parts
-        if thing.part in (None, part.name)
-    )
-
-
 def _distinct(referents: list[Referent], things: tuple[tuple[Thing, ...], ...]) -> bool:
     return all(
         not _units(referents, index, other, things[index])
@@ -176,7 +161,7 @@ def _units(
 ) -> frozenset[Thing]:
     """What tells two referents apart: of several chests the chest, of one its drawers."""
     options = (*referents[one].options, *referents[other].options)
-    several = len({thing.name for option in options for thing in option}) > 1
+    several = len({thing.name for thing in things_in(options)}) > 1
     return frozenset(Thing(t.name) if several and t.implied else t for t in things)
 
 

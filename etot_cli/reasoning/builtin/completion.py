@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.choices import address_of
-from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing
-from etot_cli.reasoning.builtin.relations import is_inside, is_on
+from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import is_at
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
@@ -65,20 +65,12 @@ def _wanted_from_start(
         for step in goal.steps:
             if not isinstance(step, Put):
                 continue
-            meant = any(
-                thing in option for index in step.what for option in goal.referents[index].options
-            )
-            if not meant:
+            if all(thing not in things_in(goal.referents[index].options) for index in step.what):
                 continue
             for place in step.places:
                 if place.where is None or place.beside:
                     continue
-                for option in goal.referents[place.where].options:
-                    for target in option:
-                        for address in address_of(target, place.relation, start):
-                            found[place.relation, address] = None
-    return [
-        (relation, address)
-        for relation, address in found
-        if (is_on if relation is Relation.ON else is_inside)(start, name, address)
-    ]
+                for target in things_in(goal.referents[place.where].options):
+                    for address in address_of(target, place.relation, start):
+                        found[place.relation, address] = None
+    return [item for item in found if is_at(start, name, *item)]

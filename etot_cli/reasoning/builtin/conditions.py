@@ -20,7 +20,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_inside, is_on
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import BESIDE_KEYS, Condition
@@ -179,8 +179,7 @@ class _Draft:
         if not atom.denied:
             self.steps.append(Put((theme,), (Place(relation, target),)))
             return
-        holds = is_on if relation is Relation.ON else is_inside
-        if holds(self.scene, name, place):
+        if is_at(self.scene, name, relation, place):
             if place == DESK:
                 raise ReferenceProblem(name, "say where it is to be instead of on the desk")
             self.steps.append(Put((theme,), (Place(Relation.ON, self._refer(DESK, Role.SURFACE)),)))

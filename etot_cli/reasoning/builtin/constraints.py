@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
 from etot_cli.reasoning.builtin.harm import CHANGED, displacement
-from etot_cli.reasoning.builtin.relations import is_closed, is_inside, is_on, is_open
+from etot_cli.reasoning.builtin.relations import is_at, is_closed, is_open
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState, owner_of
 
@@ -87,8 +87,9 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord, far: float
                 return f"{owner} was moved, which it must not be"
         case Keep.AWAY:
             for relation, place in constraint.places:
-                holds = is_on if relation is Relation.ON else is_inside
-                if holds(after, owner, place) and not holds(before, owner, place):
+                if is_at(after, owner, relation, place) and not is_at(
+                    before, owner, relation, place
+                ):
                     return f"{owner} came to be {relation.value} {place}, where it must not be"
         case Keep.CLOSED | Keep.OPEN:
             kept = is_closed if constraint.keep is Keep.CLOSED else is_open

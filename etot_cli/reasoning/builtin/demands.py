@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Pick, Put, Step, Thing, things_in
 
 Demand = dict[str, Any]
 """A condition as a task file has it, e.g. ``{"inside": ["pen", "cup"]}``."""
@@ -30,7 +30,7 @@ def demands(goal: Goal) -> list[Demand]:
 
 
 def _one(step: Step, thing: Thing, goal: Goal) -> Demand | None:
-    name = _address(thing)
+    name = thing.address
     if isinstance(step, Pick):
         return {"in_hand": name}
     if isinstance(step, Open | Close):
@@ -38,11 +38,10 @@ def _one(step: Step, thing: Thing, goal: Goal) -> Demand | None:
     if step.aside or step.removal or any(place.where is None for place in step.places):
         return None
     ends = [
-        {place.relation.value: [name, _address(end)]}
+        {place.relation.value: [name, end.address]}
         for place in step.places
         if place.where is not None
-        for option in goal.referents[place.where].options
-        for end in option
+        for end in things_in(goal.referents[place.where].options)
     ]
     return _any([*ends])
 
@@ -62,7 +61,3 @@ def _joined(key: str, given: list[Demand | None]) -> Demand | None:
         return None
     distinct = [item for number, item in enumerate(said) if item not in said[:number]]
     return distinct[0] if len(distinct) == 1 else {key: distinct}
-
-
-def _address(thing: Thing) -> str:
-    return ".".join(item for item in (thing.name, thing.part or thing.board) if item)

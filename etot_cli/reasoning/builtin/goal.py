@@ -48,6 +48,16 @@ class Thing:
     board: str | None = None
     implied: bool = False
 
+    @property
+    def address(self) -> str:
+        """``chest.top``, ``shelf.board_1`` or ``cup``."""
+        return ".".join(filter(None, (self.name, self.part or self.board)))
+
+
+def things_in(options: Iterable[Iterable[Thing]]) -> tuple[Thing, ...]:
+    """Everything that is in any of several sets."""
+    return tuple(dict.fromkeys(thing for option in options for thing in option))
+
 
 @dataclass(frozen=True, slots=True)
 class Referent:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from etot_cli.reasoning.builtin.goal import Relation, Thing
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import (
     CLOSED_AT,
@@ -30,6 +31,17 @@ def is_open(scene: SceneState, part: PartInfo) -> bool:
 def is_closed(scene: SceneState, part: PartInfo) -> bool:
     """Whether a part counts as closed."""
     return scene.openness(part) <= CLOSED_AT
+
+
+def parts_of(scene: SceneState, thing: Thing) -> tuple[PartInfo, ...]:
+    """Movable parts of a thing; of a thing that is a part, that one."""
+    parts = () if thing.name == DESK else scene.infos[thing.name].parts
+    return tuple(part for part in parts if thing.part in (None, part.name))
+
+
+def is_at(scene: SceneState, name: str, relation: Relation, place: str) -> bool:
+    """Whether an object is on or in a place."""
+    return (is_on if relation is Relation.ON else is_inside)(scene, name, place)
 
 
 def container_parts(info: ObjectInfo) -> tuple[PartInfo, ...]:

@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Referent,
     Step,
     referents_of,
+    things_in,
 )
 from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import enclosing, is_closed, is_open
@@ -61,8 +62,7 @@ def _without_gone(referent: Referent, scene: SceneState) -> Referent:
     kept = [tuple(t for t in option if not gone(t.name)) for option in referent.options]
     options = tuple(dict.fromkeys(whole or filter(None, kept)))
     if not options:
-        names = dict.fromkeys(thing.name for option in referent.options for thing in option)
-        missing = " or ".join(names)
+        missing = " or ".join(dict.fromkeys(t.name for t in things_in(referent.options)))
         raise InstructionError(f"what was asked for cannot be done without {missing}")
     return replace(referent, options=options)
 

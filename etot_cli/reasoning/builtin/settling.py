@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
     referents_of,
+    things_in,
 )
 from etot_cli.reasoning.builtin.relations import bearers, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
@@ -75,7 +76,7 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
 
 def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneState) -> bool:
     """Whether what it lies in or on is moved, closed or filled before it goes elsewhere itself."""
-    names = {t.name for option in goal.referents[referent].options for t in option}
+    names = _named(goal, (referent,))
     around = set[str]().union(*(bearers(scene, name) for name in names if name in scene.states))
     for step in later:
         if isinstance(step, Put) and names & _named(goal, step.what):
@@ -86,7 +87,7 @@ def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneS
 
 
 def _named(goal: Goal, referents: Iterable[int]) -> set[str]:
-    return {t.name for i in referents for option in goal.referents[i].options for t in option}
+    return {t.name for i in referents for t in things_in(goal.referents[i].options)}
 
 
 def _is_moved(goal: Goal, referent: int, later: Sequence[Step]) -> bool:
@@ -111,7 +112,7 @@ def _moves(step: Step, referent: int) -> bool:
 
 def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> None:
     for index in removed:
-        things = [thing for option in goal.referents[index].options for thing in option]
+        things = things_in(goal.referents[index].options)
         names = {DESK, *(thing.name for thing in things)}
         if things and all(any(is_on(scene, t.name, below) for below in names) for t in things):
             text = goal.referents[index].text

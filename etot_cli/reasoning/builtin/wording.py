@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Goal,
@@ -16,7 +14,6 @@ from etot_cli.reasoning.builtin.goal import (
     Put,
     Relation,
     Step,
-    Thing,
 )
 
 
@@ -81,12 +78,5 @@ def _near(near: Near, goal: Goal) -> str:
 
 
 def _choice(index: int, goal: Goal, joint: str = " and ") -> str:
-    options = (_things(option, joint) for option in goal.referents[index].options)
-    return " or ".join(dict.fromkeys(options))
-
-
-def _things(things: Iterable[Thing], joint: str) -> str:
-    return joint.join(
-        ".".join(item for item in (thing.name, thing.part or thing.board) if item)
-        for thing in things
-    )
+    options = goal.referents[index].options
+    return " or ".join(dict.fromkeys(joint.join(t.address for t in things) for things in options))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Pick, Place, Put
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
@@ -25,11 +25,11 @@ def check_taken(
         for step in context.done[-1:]
     ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
     for phrase in (np for item in group.destinations for np in item.targets):
-        if not taken or phrase.words[-1:] not in (("one",), ("ones",)):
+        if not taken or not phrase.is_elliptic:
             continue
         for place in (place.where for place in places if place.where is not None):
             below = context.discourse.things(place)
-            above = [thing for index in themes for thing in context.discourse.things(index)]
+            above = context.discourse.things(*themes)
             if all(touches(one, other, context.scene) for one in above for other in below):
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
@@ -40,10 +40,10 @@ def check_poured(
     """Whether "ketchup on the bun" is the bottle: it is where things are but kept."""
     infos, discourse = context.scene.infos, context.discourse
     marks = [place.where for place in places if place.where is not None and not place.beside]
-    where = {thing.name for index in marks for thing in discourse.things(index)}
+    where = {thing.name for thing in discourse.things(*marks)}
     if all(not infos[name].movable or is_keeping(infos[name].label) for name in where - {DESK}):
         return
-    names = dict.fromkeys(thing.name for index in themes for thing in discourse.things(index))
+    names = dict.fromkeys(thing.name for thing in discourse.things(*themes))
     for phrase in group.things.phrases:
         noun = " ".join(phrase.words)
         packs = tuple(name for name in names if is_poured(noun, name, infos[name].label))
@@ -60,7 +60,7 @@ def check_describes(
 ) -> None:
     """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there."""
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
-    below = {thing.name for index in where for thing in context.discourse.things(index)} - {DESK}
+    below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
         return
     for index in (index for index in subjects if index not in context.discourse.put):
@@ -130,5 +130,5 @@ def choose_from_somewhere(context: Context, theme: int) -> None:
     options = named or held
     if options and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
-        names = ", ".join(dict.fromkeys(thing.name for option in options for thing in option))
+        names = ", ".join(dict.fromkeys(thing.name for thing in things_in(options)))
         discourse.notes.append(f"{referent.text!r} is one that is in or on something ({names})")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
+from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
@@ -88,8 +89,7 @@ def _all_of(context: Context, index: int) -> int:
         tuple(
             Thing(thing.name, part.name)
             for thing in option
-            for part in infos[thing.name].parts
-            if thing.part in (None, part.name)
+            for part in parts_of(context.scene, thing)
         )
         for option in discourse.referents[index].options
     )

@@ -54,14 +54,13 @@ class Context:
         """
         targets = [np for item in destinations for np in item.targets if np.words]
         for phrase in (np for np in things.phrases if np.words):
-            noun = phrase.words[-1]
+            noun = phrase.head
             others = quantity_of(phrase.determiner).other
             if others and self.phrases.spoken_of(phrase, Role.THEME) is None:
                 for np in targets:
-                    one = np.words[-1] == "one"
-                    words = (*np.words[:-1], singular(noun)) if one else np.words
-                    if same_noun(words[-1], noun):
-                        self.phrases.refer(replace(np, words=words), Role.ANY)
+                    named = np.called(singular(noun)) if np.head == "one" else np
+                    if same_noun(named.head, noun):
+                        self.phrases.refer(named, Role.ANY)
                     else:
                         self._tell_there(phrase, np)
 
@@ -111,7 +110,7 @@ class Context:
 
     def source(self, themes: Sequence[int]) -> tuple[Place, ...]:
         """The one place that things are at before they are moved, for "there"; else none."""
-        things = {thing for index in themes for thing in self.discourse.things(index)}
+        things = set(self.discourse.things(*themes))
         places = set()
         with suppress(ReferenceProblem):
             places = {self.home(thing) for thing in things}

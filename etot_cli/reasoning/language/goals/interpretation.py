@@ -9,7 +9,7 @@ from itertools import islice
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
-from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent
+from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
@@ -94,7 +94,7 @@ def _check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
         for thing in option
     }
     for pick in (step for step in goal.steps if isinstance(step, Pick)):
-        for thing in (t for option in goal.referents[pick.what].options for t in option):
+        for thing in things_in(goal.referents[pick.what].options):
             if below := sorted(moved & carriers(scene, thing.name)):
                 why = f"it would go along with {below[0]}; say where it is to go before"
                 raise ReferenceProblem(goal.referents[pick.what].text, why, 4)

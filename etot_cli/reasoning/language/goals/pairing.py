@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations, islice
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -38,7 +38,7 @@ def by_color(context: Context, group: PutGroup) -> None:
     if any(map(is_matching, phrases)):
         # "The matching lid on the pot": the pot is known, its lid is sought.
         plain = [context.phrases.meaning(unmatched(phrase), Role.THEME) for phrase in phrases]
-        fitting = [thing for item in plain for option in item.options for thing in option]
+        fitting = [thing for item in plain for thing in things_in(item.options)]
         themes = [_of_color(context, target, fitting, text) for target in targets]
         if any(len(found) != 1 for found in themes):
             raise ReferenceProblem(text, "several match in colour", 2)
@@ -69,7 +69,7 @@ def _places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[
     resolved = [
         context.phrases.meaning(unmatched(target), _ROLES[toward]) for target in destination.targets
     ]
-    found = [thing for item in resolved for option in item.options for thing in option]
+    found = [thing for item in resolved for thing in things_in(item.options)]
     return toward, list(dict.fromkeys(found))
 
 
@@ -92,7 +92,7 @@ def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place
     referents = context.discourse.referents
     count = sum(len(referents[index].options[0]) for index in themes)
     where = [place.where for place in places if place.where is not None]
-    units = list(dict.fromkeys(t for index in where for t in context.discourse.things(index)))
+    units = list(context.discourse.things(*where))
     if len(units) == 1 and units[0].part is None and units[0].name in context.scene.infos:
         info = context.scene.infos[units[0].name]
         units = [Thing(info.name, part.name) for part in container_parts(info)] or units
@@ -110,7 +110,7 @@ def count_of_places(context: Context, group: PutGroup, places: Sequence[Place]) 
         return 0
     (target,) = targets
     plural = target.words and singular(target.words[-1]) != target.words[-1]
-    there = {thing for index in where for thing in context.discourse.things(index)}
+    there = set(context.discourse.things(*where))
     return quantity_of(target.determiner).count or (len(there) if plural else 0)
 
 
@@ -143,7 +143,7 @@ def one_each(context: Context, group: PutGroup) -> None:
         if not phrase.words:
             raise ReferenceProblem(phrase.text, "say which things go there", 2)
         resolved = context.phrases.meaning(phrase, Role.THEME)
-        fitting = dict.fromkeys(thing for option in resolved.options for thing in option)
+        fitting = things_in(resolved.options)
         free = [thing for thing in fitting if thing not in targets]
         options = tuple(islice(combinations(free, count), MAX_OPTIONS))
         if not options:

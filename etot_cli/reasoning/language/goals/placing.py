@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
@@ -100,8 +100,8 @@ def _check_left(
     options: Sequence[Sequence[Thing]],
 ) -> None:
     """Whether what is left out would come along in or on what is moved."""
-    names = {thing.name for option in options for thing in option}
-    gone = {t for index in context.discourse.put for t in context.discourse.things(index)}
+    names = {thing.name for thing in things_in(options)}
+    gone = set(context.discourse.things(*context.discourse.put))
     for thing in (item for item in out if item.name in context.scene.states and item not in gone):
         for below in names.intersection(carriers(context.scene, thing.name)):
             why = f"{below} would take {thing.name} along; say first where that is to go"

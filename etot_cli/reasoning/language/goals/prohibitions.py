@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Relation, Thing
-from etot_cli.reasoning.builtin.relations import is_closed, is_open
+from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Destination
+from etot_cli.reasoning.language.reference.space import addresses
 from etot_cli.world.state import DESK
 
 _KEEPS = {
@@ -20,7 +21,6 @@ _KEEPS = {
 }
 
 _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
-_ONES = (("one",), ("ones",))
 
 
 def avoid(context: Context, clause: AvoidClause) -> None:
@@ -33,7 +33,7 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         _avoid_others(context, clause)
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
-    if role is Role.ANY and any(phrase.words[-1:] in _ONES for phrase in clause.things.phrases):
+    if role is Role.ANY and any(phrase.is_elliptic for phrase in clause.things.phrases):
         role = Role.THEME  # "leave the red one" speaks of what was moved, not of where to
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
@@ -51,8 +51,9 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         if referent.distinct_from and len(referent.options) > 1:
             raise ReferenceProblem(referent.text, "say which one", 3)
     # "Without touching a cup" is about all of them.
-    things = {thing: None for index in indices for thing in context.discourse.things(index)}
-    names = tuple(dict.fromkeys(_address(thing, role) for thing in things))
+    things = context.discourse.things(*indices)
+    parted = role is Role.PART
+    names = tuple(dict.fromkeys(t.address if parted and t.part else t.name for t in things))
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
     context.discourse.step_back(before)
@@ -86,14 +87,16 @@ def rule_out(
     context: Context, themes: Sequence[int], destinations: Sequence[Destination]
 ) -> tuple[Place, ...]:
     """Says where things must not be put; returns these places."""
-    names = {thing.name: None for index in themes for thing in context.discourse.things(index)}
+    names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
     for place in (found := context.places.of(destinations, themes)):
         if place.beside or place.where is None:
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
         for thing in context.discourse.things(place.where):
-            places += [(place.relation, item) for item in _addresses(context, thing, place)]
+            on = place.relation is Relation.ON
+            meant = (thing.address,) if on else addresses(thing, context.scene)
+            places += [(place.relation, item) for item in meant]
     context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
     return found
 
@@ -106,18 +109,15 @@ def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> No
     """
     holds = is_open if word == "open" else is_closed
     referent = context.discourse.referents[index]
-    infos = context.scene.infos
     for option in referent.options[:1] if len(referent.options) == 1 and not every else ():
-        parts = [p for t in option for p in infos[t.name].parts if t.part in (None, p.name)]
+        parts = [part for thing in option for part in parts_of(context.scene, thing)]
         standing = [Thing(p.owner, p.name) for p in parts if holds(context.scene, p)]
         if 0 < len(standing) < len(parts):
             one = len(option) == 1
             options = tuple((thing,) for thing in standing) if one else (tuple(standing),)
             context.discourse.referents[index] = replace(referent, options=options)
     for thing in context.discourse.things(index):
-        for part in context.scene.infos[thing.name].parts:
-            if thing.part not in (None, part.name):
-                continue
+        for part in parts_of(context.scene, thing):
             if holds(context.scene, part):
                 keep = Keep.OPEN if word == "open" else Keep.CLOSED
                 name = f"{part.owner}.{part.name}"
@@ -132,24 +132,7 @@ def leave_out(context: Context, index: int, word: str) -> None:
         option
         for option in referent.options
         if not all(
-            so(context.scene, part)
-            for thing in option
-            for part in context.scene.infos[thing.name].parts
-            if thing.part in (None, part.name)
+            so(context.scene, part) for thing in option for part in parts_of(context.scene, thing)
         )
     )
     context.discourse.referents[index] = replace(referent, options=options or referent.options)
-
-
-def _address(thing: Thing, role: Role) -> str:
-    if role is Role.PART and thing.part is not None:
-        return f"{thing.name}.{thing.part}"
-    return thing.name
-
-
-def _addresses(context: Context, thing: Thing, place: Place) -> list[str]:
-    if place.relation is Relation.ON or thing.name == DESK:
-        return [f"{thing.name}.{thing.board}" if thing.board else thing.name]
-    info = context.scene.infos[thing.name]
-    parts = [part.address for part in info.parts if thing.part in (None, part.name)]
-    return [thing.name, *parts] if thing.part is None else parts

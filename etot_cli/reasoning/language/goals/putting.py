@@ -33,7 +33,6 @@ from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     CoverClause,
-    Modifier,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -47,7 +46,6 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.words.lexicon import same_noun
-from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
 
@@ -251,16 +249,7 @@ def _like_a_place(context: Context, step: Put, theme: int) -> bool:
 
 def remove(context: Context, clause: RemoveClause) -> None:
     """Adds the steps that take things from where they are to the desk."""
-    things = clause.things
-    if clause.source is not None:
-        modifier = Modifier(Prep.FROM, (clause.source,))
-        things = replace(
-            things,
-            phrases=tuple(
-                replace(phrase, modifiers=(*phrase.modifiers, modifier))
-                for phrase in things.phrases
-            ),
-        )
+    things = clause.things.taken_from(clause.source)
     # What stands on the desk is taken out of nothing: "put the key in the box, then take it out".
     discourse, states = context.discourse, context.scene.states
     around = [

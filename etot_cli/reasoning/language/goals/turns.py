@@ -68,9 +68,8 @@ def _picked_out(
 def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> NounPhrase:
     """An elliptic phrase ("blue first") with the noun that it leaves out."""
     single = tuple(map(singular, noun))
-    if phrase.words[-1:] in (("one",), ("ones",)):
-        kept = single if phrase.words[-1] == "one" else noun
-        return replace(phrase, words=(*phrase.words[:-1], *kept))
+    if phrase.is_elliptic:
+        return phrase.called(*(single if phrase.head == "one" else noun))
     # An adjective alone leaves its noun out; so does a word that names nothing.
     adjectives = all(map(is_descriptive, phrase.words)) or not context.phrases.named(phrase.words)
     return replace(phrase, words=(*phrase.words, *single)) if adjectives else phrase

@@ -217,7 +217,7 @@ def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ..
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
     """Several phrases; in "the cup, the left one" no "and" says that there are two."""
     joined = any(said for said, _ in more)
-    apposed = any(np.words[-1:] == ("one",) for _, np in more)
+    apposed = any(np.head == "one" for _, np in more)
     return None if apposed and not joined else coordinated(first, tuple(np for _, np in more))
 
 

@@ -47,7 +47,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
+from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import THROWN
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
@@ -122,7 +122,7 @@ def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -
     """
     before = (first, *(np for _, np in more[:-1]))
     placed = any(item.phrases for np in before for item in np.modifiers)
-    apposed = any(not then and np.words[-1:] == ("one",) for then, np in more)
+    apposed = any(not then and np.head == "one" for then, np in more)
     if (placed and not first_said) or apposed or not any(then for then, _ in more):
         return None
     return Things((first, *(np for _, np in more)))
@@ -167,9 +167,7 @@ def _elsewhere(things: Things, places: tuple[tuple[Destination, ...], ...]) -> P
     out, where = places
     (*_, noun) = (word for item in out for np in item.targets for word in ("", *np.words[-1:]))
     group = PutGroup(things, where).going_to(
-        lambda np: (
-            replace(np, words=(*np.words[:-1], noun)) if noun and np.words[-1:] == ("one",) else np
-        )
+        lambda np: np.called(noun) if noun and np.head == "one" else np
     )
     return PutClause((group,), ruled_out=out)
 
@@ -228,7 +226,7 @@ PUT = either(
                 # "Off the tray and onto the shelf"
                 optional(sequence(SOURCE, optional(LIST)), None),
                 DIRECTED,
-                build=lambda things, source, where: PutGroup(from_source(things, source), where),
+                build=lambda things, source, where: PutGroup(things.taken_from(source), where),
             ),
             LIST,
             most=5,

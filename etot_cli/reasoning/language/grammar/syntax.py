@@ -48,6 +48,24 @@ class NounPhrase:
     among: int = 0
     """Of so many ("the left of the two bowls")."""
 
+    @property
+    def head(self) -> str:
+        """The noun; empty where there is none."""
+        return self.words[-1] if self.words else ""
+
+    @property
+    def is_elliptic(self) -> bool:
+        """Whether "one" or "ones" stands for the noun."""
+        return self.head in ("one", "ones")
+
+    def called(self, *noun: str) -> NounPhrase:
+        """The phrase with another noun, such as what "one" stands for."""
+        return replace(self, words=(*self.words[:-1], *noun))
+
+    def told_by(self, *modifiers: Modifier) -> NounPhrase:
+        """The phrase with more behind it."""
+        return replace(self, modifiers=(*self.modifiers, *modifiers))
+
 
 @dataclass(frozen=True, slots=True)
 class Things:
@@ -55,6 +73,11 @@ class Things:
 
     phrases: tuple[NounPhrase, ...]
     either: bool = False
+
+    def taken_from(self, source: NounPhrase | None) -> Things:
+        """The same, each of them from somewhere."""
+        out = () if source is None else (Modifier(Prep.FROM, (source,)),)
+        return replace(self, phrases=tuple(np.told_by(*out) for np in self.phrases))
 
 
 class Toward(StrEnum):

@@ -44,20 +44,11 @@ POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
 
 
-def from_source(things: Things, source: NounPhrase | None) -> Things:
-    """Things that are to be taken from somewhere."""
-    if source is None:
-        return things
-    modifier = Modifier(Prep.FROM, (source,))
-    moved = tuple(replace(np, modifiers=(*np.modifiers, modifier)) for np in things.phrases)
-    return replace(things, phrases=moved)
-
-
 def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
     if before and after:
         return None
     poses = dict.fromkeys(before or after or ())
-    return PickClause(from_source(things, source), tuple(poses))
+    return PickClause(things.taken_from(source), tuple(poses))
 
 
 PICK = sequence(

@@ -20,14 +20,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import SOURCE, from_source
+from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.words import small_words, verbs
 
 WANTED = either(
     sequence(verbs.WANT, ALL_THINGS, verbs.DONE, DESTINATIONS, build=put_to),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(
-        sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=from_source),
+        sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=Things.taken_from),
         "and",
         verbs.DONE,
         DESTINATIONS,
@@ -45,8 +45,8 @@ def excluding(clause: Clause, left_out: Modifier) -> Clause | None:
     """A clause without some of the things that it is about ("…, except the blue one")."""
 
     def without(things: Things) -> Things:
-        last = replace(things.phrases[-1], modifiers=(*things.phrases[-1].modifiers, left_out))
-        return replace(things, phrases=(*things.phrases[:-1], last))
+        (*before, last) = things.phrases
+        return replace(things, phrases=(*before, last.told_by(left_out)))
 
     match clause:
         case PutClause(groups=(group,)):

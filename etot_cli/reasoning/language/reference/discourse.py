@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from etot_cli.reasoning.builtin.goal import Place, Referent, Thing
+from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.noun_phrases import Resolved
@@ -96,11 +96,11 @@ class Discourse:
         """Referents that a phrase means none of: "another cup", and "a cup" of which one has been
         given a place before ("a cup on the tray and a cup on the shelf").
         """
-        things = {thing for option in resolved.options for thing in option}
+        things = set(things_in(resolved.options))
         shared = [
             earlier
             for earlier, referent in enumerate(self.referents)
-            if things & {thing for option in referent.options for thing in option}
+            if things & set(things_in(referent.options))
         ]
         if resolved.other:
             return tuple(shared)
@@ -126,7 +126,7 @@ class Discourse:
             return
         sets = [referent.options[0] for referent in self.referents if len(referent.options) == 1]
         spoken = {thing for things in sets if len(things) > 1 for thing in things}
-        fitting = dict.fromkeys(thing for option in resolved.options for thing in option)
+        fitting = things_in(resolved.options)
         if spoken & set(fitting) and set(fitting) - spoken:
             raise AmbiguousReference(text, [thing.name for thing in fitting])
 
@@ -152,10 +152,9 @@ class Discourse:
         said = [replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]]
         self.mentions[:] = [*said, *self.mentions[:first]]
 
-    def things(self, referent: int) -> tuple[Thing, ...]:
-        """Everything that a referent may stand for."""
-        options = self.referents[referent].options
-        return tuple(dict.fromkeys(thing for option in options for thing in option))
+    def things(self, *referents: int) -> tuple[Thing, ...]:
+        """Everything that referents may stand for."""
+        return things_in(option for i in referents for option in self.referents[i].options)
 
     def last_noun(self, role: Role) -> str | None:
         """The noun that "one" or "the other" stands for in a role; never the desk, which is one."""

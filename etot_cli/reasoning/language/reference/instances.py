@@ -42,7 +42,7 @@ def usable_ones(
         if not usable:
             check_not_part(phrase.text, things)
     if not usable:
-        noun = phrase.words[-1] if phrase.words else ""
+        noun = phrase.head
         if role is Role.THEME and matches_any(noun, JOINT_NOUNS["hinge"]):
             why = f"nothing is called {noun!r} that could be picked up"
             raise ReferenceProblem(phrase.text, why, 2, word=noun)

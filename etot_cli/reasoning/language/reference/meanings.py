@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
-from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
@@ -66,9 +66,9 @@ class Meanings:
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             indices = antecedents(discourse, "them", role, phrase.text)
             if any(len(discourse.referents[index].options) > 1 for index in indices):
-                names = [thing.name for index in indices for thing in discourse.things(index)]
+                names = [thing.name for thing in discourse.things(*indices)]
                 raise AmbiguousReference(phrase.text, names)
-            things = dict.fromkeys(thing for i in indices for thing in discourse.things(i))
+            things = discourse.things(*indices)
             options = tuple((thing,) for thing in things)
             noun = discourse.last_noun(role) or ""
             return Resolved(options, definite=False, other=False, noun=noun, again=True)
@@ -100,7 +100,7 @@ class Meanings:
         if resolved.other and resolved.every:
             return others(resolved, discourse)
         if resolved.other and resolved.definite and quantity.count in (None, 1):
-            if phrase.words[-1:] in ((), ("one",)):
+            if phrase.head in ("", "one"):
                 resolved = of_last_choice(resolved, discourse)
             check_one_left(phrase, resolved, discourse)
         # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
@@ -112,8 +112,8 @@ class Meanings:
         noun = self.discourse.last_noun(Role.THEME)
 
         def named(item: NounPhrase) -> NounPhrase:
-            one = noun is not None and item.words[-1:] == ("one",)
-            return replace(item, words=(*item.words[:-1], singular(noun or ""))) if one else item
+            one = noun is not None and item.head == "one"
+            return item.called(singular(noun or "")) if one else item
 
         modifiers = (
             replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in HOLDING else item
@@ -128,7 +128,7 @@ class Meanings:
             plain = replace(phrase, determiner="all")
             with suppress(ReferenceProblem):
                 options = self.resolved_as(plain, role, None, parts_first=parts_first).options
-                fitting |= {thing for option in options for thing in option}
+                fitting |= set(things_in(options))
         for mention in reversed(self.discourse.mentions):
             things = self.discourse.things(mention.referent)
             if mention.referent not in excluded and things and set(things) <= fitting:
@@ -175,7 +175,7 @@ class Meanings:
         if phrase.determiner.isdigit() and not phrase.words:
             why = "a number alone is a count or a name; say which thing"
             raise ReferenceProblem(phrase.text, why, 3)
-        elliptic = phrase.words[-1:] in (("one",), ("ones",))
+        elliptic = phrase.is_elliptic
         resolved: Resolved | None = None
         problem: ReferenceProblem | None = None
         try:
@@ -202,7 +202,7 @@ class Meanings:
         if problem is not None:
             raise problem
         if found or resolved is None:
-            ways = [thing.name for options in found for option in options for thing in option]
+            ways = [thing.name for options in found for thing in things_in(options)]
             raise AmbiguousReference(phrase.text, ways)
         return resolved
 
@@ -210,7 +210,7 @@ class Meanings:
         """Whether "the big one" would tell one thing by its size or side of which there is one."""
         words = phrase.words
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
-        if words[-1:] != ("one",) or not told or noun is None:
+        if phrase.head != "one" or not told or noun is None:
             return False
         every = replace(phrase, determiner="all", words=("ones",), modifiers=())
         with suppress(ReferenceProblem):
@@ -221,7 +221,7 @@ class Meanings:
         self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
     ) -> Resolved:
         """What a phrase means where ``noun`` is the noun that it may leave out."""
-        elliptic = phrase.words[-1:] in (("one",), ("ones",))
+        elliptic = phrase.is_elliptic
         if noun is not None and elliptic:
             check_count(phrase, noun, self.discourse)
         own_name = phrase.words and self.resolver.is_called(phrase.words[-1])
@@ -260,4 +260,4 @@ class Meanings:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)
             return found
         indices = antecedents(self.discourse, phrase.pronoun, Role.ANY, phrase.text)
-        return [tuple(thing for index in indices for thing in self.discourse.things(index))]
+        return [self.discourse.things(*indices)]

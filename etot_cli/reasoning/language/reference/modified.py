@@ -34,8 +34,7 @@ _SO_MANY = frozenset({*NUMBERS, *map(str, range(100)), "any", "some", "either"})
 
 def names_of_things(things: Sequence[Thing]) -> str:
     """Names of things, parts and boards, for messages."""
-    parts = ((thing.name, thing.part or thing.board) for thing in things)
-    return ", ".join(dict.fromkeys(".".join(filter(None, names)) for names in parts))
+    return ", ".join(dict.fromkeys(thing.address for thing in things))
 
 
 def modified(

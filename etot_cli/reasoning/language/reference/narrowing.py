@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.relations import is_inside
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -31,7 +31,7 @@ def spoken_part(resolved: Resolved, discourse: Discourse, *, own_name: bool) -> 
     """After "the lower drawer" "the drawer" is that one, not the whole chest; ``own_name``: unless
     the whole is what is called so.
     """
-    named = {(thing.name, thing.part) for option in resolved.options for thing in option}
+    named = {(thing.name, thing.part) for thing in things_in(resolved.options)}
     if own_name or not resolved.definite or resolved.other or any(part for _, part in named):
         return resolved
     owners = {owner for owner, _ in named}
@@ -45,7 +45,7 @@ def spoken_part(resolved: Resolved, discourse: Discourse, *, own_name: bool) -> 
 
 def part_around(resolved: Resolved, inner: Sequence[Thing], scene: SceneState) -> Resolved:
     """Of a chest's drawers "the drawer" that things are taken out of is the one they all lie in."""
-    things = {thing for option in resolved.options for thing in option}
+    things = set(things_in(resolved.options))
     infos = [scene.infos[t.name] for t in things if t.part is None and t.name in scene.infos]
     for info in infos if len(things) == 1 else ():
         around = [
@@ -105,12 +105,11 @@ def check_one_left(phrase: NounPhrase, resolved: Resolved, discourse: Discourse)
     """Whether "the other one" is one: as many are left as have not been chosen before."""
     if any(len(option) != 1 for option in resolved.options):
         return
-    things = {thing for option in resolved.options for thing in option}
+    things = set(things_in(resolved.options))
     chosen = sum(
         len(referent.options[0])
         for referent in discourse.referents
-        if len(referent.options) > 1
-        and {t for option in referent.options for t in option} <= things
+        if len(referent.options) > 1 and set(things_in(referent.options)) <= things
     )
     if len(things) - chosen > 1:
         raise AmbiguousReference(phrase.text, sorted(thing.name for thing in things))
@@ -152,9 +151,7 @@ def narrowed_to(
         return plain
     if {*narrower.options} <= {*plain.options}:
         return narrower
-    named = [
-        thing.name for item in (plain, narrower) for option in item.options for thing in option
-    ]
+    named = [thing.name for item in (plain, narrower) for thing in things_in(item.options)]
     raise AmbiguousReference(phrase.text, named)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import product
 
-from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
@@ -286,9 +286,8 @@ class Resolver:
             if len(both) != 2:
                 raise ReferenceProblem(phrase.text, "say between which two things", 2)
             return [[[both[0]], [both[1]]]]
-        noun = phrase.words[-1] if phrase.words else None
         each = [
-            self._landmarks(pronoun, item, noun if item.words[-1:] == ("one",) else None)
+            self._landmarks(pronoun, item, (phrase.head or None) if item.head == "one" else None)
             for item in modifier.phrases
         ]
         if modifier.prep is Prep.ON and modifier.words:
@@ -321,6 +320,6 @@ class Resolver:
             why = "the robot has one gripper and no other tool"
             raise ReferenceProblem(phrase.text, why, 3, word=phrase.text)
         # "A drawer other than the open one" is none of a chest's.
-        parts = noun is not None and phrase.words[-1:] in (("one",), ("ones",))
+        parts = noun is not None and phrase.is_elliptic
         resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun, parts_first=parts)
-        return list(dict.fromkeys(thing for option in resolved.options for thing in option))
+        return list(things_in(resolved.options))

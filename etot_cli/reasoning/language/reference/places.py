@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import TOP
@@ -137,12 +137,12 @@ class Places:
 
     def _lies_on_it(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> bool:
         """Whether things lie on what was put somewhere last, and do not sink into it."""
-        laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        laid = self.discourse.things(*themes)
         with suppress(ReferenceProblem):
             found = antecedents(
                 self.discourse, phrase.pronoun, role, phrase.text, themes, topmost=True
             )
-            things = [thing for index in found for thing in self.discourse.things(index)]
+            things = self.discourse.things(*found)
             return all(lies_on(laid, thing, self._scene) for thing in things)
         return False
 
@@ -172,7 +172,7 @@ class Places:
             )
             for option in referent.options
         )
-        if word != TOP and any(thing.board is None for option in options for thing in option):
+        if word != TOP and any(thing.board is None for thing in things_in(options)):
             raise ReferenceProblem(referent.text, "it has no boards; say into it or on it", 2)
         things = self.discourse.things(place.where)
         if word == TOP and space.is_column(things, self._scene):
@@ -188,13 +188,13 @@ class Places:
         """
         if not phrase.modifiers and not phrase.pronoun:
             return
-        moved = {t.name for item in self.discourse.put for t in self.discourse.things(item)}
+        moved = {t.name for t in self.discourse.things(*self.discourse.put)}
         carried = self.discourse.things(index)
         if any(thing.name in moved for thing in carried):
             return
         states = self._scene.states
         under = [bearers(self._scene, t.name) for t in carried if t.name in states]
-        for thing in (thing for theme in themes for thing in self.discourse.things(theme)):
+        for thing in self.discourse.things(*themes):
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
@@ -202,7 +202,7 @@ class Places:
         """What sinks into a vessel and would as well lie on what was put there: "on it" is both."""
         discourse = self.discourse
         inner = [i for i, around in discourse.put_into.items() if around == index]
-        laid = [thing for theme in themes for thing in discourse.things(theme)]
+        laid = discourse.things(*themes)
         things = discourse.things(index)
         sinks = not any(lies_on(laid, thing, self._scene) for thing in things)
         bears = [
@@ -219,7 +219,7 @@ class Places:
         found = []
         things = self.discourse.things(index)
         fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
-        laid = [thing for theme in themes for thing in self.discourse.things(theme)]
+        laid = self.discourse.things(*themes)
         if toward is Toward.ON and fits_in:
             self._check_alike(laid, things, index)
         to = toward is Toward.TO
@@ -278,7 +278,7 @@ class Places:
         # the plate next to the cup" the one of several that is there.
         targets = [item for item in destination.targets if not item.pronoun]
         meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
-        things = [thing for options in meant for option in options for thing in option]
+        things = [thing for options in meant for thing in things_in(options)]
         stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
         part = all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside)
         if len(things) > 1 or (part and stacked and things[0].board is None):
@@ -301,8 +301,8 @@ class Places:
             return tuple(self.relations_to(Toward.ON, index, themes))
         if word == ON_IT and not discourse.put_into:
             raise ReferenceProblem(word, UNCLEAR, 2)
-        put = {thing for index in discourse.put for thing in discourse.things(index)}
-        if word == "on top" and put & {t for index in themes for t in discourse.things(index)}:
+        put = set(discourse.things(*discourse.put))
+        if word == "on top" and put & set(discourse.things(*themes)):
             raise ReferenceProblem(word, "say on top of what", 2)
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
         for index in prefer:

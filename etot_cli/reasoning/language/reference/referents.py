@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things
@@ -40,12 +40,11 @@ class Phrases(Meanings):
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             self._check_apart(things, found)
             return list(dict.fromkeys(index for indices in found for index in indices))
-        nouns = [phrase.words[-1:] for phrase in things.phrases]
         phrases = [
             # "The purple cup or a green one"
-            replace(phrase, words=(*phrase.words[:-1], *before)) if one == ("one",) else phrase
-            for phrase, one, before in zip(
-                things.phrases, nouns, (nouns[0], *nouns[:-1]), strict=True
+            phrase.called(before.head) if phrase.head == "one" else phrase
+            for phrase, before in zip(
+                things.phrases, (things.phrases[0], *things.phrases), strict=False
             )
         ]
         resolved = [self.meaning(phrase, role) for phrase in phrases]
@@ -92,7 +91,7 @@ class Phrases(Meanings):
         except ReferenceProblem:
             return
         if set(plain) != set(also):
-            ways = [[thing.name for option in found for thing in option] for found in (also, plain)]
+            ways = [[thing.name for thing in things_in(found)] for found in (also, plain)]
             named = [", ".join(dict.fromkeys(names)) for names in ways]
             raise AmbiguousReference(phrase.text, named, f"{text!r} may be meant, too:")
 
@@ -152,7 +151,7 @@ class Phrases(Meanings):
                 found = openable(self.discourse)
             else:
                 found = antecedents(self.discourse, "them", role, text, excluded)
-            said = {thing for index in found for thing in self.discourse.things(index)}
+            said = set(self.discourse.things(*found))
             named = said - {Thing(thing.name) for thing in said if thing.part}
             found = tuple(i for i in found if named & {*self.discourse.things(i)})
             ways = {index: self.discourse.referents[index].options for index in found}
@@ -181,7 +180,7 @@ class Phrases(Meanings):
         )
         if not unmoved or not phrase.words or self.spoken_of(phrase, role, themes) is not None:
             return
-        moved = [thing for index in themes for thing in discourse.things(index)]
+        moved = discourse.things(*themes)
         for parts_first in (True, False):
             here: list[Thing] = []
             with suppress(ReferenceProblem):
@@ -208,7 +207,7 @@ class Phrases(Meanings):
             if landmark.words and not quantity_of(landmark.determiner).other:
                 with suppress(ReferenceProblem):
                     options = self.meaning(landmark, Role.ANY).options
-                    meant = {thing for option in options for thing in option}
+                    meant = set(things_in(options))
             for theme in self.discourse.put:
                 if meant & set(self.discourse.things(theme)):
                     around = self.discourse.put_into.get(theme)
@@ -234,18 +233,17 @@ class Phrases(Meanings):
         owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner)]
         told_by = [item for item in phrase.modifiers if item.prep is not Prep.CONTRAST]
         named = [(item.prep, landmark) for item in told_by for landmark in item.phrases]
-        noun = usual_form(phrase).words[-1:]
+        noun = usual_form(phrase).head
         for prep, landmark in (*owner, *named):
             if "one" in (landmark.determiner, *landmark.words[:-1]):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             if landmark.words and not is_robot(landmark):
                 if quantity_of(landmark.determiner).other:
                     continue
-                elliptic = landmark.words[-1:] in (("one",), ("ones",))
                 resolved = self.resolver.resolve(
                     landmark,
                     Role.ANY,
-                    noun=noun[0] if elliptic and noun else None,
+                    noun=noun if landmark.is_elliptic and noun else None,
                     pronoun=self.pronoun_things,
                 )
                 if prep in (Prep.ON, Prep.IN, Prep.FROM) and len(told) == 1:

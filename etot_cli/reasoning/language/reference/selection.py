@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on
+from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
@@ -111,7 +111,7 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
     if thing.name == DESK:
         return False
     info, state = scene.infos[thing.name], scene.states[thing.name]
-    parts = [part for part in info.parts if thing.part in (None, part.name)]
+    parts = parts_of(scene, thing)
     match STATES[word]:
         case "open":
             return any(scene.openness(part) >= OPEN_AT for part in parts)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, radius
+from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, parts_of, radius
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
@@ -78,13 +78,10 @@ def addresses(thing: Thing, scene: SceneState) -> tuple[str, ...]:
     """Names by which relations may speak of a thing: itself, and its parts if none is meant."""
     if thing.name == DESK:
         return (DESK,)
-    info = scene.infos[thing.name]
-    parts = [part.address for part in info.parts if thing.part in (None, part.name)]
-    if thing.part is not None:
-        return tuple(parts)
     if thing.board is not None:
-        return (f"{thing.name}.{thing.board}",)
-    return (thing.name, *parts)
+        return (thing.address,)
+    own = () if thing.part else (thing.name,)
+    return (*own, *(part.address for part in parts_of(scene, thing)))
 
 
 def rests_on(thing: Thing, landmark: Thing, scene: SceneState) -> bool:

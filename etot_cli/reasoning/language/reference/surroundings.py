@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence, Set
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Near, Thing
+from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
@@ -60,10 +60,10 @@ class Surroundings:
         """
         beside = [self._of_themes(item, themes, below) for item in beside]
         near = tuple(near for item in beside for near in self._near(item, themes))
-        moved = {thing for i in self._discourse.put for thing in self._discourse.things(i)}
+        moved = set(self._discourse.things(*self._discourse.put))
         for item in near:
-            things = [thing for i in item.landmarks for thing in self._discourse.things(i)]
-            things = [thing for thing in things if thing not in moved]
+            things = self._discourse.things(*item.landmarks)
+            things = tuple(thing for thing in things if thing not in moved)
             if below - {DESK} and any(thing.name in below for thing in things):
                 raise ReferenceProblem(things[0].name, "nothing is beside itself", 2)
             under = [bearers(self._scene, thing.name) for thing in things]
@@ -84,12 +84,11 @@ class Surroundings:
         nouns = [mention.noun for mention in mentions if mention.referent in themes]
         phrases = list(beside.phrases)
         for number, phrase in enumerate(phrases if nouns and below else ()):
-            if phrase.words[-1:] == ("one",):
+            if phrase.head == "one":
                 with suppress(ReferenceProblem):
                     options = self._phrases.meaning(phrase, Role.ANY).options
-                    if all(thing.name in below for option in options for thing in option):
-                        words = (*phrase.words[:-1], singular(nouns[-1]))
-                        phrases[number] = replace(phrase, words=words)
+                    if all(thing.name in below for thing in things_in(options)):
+                        phrases[number] = phrase.called(singular(nouns[-1]))
         return replace(beside, phrases=tuple(phrases))
 
     def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
@@ -97,7 +96,7 @@ class Surroundings:
         left edge of a tray is a part of it.
         """
         resolved = self._phrases.meaning(phrase, Role.ANY)
-        things = {thing for option in resolved.options for thing in option}
+        things = set(things_in(resolved.options))
         if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
             raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
         anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
@@ -129,7 +128,7 @@ class Surroundings:
             why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
             raise ReferenceProblem(text, why, 2)
         if beside.relation in _OPPOSITE:
-            self._check_side(beside, [t for i in landmarks for t in self._discourse.things(i)])
+            self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
 
     def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:

@@ -54,7 +54,7 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         NUMBERS.get(w, 1) > 1 for w in phrase.words[1:-1]
     ):
         raise ReferenceProblem(phrase.text, "name them one by one", 3)
-    last = phrase.words[-1] if phrase.words else ""
+    last = phrase.head
     if last in _GENERAL and len(phrase.words) == 1:
         determiner = _GENERAL[last]
         described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
