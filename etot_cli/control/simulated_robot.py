@@ -13,7 +13,7 @@ from etot_cli.errors import WorldError
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.motion import PhaseEnd, Press
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
-from etot_cli.world.arrays import Vector
+from etot_cli.world.arrays import Vector, consecutive
 from etot_cli.world.model import World
 from etot_cli.world.recorder import Recorder
 from etot_cli.world.relations import touched_by_robot
@@ -69,6 +69,10 @@ class SimulatedRobot:
         free = [name for name, entry in world.entries.items() if entry.free]
         first = np.array([model.joint(name).dofadr[0] for name in free], dtype=np.int64)
         self._free_dofs = (first[:, None] + np.arange(3)).ravel()
+        # Asking ``data`` for its arrays at every look takes longer than reading them.
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._ctrl, self._joints = consecutive(robot.ctrl), consecutive(robot.qpos)
+        self._fingers = consecutive(robot.finger_qpos)
 
     @property
     def steps(self) -> int:
@@ -90,24 +94,24 @@ class SimulatedRobot:
 
         The targets are led by the servo's lag, so the arm is where the path says, not behind it.
         """
-        data, ctrl, qpos = self._data, self._world.robot.ctrl, self._world.robot.qpos
+        ctrl, qpos, joints = self._ctrl, self._qpos, self._joints
         previous = np.vstack([self._command[ctrl][None], targets[:-1]])
         lead = (targets - previous) / CONTROL_PERIOD * self._lag
         lead[0] = 0.0
         commands = np.clip(targets + lead, self._low, self._high)
-        late = 0
+        late, guarded, holding = 0, guards.holding is not None, guards.holding or 0.0
         for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
             self._command[ctrl] = command
             self._tick()
             if period % GUARD_EVERY:
                 continue
-            if self._slipped(guards):
+            if guarded and self._opening() < holding:
                 self._command[ctrl] = target
                 return PhaseEnd.SLIPPED
-            error = _largest(data.qpos[qpos] - target)
+            error = _largest(qpos[joints] - target)
             late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
             if late >= BLOCKED_PERIODS:
-                self._command[ctrl] = data.qpos[qpos]
+                self._command[ctrl] = qpos[joints]
                 return PhaseEnd.BLOCKED
             if self._exhausted:
                 return PhaseEnd.OUT_OF_TIME
@@ -124,10 +128,10 @@ class SimulatedRobot:
 
     def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
         """Holds still; at rest, stepping on would change nothing."""
-        quiet = 0
+        quiet, guarded, holding = 0, guards.holding is not None, guards.holding or 0.0
         for period in range(round(seconds / CONTROL_PERIOD)):
             self._tick()
-            if period % GUARD_EVERY == 0 and self._slipped(guards):
+            if guarded and period % GUARD_EVERY == 0 and self._opening() < holding:
                 return PhaseEnd.SLIPPED
             if until_rest:
                 quiet = quiet + 1 if self._at_rest() else 0
@@ -160,16 +164,16 @@ class SimulatedRobot:
             WorldError: the simulation diverged.
             OutOfTimeError: the deadline has passed.
         """
-        self._deadline.check()
         if self._delay_steps:
             self._step_late()
         else:
             mujoco.mj_step(self._world.model, self._data, self._steps_per_period)
         self._periods += 1
         if self._periods % OBSERVE_EVERY == 0:
+            self._deadline.check()
             if self._recorder is not None:
                 self._recorder.observe(self._data)
-            if not np.isfinite(self._data.qpos).all():
+            if not math.isfinite(self._qpos.dot(self._qpos)):
                 raise WorldError("the simulation diverged (NaN)")
 
     def _step_late(self) -> None:
@@ -185,15 +189,12 @@ class SimulatedRobot:
         mujoco.mj_step(self._world.model, self._data, end - now)
 
     def _opening(self) -> float:
-        return self._world.robot.opening(self._data)
-
-    def _slipped(self, guards: Guards) -> bool:
-        return guards.holding is not None and self._opening() < guards.holding
+        return self._world.robot.fingers.opening(self._qpos[self._fingers])
 
     def _at_rest(self) -> bool:
         if not len(self._free_dofs):
             return True
-        return _largest(self._data.qvel[self._free_dofs]) < REST_SPEED
+        return _largest(self._qvel[self._free_dofs]) < REST_SPEED
 
     @property
     def _exhausted(self) -> bool:

@@ -94,10 +94,10 @@ class Recorder:
             contact = data.contact
             rows = contact.efc_address.copy()
             self._contacts.append(
-                _Contacts(len(self._moments), contact.geom.copy(), rows, data.efc_force[rows])
+                _Contacts(len(self._moments), contact.geom.copy(), rows, data.efc_force.take(rows))
             )
         self._moments.append(now)
-        self._positions.append(data.xpos[self._bodies])
+        self._positions.append(data.xpos.take(self._bodies, axis=0))
         if self._keep_frames and now - self._times[-1] >= FRAME_PERIOD - 1e-6:
             self._frame(data)
 

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.placements.canvas import Canvas, Shape
 from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.world.helpers import BALL, BOX, CUP, Stage, make_scene, set_up
 
@@ -116,25 +117,43 @@ def test_many_lines_at_once_agree_with_one_at_a_time(stage: Stage) -> None:
     assert sum(len(line) for line in together) > 10
 
 
-@pytest.mark.parametrize("name", ["ball", "box", "rod", "capsule", "cup"])
-def test_columns_are_lines_that_stand_upright(stage: Stage, name: str) -> None:
-    """Of solids turned any way, by a grid that is turned itself; a margin makes them larger."""
+def test_cuts_are_lines_that_stand_upright(stage: Stage) -> None:
+    """Of many solids at once, turned any way, by a grid that is turned itself; a margin makes them
+    larger.
+    """
     solids, data = Solids(stage.world), stage.data
-    geom = int(stage.world.geoms_of(name)[0])
     turn = rotation_from_axes(np.array([0.3, -0.5, 0.8]), np.array([0.9, 0.2, 0.1]))
-    pose = Pose(data.geom_xpos[geom], turn @ data.geom_xmat[geom].reshape(3, 3))
-    sides = np.array([[0.003, 0.004], [-0.004, 0.003]])
-    corner = pose.position[:2] - 12 * sides.sum(axis=0)
-    low, high = solids.columns(geom, pose, corner, sides, np.array([25, 25]), 0.0)
-    index = np.indices((25, 25)).reshape(2, -1).T
-    origins = np.column_stack([corner + index @ sides, np.zeros(625)])
-    enters, leaves, *_ = solids._crossings(
-        geom, pose.position, pose.rotation, origins, np.array([[0.0, 0.0, 1.0]])
-    )
-    met = leaves - enters > 1e-6
-    assert 20 < met.sum() < 620
-    assert np.array_equal((high - low > 1e-6).ravel(), met)
-    assert low.ravel()[met] == pytest.approx(enters[met], abs=1e-9)
-    assert high.ravel()[met] == pytest.approx(leaves[met], abs=1e-9)
-    wider = solids.columns(geom, pose, corner, sides, np.array([25, 25]), 0.002)
-    assert ((wider[1] - wider[0])[high > low] > (high - low)[high > low] + 0.003).all()
+    names = ("ball", "box", "rod", "capsule", "cup")
+    geoms = [int(geom) for name in names for geom in stage.world.geoms_of(name)]
+    shapes = [
+        Shape(geom, Pose(np.array([0.01, 0.02, 0.3]), turned @ data.geom_xmat[geom].reshape(3, 3)))
+        for geom in geoms
+        for turned in (np.eye(3), turn)
+    ]
+    axes, cell = np.array([[0.6, 0.8], [-0.8, 0.6]]), 0.004
+    # No line runs along a side.
+    origin = np.array([0.00131, 0.00073])
+    canvas = Canvas(origin, axes, cell, np.array([40, 40]))
+    wider = canvas.cuts(solids, shapes, 0.002)
+    for (number, window, low, high), wide in zip(canvas.cuts(solids, shapes), wider, strict=True):
+        index = np.stack(np.meshgrid(*(np.arange(81)[part] for part in window), indexing="ij"), -1)
+        places = origin + (index.reshape(-1, 2) - 40) * cell @ axes
+        origins = np.column_stack([places, np.zeros(len(places))])
+        pose = shapes[number].pose
+        enters, leaves, *_ = solids._crossings(
+            shapes[number].geom, pose.position, pose.rotation, origins, np.array([[0.0, 0.0, 1.0]])
+        )
+        met = leaves - enters > 1e-6
+        assert 2 < met.sum() < met.size
+        assert np.array_equal((high - low > 1e-6).ravel(), met)
+        assert low.ravel()[met] == pytest.approx(enters[met], abs=1e-9)
+        assert high.ravel()[met] == pytest.approx(leaves[met], abs=1e-9)
+        assert wide.number == number
+        assert (wide.high - wide.low).max() > (high - low).max() + 0.003
+    assert len(wider) == len(shapes)
+    covered = np.zeros((81, 81), dtype=bool)
+    for _, window, low, high in canvas.cuts(solids, shapes):
+        covered[window] |= high > low
+    assert np.array_equal(canvas.covered(solids, shapes), covered)
+    beside = Shape(geoms[0], Pose(np.array([2.0, 0.0, 0.0]), np.eye(3)))
+    assert not canvas.cuts(solids, [beside])

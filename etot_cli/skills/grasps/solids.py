@@ -10,14 +10,10 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
-from etot_cli.world.pose import Pose
 from etot_cli.world.surface import mesh_of
-
-Cells = NDArray[np.int64]
 
 _SIDES = 24
 """Faces that stand for a round side; the polygon is circumscribed, so widths err by < 1 %."""
@@ -103,46 +99,11 @@ class Solids:
             lines.append([Interval(start, end, min(ends)) for start, end, *ends in merged])
         return lines
 
-    def columns(
-        self, geom: int, pose: Pose, corner: Vector, sides: Vector, counts: Cells, margin: float
-    ) -> tuple[Vector, Vector]:
-        """How high the vertical lines of a grid enter and leave one geom.
-
-        Args:
-            geom: its id.
-            pose: where it is.
-            corner: (2,) of the first line [m].
-            sides: (2, 2) from one line to the next along the rows and the columns [m].
-            counts: (2,) lines along both.
-            margin: how much larger than it is the geom is taken to be on all sides [m].
-
-        Returns:
-            Heights (a, b), (a, b) [m]; a line misses where the second is smaller.
-        """
-        model, offset = self._world.model, corner - pose.position[:2]
-        rows, columns = np.arange(counts[0])[:, None], np.arange(counts[1])
-        if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
-            x, y = (offset[i] + sides[0, i] * rows + sides[1, i] * columns for i in range(2))
-            radius = model.geom_size[geom, 0] + margin
-            half = np.sqrt(np.maximum(radius**2 - x**2 - y**2, 0.0))
-            return pose.position[2] - half, pose.position[2] + half
-        own, offsets = self.planes(geom)
-        normals = own @ pose.rotation.T
-        # How far inside of each plane the lines pass at the geom's own height, row by row and
-        # column by column; the solid is convex.
-        first = offsets + margin - normals[:, :2] @ offset
-        along, across = (normals[:, :2] @ side for side in sides)
-        rise = normals[:, 2]
-
-        below, above = rise < -PARALLEL, rise > PARALLEL
-        upright = ~(below | above)
-        scale = np.where(upright, 1.0, rise)
-        a, b, c = ((term / scale)[:, None, None] for term in (first, along, across))
-        inside = a - b * rows - c * columns
-        low = inside[below].max(axis=0, initial=-np.inf)
-        high = inside[above].min(axis=0, initial=np.inf)
-        outside = (inside[upright] < 0.0).any(axis=0)
-        return low + pose.position[2], np.where(outside, low, high) + pose.position[2]
+    def radius(self, geom: int) -> float | None:
+        """Of a geom that is a ball [m], which has no planes."""
+        model = self._world.model
+        ball = int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE
+        return float(model.geom_size[geom, 0]) if ball else None
 
     def _crossings(
         self,
@@ -156,12 +117,11 @@ class Solids:
         distances (m,), (m,) along them [m], the second smaller where a line misses; and the cosines
         between line and surface normal at both crossings.
         """
-        model = self._world.model
         local = (origins - position) @ rotation
         along = directions @ rotation
-        if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_SPHERE:
+        radius = self.radius(geom)
+        if radius is not None:
             middle = -(local * along).sum(axis=1)
-            radius = model.geom_size[geom, 0]
             squared = radius**2 - (np.einsum("ij,ij->i", local, local) - middle**2)
             half = np.sqrt(np.maximum(squared, 0.0))
             return middle - half, middle + half, half / radius, half / radius

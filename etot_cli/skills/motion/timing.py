@@ -117,7 +117,8 @@ def _rounded(path: Vector, along: Vector) -> tuple[Vector, float]:
         return points, total / count
     window = np.bartlett(2 * half + 1)
     window /= window.sum()
-    padded = np.pad(points, ((half, half), (0, 0)), mode="reflect", reflect_type="odd")
+    before, after = points[half:0:-1], points[-2 : -half - 2 : -1]
+    padded = np.vstack([2 * points[0] - before, points, 2 * points[-1] - after])
     smooth = np.stack([np.convolve(joint, window, mode="valid") for joint in padded.T], axis=1)
     return smooth, total / count
 
@@ -141,15 +142,20 @@ def _speeds(points: Vector, spacing: float, slowness: Vector, limits: JointLimit
     )
     squared = (allowed**2).tolist()
     squared[0] = squared[-1] = 0.0
-    push = [
-        2.0 * spacing * PUSH_SHARE * limits.acceleration / max(value, 1e-6)
-        for value in np.maximum(rate, 0.5)
-    ]
-    for i in range(1, len(squared)):
-        squared[i] = min(squared[i], squared[i - 1] + push[i])
-    for i in range(len(squared) - 2, -1, -1):
-        squared[i] = min(squared[i], squared[i + 1] + push[i])
-    return np.asarray(np.sqrt(squared))
+    push = (2.0 * spacing * PUSH_SHARE * limits.acceleration / np.maximum(rate, 0.5)).tolist()
+    forward = _pushed(squared, push)
+    return np.asarray(np.sqrt(_pushed(forward[::-1], push[::-1])[::-1]))
+
+
+def _pushed(squared: list[float], push: list[float]) -> list[float]:
+    """Squared speeds of which none exceeds the one before it by more than its ``push``."""
+    last, kept = np.inf, []
+    for value, more in zip(squared, push, strict=True):
+        last += more
+        if value < last:
+            last = value
+        kept.append(last)
+    return kept
 
 
 def _at_points(cells: Vector) -> Vector:

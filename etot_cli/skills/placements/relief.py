@@ -18,12 +18,11 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.solids import Solids
+from etot_cli.skills.placements.canvas import Canvas, Cells, Shape
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
-
-Cells = NDArray[np.int64]
 
 FINEST, COARSEST = 0.0015, 0.005
 """Cell sizes [m]: in a cup, half of the gap that an object keeps to its wall; on the desk, less
@@ -38,14 +37,6 @@ floor at a slant, and boxes that stand askew on a grain of noise do not."""
 CHUNK = 32_000
 """Cells that are looked up at once: they and what they hold stay in a core's own cache. Of ten
 times as many at once, each takes three times as long."""
-
-
-@dataclass(frozen=True)
-class Shape:
-    """A convex solid of the model at a pose relative to what it belongs to."""
-
-    geom: int
-    pose: Pose
 
 
 @dataclass(frozen=True)
@@ -140,7 +131,7 @@ def relief(belief: Belief, support: Support, absent: Collection[str]) -> Relief:
     world, data = belief.world, belief.data
     cell = float(np.clip(support.half.max() / CELLS, FINEST, COARSEST))
     counts = np.ceil((support.half + AROUND) / cell).astype(np.int64)
-    canvas = _Canvas(support.center[:2], support.axes, cell, counts)
+    canvas = Canvas(support.center[:2], support.axes, cell, counts)
     heights = np.full(tuple(2 * counts + 1), -np.inf)
     owners = np.full(heights.shape, -1)
     names = tuple(world.entries)
@@ -151,27 +142,19 @@ def relief(belief: Belief, support: Support, absent: Collection[str]) -> Relief:
     heights[over_desk.reshape(heights.shape)] = desk.top
     ceiling = support.center[2] + support.room if support.from_front else np.inf
     solids = belief.solids
-    for geom in standing_geoms(belief, absent):
-        pose = Pose(data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3))
-        cut = canvas.cut(solids, Shape(geom, pose))
-        if cut is None:
-            continue
-        window, low, high = cut
+    standing = shapes_of(data, standing_geoms(belief, absent), np.zeros(3))
+    for number, window, low, high in canvas.cuts(solids, standing):
         # A roof is no obstacle to what comes in under it.
         counts_here = (high > low) & (low < ceiling - BUMP)
         higher = counts_here & (high > heights[window])
         heights[window] = np.where(higher, high, heights[window])
-        owner = world.geom_object[geom]
+        owner = world.geom_object[standing[number].geom]
         owners[window] = np.where(
             higher, names.index(owner) if owner in names else -1, owners[window]
         )
     reserved = np.zeros(heights.shape, dtype=bool)
     if support.owner is None:
-        for shape in swept_shapes(belief):
-            cut = canvas.cut(solids, shape)
-            if cut is not None:
-                window, low, high = cut
-                reserved[window] |= high > low
+        reserved = canvas.covered(solids, swept_shapes(belief))
     if support.from_front:
         # Whatever goes in passes over all that is nearer to the front, where the index is larger.
         heights = np.maximum.accumulate(heights[::-1], axis=0)[::-1]
@@ -252,13 +235,10 @@ def stamp(
         margin: how much larger than it is the thing is taken to be on all sides [m].
     """
     count = int(np.ceil((max(_reach(solids, shape) for shape in shapes) + margin) / cell)) + 1
-    canvas = _Canvas(np.zeros(2), axes, cell, np.array([count, count]))
+    canvas = Canvas(np.zeros(2), axes, cell, np.array([count, count]))
     lowest = np.full((2 * count + 1, 2 * count + 1), np.inf)
-    for shape in shapes:
-        cut = canvas.cut(solids, shape, margin)
-        if cut is not None:
-            window, low, high = cut
-            lowest[window] = np.where(high > low, np.minimum(lowest[window], low), lowest[window])
+    for _, window, low, high in canvas.cuts(solids, shapes, margin):
+        lowest[window] = np.where(high > low, np.minimum(lowest[window], low), lowest[window])
     cells = np.argwhere(np.isfinite(lowest))
     return Stamp(cells - count, lowest[cells[:, 0], cells[:, 1]])
 
@@ -335,30 +315,3 @@ def _under(
     for first in range(0, len(places), step):
         part = slice(first, first + step)
         yield part, flat[start[part, None] + offsets]
-
-
-class _Canvas:
-    """A grid of vertical lines that solids are cut with."""
-
-    def __init__(self, origin: Vector, axes: Vector, cell: float, counts: Cells) -> None:
-        self.origin, self.axes, self.cell, self.counts = origin, axes, cell, counts
-
-    def cut(
-        self, solids: Solids, shape: Shape, margin: float = 0.0
-    ) -> tuple[tuple[slice, slice], Vector, Vector] | None:
-        """The cells around a solid, and where the lines there enter and leave it [m]."""
-        pose = shape.pose
-        center, half = solids.box(shape.geom)
-        middle = self.axes @ (pose.position[:2] + pose.rotation[:2] @ center - self.origin)
-        extent = np.abs(self.axes @ pose.rotation[:2]) @ half + margin
-        first = np.floor((middle - extent) / self.cell).astype(np.int64) + self.counts
-        last = np.ceil((middle + extent) / self.cell).astype(np.int64) + self.counts
-        first, last = np.maximum(first, 0), np.minimum(last, 2 * self.counts)
-        if (last < first).any():
-            return None
-        corner = self.origin + ((first - self.counts) * self.cell) @ self.axes
-        low, high = solids.columns(
-            shape.geom, pose, corner, self.axes * self.cell, last - first + 1, margin
-        )
-        window = (slice(first[0], last[0] + 1), slice(first[1], last[1] + 1))
-        return window, low, high

@@ -9,7 +9,8 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.placements.relief import Shape, Stamp, shapes_of, stamp
+from etot_cli.skills.placements.canvas import Shape
+from etot_cli.skills.placements.relief import Stamp, shapes_of, stamp
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
