@@ -16,7 +16,7 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.ordering import Timed, in_order
+from etot_cli.reasoning.language.goals.turns import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,

@@ -1,15 +1,18 @@
-"""Adds the steps that put things to places that are known."""
+"""How things are put: next to each other, upright, back where they were; what is stood up."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import can_topple, carriers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup
+from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
+from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, ReorientClause
+from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.world.spatial import Nearby
 
 
 def put_back(
@@ -106,3 +109,88 @@ def _check_left(
         for below in names.intersection(carriers(context.scene, thing.name)):
             why = f"{below} would take {thing.name} along; say first where that is to go"
             raise ReferenceProblem(text, why, 4)
+
+
+def side_by_side(group: PutGroup) -> tuple[PutGroup, bool]:
+    """A group without "next to each other", and whether that was said of it."""
+    kept = tuple(
+        replace(where, beside=tuple(b for b in where.beside if EACH_OTHER not in b.phrases))
+        for where in group.destinations
+    )
+    said = kept != group.destinations
+    named = tuple(where for where in kept if where.targets or where.beside)
+    return replace(group, destinations=named if said else group.destinations), said
+
+
+def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) -> None:
+    """Puts the first of several things somewhere, and each other one next to the one before it.
+
+    Without a place the first one stays where it is.
+    """
+    text = " and ".join(context.discourse.referents[index].text for index in places_of)
+    things = [
+        (thing, places)
+        for index, places in places_of.items()
+        for thing in context.only(index, "say which ones")
+    ]
+    if len(things) < 2:
+        raise ReferenceProblem(text, "say next to what", 3)
+    if any(p.relation is Relation.INSIDE or p.beside for _, places in things for p in places):
+        raise ReferenceProblem(text, "things are next to each other on something flat only", 3)
+    before: int | None = None
+    for thing, places in things:
+        index = context.single(thing, thing.name)
+        if before is not None:
+            near = (Near(Nearby.NEXT_TO, (before,)),)
+            places = tuple(replace(place, beside=near) for place in places)
+            add_put(context, (index,), places or (Place(Relation.ON, None, near),), Grouping.ANY)
+        elif places:
+            add_put(context, (index,), places, Grouping.ANY)
+        before = index
+
+
+def reorient(context: Context, clause: ReorientClause) -> None:
+    """Stands up what has toppled, where it lies; any other turning is part of what follows."""
+    if clause.only_named:
+        context.phrases.things(clause.things, Role.ANY)
+        return
+    themes = context.phrases.things(clause.things, Role.THEME)
+    for index in themes:
+        if not clause.upright or not _can_stand(context, index):
+            context.turned.append(index)
+            continue
+        (thing,) = context.only(index, "say which one")
+        if context.scene.states[thing.name].toppled:
+            place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
+            context.steps.append(Put((index,), (place,)))
+        else:
+            context.discourse.notes.append(f"{thing.name} stands upright as it is")
+
+
+def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) -> tuple[Place, ...]:
+    """Places where things are to stand; a rod stands as what holds it lets it.
+
+    Raises:
+        ReferenceProblem: nothing makes them stand there.
+    """
+    if all(_can_stand(context, index) for index in themes):
+        near = Near(Nearby.UPRIGHT)
+        return tuple(replace(place, beside=(*place.beside, near)) for place in places)
+    held = all(place.relation is Relation.INSIDE for place in places)
+    for index in themes:
+        referent = context.discourse.referents[index]
+        things = context.discourse.things(index)
+        if not held or not all(context.scene.infos[item.name].elongated for item in things):
+            raise ReferenceProblem(referent.text, "it does not stand by itself", 3, word="upright")
+        context.discourse.notes.append(f"{referent.text} stands as what holds it lets it")
+    return tuple(places)
+
+
+def _can_stand(context: Context, index: int) -> bool:
+    """Whether things have an upright pose; what lies flat as it is would stand on its edge."""
+    scene = context.scene
+    things = context.discourse.things(index)
+    return all(
+        can_topple(info) and (state.toppled or info.container or not is_flat(info))
+        for info, state in ((scene.infos[t.name], scene.states[t.name]) for t in things)
+    )

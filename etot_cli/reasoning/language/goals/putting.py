@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
     check_poured,
@@ -22,13 +21,23 @@ from etot_cli.reasoning.language.goals.pairing import (
     by_color,
     check_enough,
     count_of_places,
+    distributed,
+    elsewhere,
     is_by_color,
+    is_different,
     is_one_each,
     one_each,
 )
-from etot_cli.reasoning.language.goals.placing import add_put, add_puts, put_back, spread
+from etot_cli.reasoning.language.goals.placing import (
+    add_put,
+    add_puts,
+    put_back,
+    put_side_by_side,
+    side_by_side,
+    spread,
+    upright,
+)
 from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, leave_out, rule_out
-from etot_cli.reasoning.language.goals.standing import upright
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -44,7 +53,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.distribution import distributed, elsewhere, is_different
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.world.state import DESK
 

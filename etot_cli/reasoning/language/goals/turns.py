@@ -1,14 +1,14 @@
-"""In which order several things of one clause have their turns."""
+"""In which order clauses are done, and the several things of one clause have their turns."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.goal import Put, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things, Turns
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Order, Things, Turns
 from etot_cli.reasoning.language.reference.selection import in_line
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 
@@ -73,3 +73,42 @@ def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> N
     # An adjective alone leaves its noun out; so does a word that names nothing.
     adjectives = all(map(is_descriptive, phrase.words)) or not context.phrases.named(phrase.words)
     return replace(phrase, words=(*phrase.words, *single)) if adjectives else phrase
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A clause's steps, when they are to be done, and the number of the sentence."""
+
+    steps: tuple[Step, ...]
+    order: Order
+    sentence: int
+
+
+def in_order(said: Sequence[Timed]) -> list[Step]:
+    """All steps in the order in which they are to be done.
+
+    "First" goes before everything that was said before it, "before that" before the clause before
+    it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
+    set of placements ("the red block on the green one and the green one on the blue one").
+    """
+    done: list[Timed] = []
+    last: list[Timed] = []
+    for item in said:
+        if item.order is Order.FIRST:
+            done.insert(0, item)
+        elif item.order is Order.BEFORE_THAT:
+            done.insert(max(len(done) - 1, 0), item)
+        elif item.order is Order.LAST:
+            last.append(item)
+        else:
+            done.append(item)
+    steps: list[Step] = []
+    run, sentence = 0, -1
+    for item in [*done, *last]:
+        waits = any(isinstance(step, Put) and step.aside for step in item.steps)
+        if item.sentence != sentence or item.order is not Order.SAID:
+            run, sentence = run + 1, item.sentence
+        for step in item.steps:
+            run += waits
+            steps.append(replace(step, run=run) if isinstance(step, Put) else step)
+    return steps

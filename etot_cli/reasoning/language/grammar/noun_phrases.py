@@ -50,7 +50,7 @@ _NUMBER = sequence(
     word(lambda given, text: text.isdigit() and len(text) < 3), optional("of [the|these|those]")
 )
 DETERMINER = either(
-    phrase(", ".join(nouns.DETERMINERS)),
+    phrase(nouns.DETERMINERS),
     _NUMBER,
     sequence(phrase("the, these, those"), _NUMBER, build=lambda *words: " ".join(words)),
 )

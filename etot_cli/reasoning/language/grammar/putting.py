@@ -48,9 +48,45 @@ from etot_cli.reasoning.language.grammar.syntax import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
-from etot_cli.reasoning.language.grammar.throwing import THROWN
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import BINS, singular
+
+
+def _into_a_bin(things: Things, where: tuple[Destination, ...]) -> PutGroup | None:
+    words = [[part for word in np.words for part in word.split("_")] for np in where[0].targets]
+    bins = all(any(singular(word) in BINS for word in said) for said in words)
+    return PutGroup(things, where) if bins else None
+
+
+def _away(text: str, things: Things) -> PutClause:
+    trash = NounPhrase("the", ("trash",), text=text)
+    return put_to(things, (Destination(Toward.INSIDE, (trash,)),))
+
+
+THROWN = quiet(
+    either(
+        sequence(
+            verbs.THROW,
+            separated(
+                sequence(
+                    THINGS,
+                    optional("away, out"),
+                    sequence(INTO, build=lambda place: (place,)),
+                    build=_into_a_bin,
+                ),
+                LIST,
+                most=3,
+            ),
+            build=PutClause,
+        ),
+        sequence(phrase(verbs.THROW_AWAY), THINGS, build=_away),
+        sequence(
+            verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
+        ),
+    )
+)
+
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     LED_CLAUSE,
     LEFT_OUT,
     Reading,
+    excluding,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
@@ -46,7 +47,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     pronouns,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
-from etot_cli.reasoning.language.grammar.wishes import excluding
 from etot_cli.reasoning.language.words import small_words, verbs
 
 

@@ -19,9 +19,11 @@ from etot_cli.reasoning.language.reference.sifting import (
     graded_by,
     is_selecting,
     is_stacked,
+    names_of,
+    not_understood,
+    nothing_fits,
     sift,
 )
-from etot_cli.reasoning.language.reference.unmatched import names_of, not_understood, nothing_fits
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (

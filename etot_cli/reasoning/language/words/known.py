@@ -2,73 +2,11 @@
 
 from __future__ import annotations
 
+from types import ModuleType
+
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.manner import (
-    ANYHOW,
-    AS_IT_IS,
-    AT_BOTTOM,
-    AT_TOP,
-    BOTTOM_UP,
-    FITTING,
-    HORIZONTAL,
-    IN_THIS_ORDER,
-    SEPARATELY,
-    STANDING,
-    STARTING_WITH,
-    STATES,
-    TOGETHER,
-    TOP_DOWN,
-    UPON_EACH_OTHER,
-    UPRIGHT,
-    VERTICAL,
-)
-from etot_cli.reasoning.language.words.nouns import (
-    CONTAINING,
-    DETERMINERS,
-    EXCEPT,
-    GENERAL_NOUNS,
-    RELATIVE,
-    RELATIVE_NOT,
-)
 from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.places import HOME, NEARBY, PREPOSITIONS, REGIONS, SIDE
-from etot_cli.reasoning.language.words.small_words import (
-    FRAMES,
-    LEADING_BEFORE,
-    LEADING_FIRST,
-    LEADING_LAST,
-    LEADING_THEN,
-    TRAILING_FIRST,
-    TRAILING_LAST,
-    TRAILING_THEN,
-    WITHOUT_MEANING,
-)
-from etot_cli.reasoning.language.words.verbs import (
-    ANYTHING_ELSE,
-    BE,
-    BUILD,
-    CLEAR,
-    CLOSE,
-    DISTURB,
-    DO_NOT,
-    ENSURE,
-    KEEP,
-    MODAL,
-    OPEN,
-    OUT_OF,
-    PICK,
-    PULL,
-    PUT,
-    PUT_DOWN,
-    REMOVE,
-    REORIENT,
-    STACK,
-    SWAP,
-    TIDY,
-    TOUCH,
-    TURN,
-    WANT,
-)
 
 _FUNCTION = """
     the a an any some another these those this that my your its their our it them they of and or
@@ -90,8 +28,11 @@ _FUNCTION = """
     perhaps otherwise else other others remaining same single exactly
 """
 VERB_WORDS = words_of(
-    (PICK, PUT, PUT_DOWN, REMOVE, OPEN, CLOSE, PULL, ENSURE, KEEP, REORIENT, TURN, STACK, BUILD,
-     SWAP, TOUCH, DISTURB, TIDY, CLEAR, DO_NOT)
+    (
+        verbs.PICK, verbs.PUT, verbs.PUT_DOWN, verbs.REMOVE, verbs.OPEN, verbs.CLOSE, verbs.PULL,
+        verbs.ENSURE, verbs.KEEP, verbs.REORIENT, verbs.TURN, verbs.STACK, verbs.BUILD,
+        verbs.SWAP, verbs.TOUCH, verbs.DISTURB, verbs.TIDY, verbs.CLEAR, verbs.DO_NOT,
+    )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "back", "places",
     "positions", "position"}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
@@ -172,15 +113,16 @@ BLAMED = frozenset(
     {"where", "push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
 )
 """Words that are understood in some places only, and where they are not are what is wrong."""
-ALL_WORDS = GRAMMAR_WORDS | words_of(
-    (
-        WITHOUT_MEANING, FRAMES, LEADING_FIRST, LEADING_BEFORE, LEADING_LAST, LEADING_THEN,
-        TRAILING_FIRST, TRAILING_LAST, TRAILING_THEN, MODAL, WANT, BE, UPRIGHT, BUILD, OUT_OF,
-        UPON_EACH_OTHER, BOTTOM_UP, TOP_DOWN, AT_BOTTOM, AT_TOP, ANYTHING_ELSE, AS_IT_IS, EXCEPT,
-        RELATIVE, RELATIVE_NOT, CONTAINING, SIDE, *PREPOSITIONS.values(), HOME, *NEARBY.values(),
-        *REGIONS.values(), ANYHOW, TOGETHER, SEPARATELY, STARTING_WITH, IN_THIS_ORDER,
-        STANDING, FITTING,
-        HORIZONTAL, VERTICAL, GENERAL_NOUNS, *DETERMINERS, STATES,
-    )
-)  # fmt: skip
+
+
+def _patterns(module: ModuleType) -> list[str]:
+    """All patterns in a module's tables."""
+    tables = [table for name, table in vars(module).items() if not name.startswith("_")]
+    texts = [t for item in tables for t in (item.values() if isinstance(item, dict) else [item])]
+    return [text for text in texts if isinstance(text, str)]
+
+
+ALL_WORDS = GRAMMAR_WORDS.union(
+    *(words_of(_patterns(module)) for module in (manner, nouns, places, small_words, verbs))
+)
 """Every word that the grammar knows."""

@@ -7,25 +7,25 @@ from etot_cli.reasoning.language.words.lexicon import NUMBERS
 _COUNT = "|".join(NUMBERS)
 _THE = "the|these|those|my|your|its|their|our"
 THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
-DETERMINERS = (
-    f"({_THE}|this|that|a|an|another|only the)",
-    f"(the|my|your|this|that) (other|same|single|only|remaining|{_COUNT})",
-    f"(the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT})",
-    "another one of the, a single, one single, only a",
-    "(any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your]",
-    f"just ({_THE}|a|an)",
-    "(any|each|every|either) (one|single) [of] [the|these|those]",
-    f"(any|each|every|all|both|either) of (the|these|those|my|your) ({_COUNT})",
-    f"(all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT})",
-    "(every|any|each|some) other",
-    f"({_COUNT}) [of] [the|these|those|other|more|of the other]",
-    f"one of (the|these|those) ({_COUNT})",
-    "one of the (other|remaining), [any] one of (the|these|those|my|your|),"
-    " any of (the|these|those|)",
-    "exactly one, exactly two, just one, half of the, none of the, no",
-    "a couple of, a pair of, several, a few, many, most of the",
-    "whichever, any",
-)
+DETERMINERS = f"""
+    ({_THE}|this|that|a|an|another|only the),
+    (the|my|your|this|that) (other|same|single|only|remaining|{_COUNT}),
+    (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}),
+    another one of the, a single, one single, only a,
+    (any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your],
+    just ({_THE}|a|an),
+    (any|each|every|either) (one|single) [of] [the|these|those],
+    (any|each|every|all|both|either) of (the|these|those|my|your) ({_COUNT}),
+    (all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT}),
+    (every|any|each|some) other,
+    ({_COUNT}) [of] [the|these|those|other|more|of the other],
+    one of (the|these|those) ({_COUNT}),
+    one of the (other|remaining), [any] one of (the|these|those|my|your|),
+    any of (the|these|those|),
+    exactly one, exactly two, just one, half of the, none of the, no,
+    a couple of, a pair of, several, a few, many, most of the,
+    whichever, any
+"""
 GENERAL_NOUNS = """
     everything, anything, something, everything else, all else, the (rest|others|other ones),
     all (others|the others|the rest)
