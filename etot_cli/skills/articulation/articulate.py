@@ -6,7 +6,7 @@ Every way is prepared kinematically first; how far the arm can follow decides wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from etot_cli.skills.articulation.part_path import (
     fraction_open,
     way_back,
 )
-from etot_cli.skills.articulation.search import PartSearch, belief_after
+from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
@@ -34,6 +34,10 @@ SETTLE_TIME = 1.2
 """Time for what stands in or on the part to come to rest, at most [s]."""
 PRESSED = 0.3
 """An object that the part presses on sideways harder than this is in its way [N]."""
+LOOKS_ON_THE_WAY = 12
+"""Places on the straight way to a part at which it is seen who stands there: some 8 cm apart."""
+HALTED = 0.05
+"""Share of the travel by which a part springs back from what it ran into, at most."""
 EXIT_SPACING = 3
 """Ways out are worked out for every so many waypoints along the part's path."""
 
@@ -57,16 +61,41 @@ def articulation_motions(
     tool_at = None if rehearsed is None else rehearsed.tool_at
     search = PartSearch(belief, part, opening, None if tool_at is None else tool_at.pose)
     found = False
+    barred: list[tuple[Belief, PreparedMove]] = []
     for move in search.moves():
         phases = _phases(belief, part, move)
+        stood, latest = belief, move
         if phases is not None and move.then is not None:
-            second = _phases(belief_after(belief, part, move), part, move.then)
+            stood, latest = belief_after(belief, part, move), move.then
+            second = _phases(stood, part, latest)
             phases = None if second is None else (*phases, *second)
         if phases is not None:
             found = True
             yield _motion(belief, action, part, move, phases)
+        else:
+            barred.append((stood, latest))
     if not found:
+        if not search.hindrances.blamed():
+            for stood, latest in barred[:1]:
+                for others in _bars(stood, part, latest):
+                    search.hindrances.note(frozenset(others))
         yield _no_move(search)
+
+
+def _bars(belief: Belief, part: Part, move: PreparedMove) -> Iterator[Sequence[str]]:
+    """Who has to be away for the arm to come to a move that it finds no free way to."""
+    belief.checker.freeze(belief.data)
+    belief.checker.set_fingers(move.opening)
+    way = np.linspace(belief.commanded, move.before, LOOKS_ON_THE_WAY)
+    met = dict.fromkeys(owner_of(hit) for row in way for hit in belief.checker.hits(row))
+    others = [name for name in met if name in belief.world.entries and name != part.info.owner]
+
+    def goes_without(names: Sequence[str]) -> bool:
+        with belief.checker.without(names):
+            return belief.plan_transit(move.before, opening=move.opening) is not None
+
+    if others and goes_without(others):
+        yield from [[name] for name in others[:MAX_SINGLE] if goes_without([name])] or [others]
 
 
 def _no_part(belief: Belief, action: Action) -> SkillOutcome:
@@ -170,7 +199,7 @@ def articulation_outcome(
     stopped = trace.stopped
     if stopped is not None and stopped.name in ("transit", "approach"):
         return arm_stopped(f"on its way to {address}", trace.against(), [owner], trace.seconds)
-    obstacles = _pressed(belief, part, trace)
+    obstacles = _pressed(belief, part, trace) or _beyond(belief, part, fraction, opening)
     verb, state = ("open", "open") if opening else ("close", "closed")
     if obstacles:
         return failed(
@@ -188,14 +217,23 @@ def articulation_outcome(
     )
 
 
+def _beyond(belief: Belief, part: Part, fraction: float, opening: bool) -> list[str]:
+    """Fastened objects that the part would overlap a little beyond where it came to a halt."""
+    further = min(max(fraction + (HALTED if opening else -HALTED), 0.0), 1.0)
+    belief.checker.freeze(belief.data)
+    belief.checker.set_joint(part.joint, part.lower + further * (part.upper - part.lower))
+    entries = belief.world.entries
+    return [name for name in belief.checker.part_hits(part.joint) if not entries[name].info.movable]
+
+
 def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
     """Objects that the part pressed on when it halted, the hardest pressed first; fastened ones
     too, for one with a door or drawer that stands open can be closed.
     """
     others = belief.world.entries.keys() - {part.info.owner}
     force: dict[str, float] = {}
-    along = trace.phase("along")
-    for press in along.presses if along else ():
+    presses = (press for phase in trace.phases if phase.name == "along" for press in phase.presses)
+    for press in presses:
         for first, second in ((press.first, press.second), (press.second, press.first)):
             name = owner_of(second)
             ours = owner_of(first) == part.info.owner

@@ -207,10 +207,14 @@ def away_from(tool: Pose) -> Pose:
 
 
 def way_back(belief: Belief, joints: Vector) -> Vector | None:
-    """Joint values straight back from the part; None where the arm cannot."""
+    """Joint values straight back from the part, as far as the arm does not meet itself; None where
+    it cannot.
+    """
     tool = belief.arm.forward(joints)
     path, count = belief.arm.line(straight(tool, away_from(tool)), joints)
-    return path if count >= SHORT_RETREAT else None
+    met = (belief.checker.hits(row, clearance=CONTACT_CLEARANCE) for row in path)
+    free = next((index for index, hits in enumerate(met) if "robot" in hits), count)
+    return path[:free] if free >= SHORT_RETREAT else None
 
 
 @dataclass

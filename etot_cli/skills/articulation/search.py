@@ -143,11 +143,12 @@ class PartSearch:
                 self._look_without(self._met(hindered))
 
     def _met(self, hindered: Iterable[_Hold]) -> list[str]:
-        """Movable things that hands or arm met, the most frequent first."""
+        """What hands or arm met, the most frequent first, what is fastened behind all else."""
         for hold in hindered:
             self._seen.update(hold.met.others)
         entries = self._belief.world.entries
-        return [name for name, _ in self._seen.most_common() if entries[name].info.movable]
+        met = [name for name, _ in self._seen.most_common()]
+        return sorted(met, key=lambda name: not entries[name].info.movable)
 
     def _look_without(self, names: Sequence[str]) -> None:
         """Looks again without what was met, all together and then one by one: a way of two moves

@@ -237,6 +237,28 @@ class CollisionChecker(FrozenScene):
             self._remember(key, self._hand_hits(tool, clearance, fingers_only))
         return self._not_ignored(self._known[key])
 
+    def part_hits(self, joint: str) -> list[str]:
+        """Objects that a door or drawer overlaps where it stands in the frozen scene, the furniture
+        that it belongs to and what rides in it left out.
+        """
+        model, data = self._model, self._data
+        welded = model.body_weldid[model.geom_bodyid]
+        own = welded == model.body_weldid[model.jnt_bodyid[model.joint(joint).id]]
+        model.geom_contype[:], model.geom_conaffinity[:] = own & self._solid, self._solid
+        model.body_contype[:] = 0
+        np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)
+        model.geom_margin[:] = model.body_margin[:] = 0.0
+        self._within = -1.0  # whoever looks at the robot next chooses the pairs anew
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        owners = np.unique(self._owner[data.contact.geom])
+        names = [self._object_names[int(index)] for index in owners if index >= 0]
+        out = {*self._riders.get(joint, ()), *self._object_names_of(own)}
+        return [name for name in names if name not in out]
+
+    def _object_names_of(self, geoms: NDArray[np.bool_]) -> list[str]:
+        return [self._object_names[int(index)] for index in np.unique(self._owner[geoms])]
+
     def _hand_hits(self, tool: Pose, clearance: float, fingers_only: bool) -> list[str]:
         model, data = self._model, self._data
         self._select_pairs(self._carried, clearance)
