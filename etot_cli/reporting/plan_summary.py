@@ -136,7 +136,7 @@ def _refused(doubt: DoubtModel) -> str:
     if not doubt.actions:
         return f"the model says that nothing is to be done, but {doubt.why}"
     plan = " ".join(doubt.actions)
-    return f"the model's plan {plan} works, but it is not what was asked for: {doubt.why}"
+    return f"the proposed plan {plan} works, but it is not what was asked for: {doubt.why}"
 
 
 def _shortfall(report: PlanReport) -> str:

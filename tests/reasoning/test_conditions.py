@@ -197,3 +197,15 @@ def test_places_beside_things_are_goals() -> None:
         "[PICK UP, box]"
     ]
     assert plans(state, {"next_to": ["bowl_1", "plate"]}) == []
+
+
+def test_what_leaves_its_place_with_what_it_lay_in_comes_back() -> None:
+    state = scenes.scene(
+        scenes.item("crate", "bowl", (0.4, 0.0), size=(0.3, 0.3, 0.1)),
+        scenes.item("bowl", "bowl", (0.4, 0.0), inside="crate", on="crate"),
+        scenes.ball("nut", (0.4, 0.0), inside="bowl", on="bowl"),
+    )
+    away = "[PICK UP, bowl] [PUT ON, desk]"
+    goal = ({"inside": ["nut", "crate"]}, {"on": ["bowl", "desk"]})
+    assert plans(state, *goal) == [f"{away} [PICK UP, nut] [PUT INTO, crate]"]
+    assert plans(state, {"inside": ["nut", "bowl"]}, goal[1]) == [away], "it rides along"

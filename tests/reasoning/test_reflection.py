@@ -444,6 +444,33 @@ def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
     assert revisions(step) == [taken]
 
 
+def test_a_drawer_opened_before_a_door_is_closed_until_it_is_needed() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.0}),
+        scenes.cabinet("cupboard", (0.5, 0.3), 0.0),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.3, 0.3)),
+    )  # fmt: skip
+    egg, nut = "[PICK UP, egg] [PUT INTO, cupboard]", "[PICK UP, nut] [PUT INTO, chest]"
+    plan = f"[OPEN, chest] [OPEN, cupboard] {egg} [CLOSE, cupboard] {nut} [CLOSE, chest]"
+    before = changed(start, chest={"openness": {"upper": 1.0}})
+    step = failed(start, plan, 1, cause(CauseKind.BLOCKED, "chest", "cupboard"), before)
+    late = f"[OPEN, cupboard] {egg} [CLOSE, cupboard] [OPEN, chest] {nut} [CLOSE, chest]"
+    soon = f"[OPEN, cupboard] [OPEN, chest] {egg} [CLOSE, cupboard] {nut} [CLOSE, chest]"
+    assert revisions(step) == [late, soon]
+
+
+def test_of_two_that_change_places_one_waits_elsewhere() -> None:
+    start = scenes.scene(
+        scenes.item("cup", "cup", (0.4, 0.2)), scenes.item("jar", "cup", (0.4, -0.2)),
+        scenes.ball("nut", (0.4, 0.2), inside="cup", on="cup"),
+        scenes.ball("egg", (0.4, -0.2), inside="jar", on="jar"),
+    )  # fmt: skip
+    nut, egg = "[PICK UP, nut] [PUT INTO, jar]", "[PICK UP, egg] [PUT INTO, cup]"
+    before = changed(start, nut={"inside": "jar", "on": ("jar",)})
+    step = failed(start, f"{nut} {egg}", 2, cause(CauseKind.SLIP, "egg", "nut"), before)
+    assert revisions(step)[:2] == [f"{egg} {nut}", f"{RELOCATE.format('nut')} {egg} {nut}"]
+
+
 def test_a_drawer_that_cannot_be_opened_again_is_left_open_meanwhile() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0}),

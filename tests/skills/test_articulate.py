@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -180,6 +181,28 @@ def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -
     assert record.cause.objects == ("vase", "unit")
     assert record.steps == 0, "seen before anything is struck"
     episode(unit=GRIPPED, other=aside).must("[OPEN, unit]")
+
+
+POST = {"kind": "box", "size": [0.04, 0.26, 0.10], "fixed": True}
+
+
+@pytest.mark.parametrize("far", [0.16, 0.19], ids=["no room for the hand", "no room for the door"])
+def test_what_is_fastened_before_a_door_is_named_and_without_it_the_door_opens(far: float) -> None:
+    oven = OVEN | {"at": [0.62, 0.0], "yaw_deg": 180, "door": {"handle": {"vertical": True}}}
+    post = POST | {"at": [0.62 - far, 0.0, 0.18]}
+    record = episode(oven=oven, post=post).do("[OPEN, oven]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.BLOCKED
+    assert record.cause.objects == ("post", "oven")
+    episode(oven=oven).must("[OPEN, oven]")
+
+
+def test_who_keeps_the_arm_from_a_door_is_named_or_swept_away() -> None:
+    """The hand that draws back from the door ajar does not end up in its own arm."""
+    oven = OVEN | {"at": [0.60, 0.0], "yaw_deg": 180, "door": {"handle": {"vertical": True}}}
+    stool = BOX | {"size": [0.07, 0.10, 0.10], "at": [0.38, 0.04]}
+    record = episode(oven=oven, stool=stool).do("[OPEN, oven]").record
+    assert record.effect or (record.cause is not None and "stool" in record.cause.objects)
+    assert math.dist(record.after.states["stool"].position, (0.38, 0.04, 0.18)) > 0.05
 
 
 def test_what_lies_in_a_closed_drawer_is_not_in_the_way() -> None:

@@ -7,7 +7,7 @@ parameters (which grasp pose). Source: paper, section "Priori Branching".
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, product
 from typing import NamedTuple
@@ -173,6 +173,8 @@ def _branch(
                 sketch.put(name, relation, target, grasp, where, kept_open)
                 joint = "into" if relation is Relation.INSIDE else "on"
                 words.append(" ".join([name, joint, target, *map(str, where)]))
+            if not puts:
+                _bring_back(steps, choice, lasting, sketch, kept_open)
         elif isinstance(step, Open):
             for part in choice.parts(step, scene):
                 passed = (index, part.address) in behind
@@ -189,6 +191,23 @@ def _branch(
         sketch.put_down()
     reason = ", ".join(dict.fromkeys(words))
     return Branch(tuple(sketch.actions), reason), frozenset(kept_open)
+
+
+def _bring_back(
+    steps: Sequence[Step],
+    choice: Choice,
+    lasting: Mapping[str, int],
+    sketch: Sketch,
+    left_open: Collection[str],
+) -> None:
+    """Puts back what was in its place and left it with what it lay in."""
+    for index, placements in choice.placements.items():
+        step = steps[index]
+        for put in placements:
+            rode = put.relation is Relation.INSIDE and not sketch.is_moved(put.name)
+            aside = isinstance(step, Put) and step.aside
+            if rode and not aside and lasting[put.name] == index:
+                sketch.put(put.name, put.relation, put.target, None, put.where, left_open)
 
 
 def _in_the_way(name: str, choice: Choice, sketch: Sketch) -> bool:

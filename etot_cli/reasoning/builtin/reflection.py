@@ -73,7 +73,8 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
     seen = {case.actions}
-    for actions, change in case.corrections():
+    for found, change in case.corrections():
+        actions = without_idle(found, failed.start)
         if actions in seen:
             continue
         seen.add(actions)
@@ -163,7 +164,7 @@ class _Case:
         put = self.actions[pick + 1] if pick + 1 < len(self.actions) else None
         if put is None or put.safe or pick not in own or self.failed.index in own:
             return
-        actions = without_idle(moved_before(self.actions, own, failing.start), self.failed.start)
+        actions = moved_before(self.actions, own, failing.start)
         yield Correction(
             reachable_throughout(actions, self.failed.start),
             f"{name} is put where it belongs before it is in the way",
@@ -178,6 +179,11 @@ class _Case:
                 reachable_throughout(actions, self.failed.start),
                 f"{self.action} comes before {name} is in the way",
             )
+            if not relocations(self.actions, name):
+                # Of two that change places one has to wait elsewhere.
+                put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
+                waiting = inserted(actions, other.start, (Action(Verb.PICK_UP, name), put))
+                yield Correction(waiting, f"{name} waits elsewhere until {self.action} is done")
 
     def _occupants(self) -> list[str]:
         """What stands or lies where the action puts something, when nobody else is to blame."""

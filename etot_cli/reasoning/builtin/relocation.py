@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.builtin.relations import carriers, container_address, is_closed, is_inside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
+    Cycle,
     cycle_of,
     hand_free_at,
     inserted,
@@ -20,7 +21,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import Action, Keepout, Verb
-from etot_cli.world.state import DESK, SceneState, owner_of
+from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 HAND_ROOM = 0.10
 """Where a relocated thing is in the way again, it goes further off by this: a hand's width [m]."""
@@ -138,6 +139,8 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """
     scene, actions = failed.record.before, failed.branch.actions
     cycle = cycle_of(actions, failed.index)
+    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and cycle.start < failed.index:
+        cycle = Cycle(failed.index, failed.index + 1)  # it is done in the midst of another one
     own = actions[cycle.start : cycle.end]
     filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}
     reached = {owner_of(action.target) for action in own}
@@ -152,7 +155,24 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
         cleared = (*actions[:start], shut, *actions[start : cycle.end])
         change = f"{part.address} is closed meanwhile"
         yield Correction((*cleared, *actions[cycle.end :]), change)
+        needed_at = _needed_at(actions, cycle.end, part, scene)
+        if needed_at is not None:
+            place = hand_free_at(actions, needed_at, failed.start)
+            if place is not None and place > cycle.end:
+                rest = (*actions[cycle.end : place], again, *actions[place:])
+                yield Correction((*cleared, *rest), change)
         yield Correction((*cleared, again, *actions[cycle.end :]), change)
+
+
+def _needed_at(actions: Actions, first: int, part: PartInfo, scene: SceneState) -> int | None:
+    """Index of the next action that a part has to be open for, or that closes it."""
+    address = {part.address, f"{part.owner}.{part.name}"}
+    for index, action in enumerate(actions[first:], first):
+        owner = owner_of(action.target)
+        within = owner in scene.states and is_inside(scene, owner, part.address)
+        if within or (action.target in address and action.verb is not Verb.OPEN):
+            return index
+    return None
 
 
 def without_reopening(actions: Actions, index: int, scene: SceneState) -> Iterator[Correction]:

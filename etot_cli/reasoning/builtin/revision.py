@@ -157,14 +157,21 @@ def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
 
 
 def without_idle(actions: Actions, scene: SceneState) -> Actions:
-    """The branch without openings of closed parts that are closed again at once."""
-    for index, (first, second) in enumerate(pairwise(actions)):
-        if (first.verb, second.verb, second.target) != (Verb.OPEN, Verb.CLOSE, first.target):
+    """The branch without openings of closed parts that are closed again at once, and the other way
+    round, and without closing what is closed.
+    """
+    for index, action in enumerate(actions):
+        part = scene.part(action.target)
+        if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
             continue
-        before = [action.verb for action in actions[:index] if action.target == first.target]
-        part = scene.part(first.target)
-        closed = part is not None and is_closed(scene, part)
-        if before[-1] is Verb.CLOSE if before else closed:
+        before = [other.verb for other in actions[:index] if other.target == action.target]
+        closed = before[-1] is Verb.CLOSE if before else is_closed(scene, part)
+        opened = before[-1] is Verb.OPEN if before else is_open(scene, part)
+        following = actions[index + 1 : index + 2]
+        undone = following and following[0].target == action.target
+        if closed and action.verb is Verb.CLOSE:
+            return without_idle((*actions[:index], *actions[index + 1 :]), scene)
+        if undone and following[0].verb is not action.verb and (closed or opened):
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
     return actions
 

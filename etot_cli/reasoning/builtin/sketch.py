@@ -141,6 +141,10 @@ class Sketch:
         """Whether a movable part is open far enough for something to go in or out."""
         return self._accessible[address]
 
+    def is_moved(self, name: str) -> bool:
+        """Whether an object has been picked up itself."""
+        return name == self._held or name in self._moved
+
     def holds(
         self, name: str, relation: Relation, target: str, where: tuple[Whereabouts, ...] = ()
     ) -> bool:
