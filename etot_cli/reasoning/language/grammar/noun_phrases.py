@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
+    LIST,
     NOUN_WORD,
     OPTIONAL_COMMA,
     alternatives,
@@ -22,11 +24,14 @@ from etot_cli.reasoning.language.grammar.modifiers import (
 )
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
+    at_end,
     either,
     optional,
     phrase,
     quiet,
+    separated,
     sequence,
+    silent,
     some,
     spanned,
     valued,
@@ -111,7 +116,14 @@ def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
     return NounPhrase(modifiers=modifiers, pronoun=pronoun)
 
 
+def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhrase:
+    """The plural that a quantity follows ("the cans, both of them, …")."""
+    return NounPhrase("both" if said == "both" else "all the", words, modifiers)
+
+
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
+_OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", either(COMMA, at_end))
+_ANY_ONE = either("one, of them", silent(NOUN_WORD))
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
 _OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
@@ -152,6 +164,17 @@ noun_phrase.define(
             ),
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
+            sequence("the, these, those", WORDS, MODIFIERS, _OF_THEM, build=_all_of_them),
+            sequence(
+                "a, an, one, any",
+                WORDS,
+                MODIFIERS,
+                COMMA,
+                "any",
+                _ANY_ONE,
+                either(COMMA, at_end),
+                build=partial(NounPhrase, "any"),
+            ),
             sequence(
                 optional("the, a, their, its, his"),
                 nouns.MATCHING_ADJECTIVES,
@@ -218,9 +241,33 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     """Several phrases; in "the cup, the left one" no "and" says that there are two."""
     joined = any(said for said, _ in more)
     apposed = any(np.head == "one" for _, np in more)
-    return None if apposed and not joined else coordinated(first, tuple(np for _, np in more))
+    renamed = any(
+        np.determiner.startswith("any") and np.words in ((), first.words) for _, np in more
+    )
+    if renamed or (apposed and not joined):
+        return None
+    return coordinated(first, tuple(np for _, np in more))
 
 
+def _parts(
+    whole: str, words: tuple[str, ...], parts: tuple[tuple[str, ...], ...]
+) -> tuple[NounPhrase, ...] | None:
+    """Each of several things that the words behind them tell apart ("both cups, red and blue")."""
+    if len(parts) < 2 or NUMBERS.get(whole.split()[-1], len(parts)) != len(parts):
+        return None
+    each = ((*words[:-1], *part, singular(words[-1])) for part in parts)
+    return tuple(NounPhrase("the", said, text=f"the {' '.join(said)}") for said in each)
+
+
+_PART = sequence(optional("the"), some(_DESCRIPTIVE, least=1, most=3), optional("one"))
+_PARTS = sequence(
+    phrase("the, these, both, both the, the two, the three, all three, all three the, all two"),
+    WORDS,
+    COMMA,
+    separated(_PART, LIST, most=4),
+    either(COMMA, at_end),
+    build=_parts,
+)
 _COORDINATION = sequence(
     noun_phrase,
     some(
@@ -237,7 +284,7 @@ _COLORED_ONES = sequence(
     build=lambda color: (NounPhrase("all", (color, "ones"), text=color),),
 )
 exceptions.define(either(_COORDINATION, _COLORED_ONES))
-NP_LIST = Rule(sequence(optional(phrase("both"), None), _COORDINATION, build=_both))
+NP_LIST = Rule(either(_PARTS, sequence(optional(phrase("both"), None), _COORDINATION, build=_both)))
 
 
 def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:

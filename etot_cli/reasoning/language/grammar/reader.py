@@ -23,9 +23,9 @@ from etot_cli.reasoning.language.grammar.text import (
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import TIDYING, WITHOUT_MEANING
 
-_POLITE = frozenset(spellings(WITHOUT_MEANING))
+_POLITE = frozenset(spellings(f"{WITHOUT_MEANING}, {TIDYING}"))
 """Sentences that ask for nothing."""
 _BEFORE_NOUNS = [(word,) for word in ("the", "a", "an", "my", "this", "that", "both", "all")]
 """Before what a verb is about; a noun has none of them behind it."""

@@ -170,6 +170,13 @@ ENSURE = either(
         build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
     ),
     sequence(
+        verbs.CAN,
+        NP_LIST,
+        verbs.BE_PUT,
+        PREDICATE,
+        build=lambda nps, predicate: _ensured(state_of(nps, predicate)),
+    ),
+    sequence(
         verbs.WANT,
         NP_LIST,
         _TO_BE,

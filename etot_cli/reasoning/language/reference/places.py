@@ -128,7 +128,7 @@ class Places:
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             if phrase.pronoun and toward is Toward.ON:
-                self._check_upon_it(phrase, index, themes)
+                index = self._upon_it(phrase, index, themes)
             self._check_carried(phrase, index, themes)
             found += self._on_first(phrase, self.relations_to(toward, index, themes))
         if not found:
@@ -198,21 +198,37 @@ class Places:
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
-    def _check_upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> None:
-        """What sinks into a vessel and would as well lie on what was put there: "on it" is both."""
+    def _upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> int:
+        """What "on it" is where something went into that: the tray that carries, or the vessel that
+        is covered, in a piece of furniture; else either, where either could be.
+        """
         discourse = self.discourse
-        inner = [i for i, around in discourse.put_into.items() if around == index]
         laid = discourse.things(*themes)
-        things = discourse.things(index)
-        sinks = not any(lies_on(laid, thing, self._scene) for thing in things)
+        inner = [i for i, around in discourse.put_into.items() if around == index]
+        closed = all(self._scene.infos[t.name].parts for t in discourse.things(index))
+        upon = [i for i in inner if closed and self._carries(laid, discourse.things(i))]
+        if upon:
+            return upon[-1]
+        sinks = not any(lies_on(laid, thing, self._scene) for thing in discourse.things(index))
+        role = Role.PLACE if closed else Role.SURFACE
         bears = [
             i
             for i in inner
-            if all(can_be(thing, Role.SURFACE, self._scene) for thing in discourse.things(i))
+            if all(can_be(thing, role, self._scene) for thing in discourse.things(i))
         ]
-        if sinks and bears:
+        if (sinks or closed) and bears:
             names = " or ".join(discourse.referents[i].text for i in (*bears, index))
             raise ReferenceProblem(phrase.text, f"say whether on {names}", 4)
+        return index
+
+    def _carries(self, laid: Sequence[Thing], below: Sequence[Thing]) -> bool:
+        """Whether things have a tray under them, or cover a vessel."""
+        infos = self._scene.infos
+        return all(
+            space.is_flat(infos[thing.name])
+            or (infos[thing.name].container and lies_on(laid, thing, self._scene))
+            for thing in below
+        )
 
     def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
         """In or on a referent, whichever fits it and what is asked for."""

@@ -137,6 +137,7 @@ BOARD_NOUNS = (
 """Nouns for one surface of a piece of furniture that has several."""
 OPEN_SURFACES = (
     "tray", "plate", "saucer", "platter", "dish", "pan", "shelf", "rack", "bookcase", "bookshelf",
+    "bed", "crib", "cot", "armchair", "zone", "area", "region", "field", "spot", "square",
 )  # fmt: skip
 """Nouns for what things are said to be "in", though they lie on it."""
 

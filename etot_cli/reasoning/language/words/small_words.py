@@ -18,10 +18,12 @@ WITHOUT_MEANING = """
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
-TIDY_UP = "(tidy|clean|clear) up ~comma"
+TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
+TIDY_UP = "[it is time to|time to] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
 FRAMES = f"""
-    robot, hey robot, hello robot, hi robot, hey, ok, okay, so, and, but, go, go and, go ahead and,
+    robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well,
+    alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
@@ -43,10 +45,12 @@ SAME_AGAIN = """
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
     first, before anything else, firstly, first of all, to begin with, to start with,
-    as a first step
+    as a first step, first things first
 """
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
-LEADING_LAST = "finally, lastly, last, last of all, at the end, in the end, as a last step"
+LEADING_LAST = """
+    finally, lastly, last, last of all, at the end, in the end, as a last step, last but not least
+"""
 LEADING_THEN = """
     then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
     after doing so, once (that is done|done|you are done), when done, and then, subsequently, later

@@ -63,6 +63,8 @@ MODAL = """
     (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed),
     (should|must) be (standing|lying|sitting|located|stored)
 """
+CAN = "can, could, may"
+BE_PUT = "[please] be [put|placed|moved|brought|stored|transferred]"
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like,
