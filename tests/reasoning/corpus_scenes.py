@@ -1066,7 +1066,7 @@ def lounge() -> SceneState:
 
 
 def grocer() -> SceneState:
-    """Fruit on the desk and in a bowl, a vegetable, a milk carton, a toy car, a plate, a basket."""
+    """Fruit on the desk and in a bowl, a vegetable, milk, a bar, a toy car, a plate, a basket."""
     return scene(
         item(
             "basket", "bowl", (0.55, 0.30), size=(0.24, 0.24, 0.10), label="basket", color="brown"
@@ -1080,6 +1080,7 @@ def grocer() -> SceneState:
         item("car", "box", (0.35, -0.34), size=(0.08, 0.04, 0.03), label="racing car"),
         item("plate", "cylinder", (0.55, -0.35), size=(0.2, 0.2, 0.015), color="white"),
         item("mug", "cup", (0.35, 0.36), size=(0.08, 0.08, 0.09), label="coffee mug"),
+        item("zingo", "box", (0.25, 0.0), size=(0.09, 0.03, 0.02), label="zingo strawberry"),
     )
 
 

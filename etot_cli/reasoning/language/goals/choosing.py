@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
 from etot_cli.reasoning.language.words.places import Prep
@@ -80,21 +81,45 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
     if theme in discourse.put:
         return
     targets = [target for index in fixed for target in discourse.things(index)]
+    others = tuple((thing,) for thing in discourse.fitting.get(theme, ()) if not stays)
+    every = referent.options if len(referent.options) > 1 else (*referent.options, *others)
     there = [
         thing
-        for thing in discourse.things(theme)
+        for thing in dict.fromkeys(thing for option in every for thing in option)
         if any(touches(thing, target, context.scene) for target in targets)
     ]
     options = tuple(
-        option
-        for option in referent.options
-        if ({*option} <= {*there} if stays else not {*option} & {*there})
+        option for option in every if ({*option} <= {*there} if stays else not {*option} & {*there})
     )
-    if there and options and len(options) < len(referent.options):
+    if options and {*there} & {*discourse.things(theme)} and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
         names = ", ".join(thing.name for thing in there)
         which = "one" if stays else "none"
         discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
+
+
+def tell_apart(
+    context: Context, group: PutGroup, before: Sequence[int], themes: Sequence[int]
+) -> None:
+    """Of several things that may be meant it is another one than goes elsewhere by the same clause
+    ("a cup on the plate and the blue one on the tray").
+
+    Raises:
+        AmbiguousReference: "the cup on the plate, the blue one, and ..." may say which cup that is.
+    """
+    discourse = context.discourse
+    for index in before:
+        referent, things = discourse.referents[index], {*discourse.things(index)}
+        shared = [
+            theme for theme in themes if theme != index and things & {*discourse.things(theme)}
+        ]
+        if len(referent.options) < 2 or not shared:
+            continue
+        first, *more = group.things.phrases
+        if more and index in discourse.undecided and first.words[-1:] == ("one",):
+            raise AmbiguousReference(first.text, [referent.text, "another one"])
+        apart = tuple(dict.fromkeys((*referent.distinct_from, *shared)))
+        discourse.referents[index] = replace(referent, distinct_from=apart)
 
 
 def without_riders(context: Context, themes: list[int]) -> list[int]:

@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
-from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
 
 

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
+    tell_apart,
     without_riders,
 )
 from etot_cli.reasoning.language.goals.context import Context
@@ -63,6 +64,7 @@ def put(context: Context, clause: PutClause) -> None:
         text = " and ".join(phrase.text for phrase in clause.groups[-1].things.phrases)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     placed: set[Thing | int] = set()
+    before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     for group in clause.groups:
         if clause.by_color or is_by_color(group):
             by_color(context, group)
@@ -74,6 +76,8 @@ def put(context: Context, clause: PutClause) -> None:
         away = context.places.no_themes(group.destinations)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
+        tell_apart(context, group, before, themes)
+        before += themes
         own = _certain(context, themes)
         if placed & own:
             _set_upon(context, group, themes)

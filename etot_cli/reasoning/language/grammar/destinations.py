@@ -62,16 +62,7 @@ _ITS_SIDE = one_of(places.ITS_SIDE)
 _SIDE_OF_IT = one_of(
     {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
 )
-_REGION_OF_IT = one_of(
-    {
-        (Nearby.AT_LEFT,): "left (edge|end|half|part|border)",
-        (Nearby.AT_RIGHT,): "right (edge|end|half|part|border)",
-        (Nearby.AT_FRONT,): "front (edge|end|half|part|border|side)",
-        (Nearby.AT_BACK,): "(back|rear) (edge|end|half|part|border|side)",
-        (Nearby.AT_CENTRE,): "middle, centre, center",
-        (Nearby.AT_EDGE,): "edge, border, rim",
-    }
-)
+_REGION_OF_IT = one_of(places.REGION_OF_IT)
 _ABREAST = valued(
     phrase("side by side, next to each other, next to one another", Nearby.NEXT_TO),
     lambda relation: _beside(relation, EACH_OTHER),
@@ -150,6 +141,12 @@ destination = Rule(
             OPTIONAL_COMMA,
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
+        ),
+        sequence(
+            BESIDES,
+            COMMA,
+            either(ONTO, INTO),
+            build=lambda found, surface: replace(surface, beside=found),
         ),
     )
 )

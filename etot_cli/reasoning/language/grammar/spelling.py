@@ -21,6 +21,11 @@ class Correction:
         return f'"{self.written}" as "{self.read}"'
 
 
+def is_english(word: str) -> bool:
+    """Whether a word is spelt as it should be, whatever it is about."""
+    return word.isascii() and bool(_dictionary().spell(word))
+
+
 def corrected(word: str, known: Iterable[str]) -> str | None:
     """The one known word that differs from a word by a slip of the pen; None when there is none.
 
@@ -41,14 +46,14 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     least = min(near.values(), default=allowed + 1)
     close = [item for item, count in near.items() if count == least]
     only = close[0] if len(close) == 1 and least <= allowed else ""
-    return only if len(only) >= 4 and not _is_english(word) else None
+    return only if len(only) >= 4 and not is_english(word) else None
 
 
 def exchanged(word: str, known: Iterable[str]) -> str | None:
     """The one known word of the same letters ("teh" for "the"); None when there is none."""
     letters = sorted(word)
     found = [item for item in known if len(word) > 2 and sorted(item) == letters]
-    return found[0] if len(found) == 1 and not _is_english(word) else None
+    return found[0] if len(found) == 1 and not is_english(word) else None
 
 
 def slips(first: str, second: str) -> int:
@@ -64,11 +69,6 @@ def slips(first: str, second: str) -> int:
             row.append(cost)
         before, last = last, row
     return last[-1]
-
-
-def _is_english(word: str) -> bool:
-    """Whether a word is spelt as it should be, whatever it is about."""
-    return word.isascii() and bool(_dictionary().spell(word))
 
 
 @lru_cache(maxsize=1)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
-from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -40,6 +40,8 @@ class Discourse:
     """Number of the clause that built a stack → the referent at its bottom."""
     left_out: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
     """Referent → what its phrase leaves out of it."""
+    fitting: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
+    """Referent → what its phrase is true of as well, though it fits another thing better."""
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
@@ -57,6 +59,7 @@ class Discourse:
             self.last_landmark,
             dict(self.stacks),
             dict(self.left_out),
+            dict(self.fitting),
             self.undecided,
         )
 
@@ -88,7 +91,7 @@ class Discourse:
             self._check_among_spoken(resolved, text)
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
-        self.left_out[index] = resolved.left_out
+        self.left_out[index], self.fitting[index] = resolved.left_out, resolved.others
         self.mentions.append(mention)
         return index
 

@@ -9,8 +9,9 @@ from functools import lru_cache
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.spelling import is_english
 from etot_cli.reasoning.language.grammar.text import normalized
-from etot_cli.reasoning.language.words.categories import PACKED, PACKS
+from etot_cli.reasoning.language.words.categories import CATEGORIES, PACKED, PACKS
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -125,9 +126,17 @@ class Entry:
 
     def counts_among(self, members: frozenset[str]) -> bool:
         """Whether it is called by one of some nouns, or is a pack of what is."""
+        solid = self.info is not None and not self.info.container
+        packs = (words for words in self.called if solid and singular(words[-1]) in PACKS)
+        inner = {singular(words[-2]) for words in packs if len(words) > 1}
         heads = {*map(singular, (*self.heads, *self.content))}
-        packed = bool(heads & PACKS) and self.info is not None and not self.info.container
-        return bool(heads & members) or (packed and bool({*self.own} & members & PACKED))
+        boxed = self.info is not None and self.info.kind == "box"
+        for words in self.called[:1] if boxed else ():
+            if len(words) == 2 and not all(map(is_english, words)):
+                # What a bar with a name of its own tastes of makes it food, and no fruit.
+                tastes = {*words} & PACKED
+                heads = heads | tastes if CATEGORIES["food"] <= members else heads - tastes
+        return bool(heads & members) or bool(inner & members & PACKED)
 
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""

@@ -33,8 +33,9 @@ def related(
     count: int | None,
     scene: SceneState,
     notes: list[str],
-) -> list[Thing]:
-    """Those of the things that a modifier is true of, or that fit it best.
+) -> tuple[list[Thing], list[Thing]]:
+    """Those of the things that a modifier is true of, or that fit it best, and besides the best
+    fitting the others that it is true of as well.
 
     ``notes`` gets what was chosen where several would do, or none by the relation's definition.
     """
@@ -64,10 +65,12 @@ def related(
         )
     ]
     if not plainly and len(things) == 1 and _is_fixed_beside(prep, things[0], scene):
-        return things if modifier.denied else []  # it says where something goes, not which fridge
+        return (
+            (things, []) if modifier.denied else ([], [])
+        )  # it says where something goes, not which fridge
     fitting = plainly or fitting
     if modifier.denied:
-        return [thing for thing in things if thing not in fitting]
+        return [thing for thing in things if thing not in fitting], []
     if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
         # "The block under the blue one" of a tower is the one that bears it.
         bearing = [mark for several in landmarks for mark in several]
@@ -77,9 +80,9 @@ def related(
             for mark in bearing
             if space.touches(*((mark, thing) if prep is Prep.UNDER else (thing, mark)), scene)
         ]
-        return touching or fitting
+        return touching or fitting, []
     if prep not in RANKED:
-        return fitting
+        return fitting, []
     best: dict[Thing, float] = {}
     for marks in _tuples(landmarks):
         others = [
@@ -96,18 +99,18 @@ def related(
         worst = best[order[count - 1]] if len(order) >= count else 0.0
         chosen = [t for i, t in enumerate(order) if i < count or best[t] - worst < EQUAL]
     elif prep not in space.RELATIONS:
-        return [thing for thing in things if thing in order[: count or 1]]
+        return [thing for thing in things if thing in order[: count or 1]], []
     else:
         chosen = order if plainly or prep not in (Prep.NEAR, Prep.NEXT_TO) else order[:1]
         chosen = [thing for thing in things if thing in chosen]
-    rest = [thing.name for thing in order if thing not in chosen]
-    if chosen and prep in space.RELATIONS and (rest or not plainly):
+    others = [thing for thing in order if thing not in chosen]
+    if chosen and prep in space.RELATIONS and (others or not plainly):
         beside = " and ".join(mark.name for several in landmarks for mark in several)
         names = " and ".join(thing.name for thing in chosen)
-        names += f" rather than {' or '.join(rest)}" if rest else ""
+        names += f" rather than {' or '.join(thing.name for thing in others)}" if others else ""
         roughly = "" if plainly else ", though only roughly"
         notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
-    return chosen
+    return chosen, others if plainly else []
 
 
 def _has_owner(thing: Thing, scene: SceneState) -> bool:

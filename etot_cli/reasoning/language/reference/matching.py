@@ -258,6 +258,9 @@ def _match_in(
         return Match((exactly[0][0],), named=named, whole=True)
     if number is not None:
         sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
+    # Where some are called parcels a crate is none, whatever colour is said.
+    called_so = [item for item in sifted.graded if item[1] in (EXACT, HEAD)]
+    sifted.graded = called_so or sifted.graded
     for word in adjectives:
         sift(sifted, word, vocabulary)
     if not sifted.graded:

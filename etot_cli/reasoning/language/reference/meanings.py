@@ -31,7 +31,8 @@ from etot_cli.reasoning.language.reference.narrowing import (
     others,
     spoken_part,
 )
-from etot_cli.reasoning.language.reference.noun_phrases import Resolved, Resolver
+from etot_cli.reasoning.language.reference.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,

@@ -46,13 +46,15 @@ def modified(
     scene: SceneState,
     landmark_sets: Callable[[Modifier], list[list[list[Thing]]]],
     notes: list[str],
-) -> list[Thing]:
-    """Things that all modifiers are true of, or that they fit best; ``notes`` grows.
+) -> tuple[list[Thing], tuple[Thing, ...]]:
+    """Things that all modifiers are true of, or that they fit best, and others that the last one is
+    true of as well; ``notes`` grows.
 
     ``landmark_sets`` gives all ways to understand a modifier's landmarks.
     """
     waiting = sorted(modifiers, key=lambda item: item.prep in RANKED)
     unclear = 0
+    others: tuple[Thing, ...] = ()
     while waiting:
         modifier = waiting.pop(0)
         if modifier.prep is Prep.MATCHING:
@@ -68,9 +70,11 @@ def modified(
         if modifier.words == CLEARED:
             _check_cleared(modifier, landmark_sets(modifier), scene)
         ways = {
-            tuple(related(modifier, things, landmarks, quantity, count, scene, notes))
+            tuple(found): tuple(more)
             for landmarks in landmark_sets(modifier)
-        } - {()}
+            for found, more in [related(modifier, things, landmarks, quantity, count, scene, notes)]
+            if found
+        }
         if len(ways) > 1 and unclear < len(waiting):
             # Another modifier may tell.
             waiting.append(modifier)
@@ -96,8 +100,8 @@ def modified(
             raise ReferenceProblem(phrase.text, why, 2)
         if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
             found = space.with_what_lies_on_them(found, things, scene)
-        things = found
-    return things
+        things, others = found, next(iter(ways.values()))
+    return things, others
 
 
 def _check_cleared(

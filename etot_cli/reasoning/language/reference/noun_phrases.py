@@ -8,12 +8,11 @@ to be understood; what is taken for something near it is noted.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
@@ -24,12 +23,14 @@ from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.matching import is_object
 from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
 from etot_cli.reasoning.language.reference.nouns import matched, parts_of
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
+    LEVELS,
     MATERIALS,
     REFUSE,
     THING_NOUNS,
@@ -50,33 +51,6 @@ _INCOMPLETE = frozenset(
 
 Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
 """All that a pronoun may mean, each the things of one referent."""
-
-
-@dataclass(frozen=True, slots=True)
-class Resolved:
-    """What a phrase means.
-
-    Args:
-        options: alternative sets of things.
-        definite: it may be something mentioned before.
-        other: it is none of what was mentioned before with this noun.
-        noun: the phrase's noun.
-        every: it stands for all that fit.
-        notes: what words were taken for, where that was a choice.
-        again: it is some of what was spoken of before ("one of them").
-        adjectives: the phrase's words before its noun.
-        left_out: what the phrase says that it does not mean.
-    """
-
-    options: tuple[tuple[Thing, ...], ...]
-    definite: bool
-    other: bool
-    noun: str
-    every: bool = False
-    notes: tuple[str, ...] = ()
-    again: bool = False
-    adjectives: tuple[str, ...] = ()
-    left_out: tuple[Thing, ...] = ()
 
 
 class Resolver:
@@ -208,9 +182,14 @@ class Resolver:
             count = quantity.count
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
-        things = modified(things, modifiers, quantity, count, phrase, self._scene, sets, notes)
+        things, others = modified(
+            things, modifiers, quantity, count, phrase, self._scene, sets, notes
+        )
         meant = partial(self._landmarks, pronoun)
         things, unmeant = left_out(things, phrase, words, self._vocabulary, self._scene, meant)
+        places = role in (Role.CONTAINER, Role.SURFACE, Role.PART)
+        if places and any(not can_be(thing, role, self._scene) for thing in unmeant):
+            raise ReferenceProblem(phrase.text, "what is not meant is nothing like it", 1)
         if (among := phrase.among or quantity.among) not in (0, len(things)):
             raise ReferenceProblem(
                 phrase.text, f"not {among}, but {names_of_things(things)} fit", 2
@@ -250,6 +229,11 @@ class Resolver:
             raise ReferenceProblem(
                 phrase.text, f"it is not the only one: {names_of_things(things)}", 2, word="only"
             )
+        level = next((word for word in words[:-1] if word in LEVELS), "")
+        own = words[-1] in phrase.text.split() and not phrase.loose  # "the top and bottom drawers"
+        if level and own and match.plural and len(things) == 1 and quantity.count is None:
+            why = f"{level!r} tells {names_of_things(things)} alone; name each of them"
+            raise ReferenceProblem(phrase.text, why, 2, word=level)
         vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
         single = quantity.definite and count == 1
         if match.dropped and (single or vague) and len(things) > 1:
@@ -265,7 +249,7 @@ class Resolver:
         every = quantity.every or (count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, head, every, tuple(notes),
-            adjectives=words[:-1], left_out=tuple(unmeant),
+            adjectives=words[:-1], left_out=tuple(unmeant), others=others,
         )  # fmt: skip
 
     def _landmark_sets(

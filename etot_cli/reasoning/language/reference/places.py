@@ -21,8 +21,8 @@ from etot_cli.reasoning.language.reference.coreference import (
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.instances import check_not_part
-from etot_cli.reasoning.language.reference.noun_phrases import Resolved
 from etot_cli.reasoning.language.reference.referents import Phrases
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.words.lexicon import (
@@ -36,8 +36,6 @@ from etot_cli.world.state import DESK, SceneState
 
 _DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
 """Anywhere on the desk, nobody having said so."""
-LID = 0.95
-"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
 
 
 class Places:
@@ -128,7 +126,7 @@ class Places:
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             if phrase.pronoun and toward is Toward.ON:
-                index = self._upon_it(phrase, index, themes)
+                index = self._upon_it(phrase.text, index, themes)
             self._check_carried(phrase, index, themes)
             found += self._on_first(phrase, self.relations_to(toward, index, themes))
         if not found:
@@ -143,7 +141,7 @@ class Places:
                 self.discourse, phrase.pronoun, role, phrase.text, themes, topmost=True
             )
             things = self.discourse.things(*found)
-            return all(lies_on(laid, thing, self._scene) for thing in things)
+            return all(space.lies_on(laid, thing, self._scene) for thing in things)
         return False
 
     def _on_first(self, phrase: NounPhrase, places: list[Place]) -> list[Place]:
@@ -198,7 +196,7 @@ class Places:
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
-    def _upon_it(self, phrase: NounPhrase, index: int, themes: Sequence[int]) -> int:
+    def _upon_it(self, text: str, index: int, themes: Sequence[int]) -> int:
         """What "on it" is where something went into that: the tray that carries, or the vessel that
         is covered, in a piece of furniture; else either, where either could be.
         """
@@ -209,16 +207,19 @@ class Places:
         upon = [i for i in inner if closed and self._carries(laid, discourse.things(i))]
         if upon:
             return upon[-1]
-        sinks = not any(lies_on(laid, thing, self._scene) for thing in discourse.things(index))
+        sinks = not any(space.lies_on(laid, thing, self._scene) for thing in discourse.things(index))
         role = Role.PLACE if closed else Role.SURFACE
         bears = [
             i
             for i in inner
             if all(can_be(thing, role, self._scene) for thing in discourse.things(i))
         ]
+        if index in discourse.put:  # it stands where it was put, where there may be room, too
+            below = {place.where for place in discourse.last_places if not place.beside}
+            bears += [i for i in below if i is not None and not discourse.is_desk(i)]
         if (sinks or closed) and bears:
             names = " or ".join(discourse.referents[i].text for i in (*bears, index))
-            raise ReferenceProblem(phrase.text, f"say whether on {names}", 4)
+            raise ReferenceProblem(text, f"say whether on {names}", 4)
         return index
 
     def _carries(self, laid: Sequence[Thing], below: Sequence[Thing]) -> bool:
@@ -226,7 +227,7 @@ class Places:
         infos = self._scene.infos
         return all(
             space.is_flat(infos[thing.name])
-            or (infos[thing.name].container and lies_on(laid, thing, self._scene))
+            or (infos[thing.name].container and space.lies_on(laid, thing, self._scene))
             for thing in below
         )
 
@@ -241,7 +242,7 @@ class Places:
         to = toward is Toward.TO
         on = (thing for thing in things if not to or space.is_support(thing, self._scene))
         fits_on = any(
-            can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
+            can_be(thing, Role.SURFACE, self._scene) and space.lies_on(laid, thing, self._scene)
             for thing in on
         )
         if to and not self._goes_in(laid, things):
@@ -276,7 +277,7 @@ class Places:
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""
-        ways = {any(lies_on([one], thing, self._scene) for thing in things) for one in laid}
+        ways = {any(space.lies_on([one], thing, self._scene) for thing in things) for one in laid}
         if len(ways) > 1:
             text = f"on {self.discourse.referents[index].text}"
             names = [thing.name for thing in laid]
@@ -288,7 +289,9 @@ class Places:
         """Places on a surface, at some part of it only."""
         text = " or ".join(phrase.text for phrase in destination.targets)
         surfaces = [place for place in places if place.relation is Relation.ON]
-        if not surfaces:
+        slides = JOINT_NOUNS["slide"][:1]  # "to the drawer in the middle" is into it
+        drawer = any(matches_any(np.words[-1], slides) for np in destination.targets if np.words)
+        if not surfaces or (drawer and len(surfaces) < len(places)):
             raise ReferenceProblem(text, "there is no left or right inside a container", 2)
         # "On the plate on the left" is the left one of several, not the left part of any, and "on
         # the plate next to the cup" the one of several that is there.
@@ -327,17 +330,8 @@ class Places:
         if word == "there":  # nowhere else than where something was or is, so not in what moved
             referents = range(len(discourse.referents))
             themes = [*themes, *({*referents} - places_spoken_of(discourse))]
-        return (latest_place(discourse, relation, themes, word),)
-
-
-def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
-    """Whether things stay on top of another one and do not sink into its mouth."""
-    if below.name == DESK or below.board is not None:
-        return True
-    info = scene.infos[below.name]
-    if info.surface or not info.container:
-        return True
-    mouth = LID * min(info.size[:2])
-    return all(
-        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
-    )
+        place = latest_place(discourse, relation, themes, word)
+        if relation is Relation.INSIDE or place.where is None:
+            return (place,)
+        upon = self._upon_it(word, place.where, themes)
+        return tuple(self.relations_to(Toward.ON, upon, themes))

@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
-from etot_cli.reasoning.language.reference.noun_phrases import Resolved
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
 from etot_cli.reasoning.language.words.places import Prep
 

@@ -59,6 +59,10 @@ def select(
         if item.prep is Prep.SIDE and not item.denied
     ]
     ordinals = [word for word in words if word in ORDINALS]
+    if ordinals == ["last"] and any(
+        m.prep is Prep.SIDE and m.words[0] != "from" for m in modifiers
+    ):
+        ordinals = ["first"]  # the last one on the right is the first from there
     named = [word for word in phrase.split() if word in ORDINALS and word not in words]
     if any(sides) and named and len(things) == 1 and things[0].part:
         why = f"{named[0]!r} is the name of one of them; say it without a side"

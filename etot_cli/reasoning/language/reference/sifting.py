@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.reference.entries import GENERIC, Entry
+from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD, Entry
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_general_noun
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -48,6 +48,7 @@ def nothing_fits(
     """A noun that nothing is called by, or by which nothing is with these adjectives."""
     everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards)
     alike = [entry for entry in everything if entry.grade(head) is not None]
+    alike = [entry for entry in alike if entry.grade(head) in (EXACT, HEAD)] or alike
     what = " ".join((*adjectives, head, *((number,) if number else ())))
     if alike:
         names = ", ".join(dict.fromkeys(entry.exact[0] for entry in alike))

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.reference.entries import (
@@ -17,6 +18,7 @@ from etot_cli.reasoning.language.reference.entries import (
     part_entries,
 )
 from etot_cli.reasoning.language.words.categories import members_of
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     DESK_NOUNS,
@@ -171,8 +173,15 @@ def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
                 if letter in "adist"
                 else ""
             )
-            text = re.sub(rf"(?<![\w'-]){letter}(?![\w'-]){end}", "_".join(spoken[0]), text)
+            alone = rf"(?<![\w'-]){letter}(?![\w'-]){end}"
+            text = re.sub(alone, partial(_spelled_out, "_".join(spoken[0])), text)
     return text
+
+
+def _spelled_out(name: str, letter: re.Match[str]) -> str:
+    """The name that a letter stands for; "tote A" is no shelf A."""
+    before = letter.string[: letter.start()].split()[-1:]
+    return letter[0] if before and before[0].isalpha() and before[0] not in GRAMMAR_WORDS else name
 
 
 def is_general_noun(word: str) -> bool:

@@ -29,6 +29,7 @@ _PASTRIES = word_set(
     "bagel roll pretzel baguette danish waffle cracker"
 )
 _SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
+_SNACKS = word_set("chip crisp nut peanut almond popcorn granola raisin cracker")
 _DRINKS = word_set(
     "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
     "pepsi fanta kombucha redbull gatorade gin vodka rum whisky whiskey tequila"
@@ -94,7 +95,7 @@ SORTS: dict[str, frozenset[str]] = {
     "produce": _FRUIT | _VEGETABLES,
     "pastry dessert": _PASTRIES,
     "sweet": _SWEETS,
-    "snack": _SWEETS | _PASTRIES,
+    "snack": _SWEETS | _PASTRIES | _SNACKS,
     "drink beverage": _DRINKS,
     "spice seasoning": _SPICES,
     "condiment": _SPICES | _SAUCES,

@@ -108,7 +108,14 @@ ITS_SIDE: dict[Nearby, str] = {
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
 }
 _AT = "on|at|to|in|onto|towards|near|along"
-_ENDS = "side|end|half|part|edge|border"
+_SIDES = {
+    Nearby.AT_LEFT: ("left", "(on|at) the [far] left"),
+    Nearby.AT_RIGHT: ("right", "(on|at) the [far] right"),
+    Nearby.AT_FRONT: ("(front|near)", f"({_AT}) the front"),
+    Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear)"),
+}
+"""How they are called before a word for an end or edge, and without one."""
+_ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border"}
 _QUARTERS = {
     (Nearby.AT_LEFT, Nearby.AT_FRONT): ("front left|left front", "near left"),
     (Nearby.AT_RIGHT, Nearby.AT_FRONT): ("front right|right front", "near right"),
@@ -116,11 +123,22 @@ _QUARTERS = {
     (Nearby.AT_RIGHT, Nearby.AT_BACK): ("back right|right back|rear right", "far right"),
 }
 """How they are called, and how their corners are called besides: "far left" alone is a side."""
+REGION_OF_IT = {
+    **{
+        (side, *edge): f"{said} ({named})"
+        for side, (said, _) in _SIDES.items()
+        for edge, named in _ENDS.items()
+    },
+    (Nearby.AT_CENTRE,): "middle, centre, center",
+    (Nearby.AT_EDGE,): "edge, border, rim",
+}
+"""Behind "the desk's"."""
 REGIONS: dict[tuple[Nearby, ...], str] = {
-    (Nearby.AT_LEFT,): f"({_AT}) the [far] left ({_ENDS}), (on|at) the [far] left",
-    (Nearby.AT_RIGHT,): f"({_AT}) the [far] right ({_ENDS}), (on|at) the [far] right",
-    (Nearby.AT_FRONT,): f"({_AT}) the front [{_ENDS}]",
-    (Nearby.AT_BACK,): f"({_AT}) the (back|rear) [{_ENDS}]",
+    **{
+        (side, *edge): f"({_AT}) the [far] {said} ({named})" + ("" if edge else f", {alone}")
+        for side, (said, alone) in _SIDES.items()
+        for edge, named in _ENDS.items()
+    },
     (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) the (middle|centre|center)",
     (Nearby.AT_EDGE,): "(at|on|near|to|by) (the|an) (edge|border|rim)",
     (Nearby.AT_CORNER,): "(in|at|into|to|on) (the|a) corner",
