@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
-from etot_cli.reasoning.language.reference.space import lies_on
+from etot_cli.reasoning.language.reference.vessels import lies_on
 
 
 def tower(context: Context, clause: TowerClause) -> None:

@@ -25,10 +25,10 @@ from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
+from etot_cli.reasoning.language.reference.vessels import bears, goes_in, lies_on
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     SIDES,
-    holds_things,
     matches_any,
 )
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
@@ -141,7 +141,7 @@ class Places:
                 self.discourse, phrase.pronoun, role, phrase.text, themes, topmost=True
             )
             things = self.discourse.things(*found)
-            return all(space.lies_on(laid, thing, self._scene) for thing in things)
+            return all(lies_on(laid, thing, self._scene) for thing in things)
         return False
 
     def _on_first(self, phrase: NounPhrase, places: list[Place]) -> list[Place]:
@@ -204,32 +204,23 @@ class Places:
         laid = discourse.things(*themes)
         inner = [i for i, around in discourse.put_into.items() if around == index]
         closed = all(self._scene.infos[t.name].parts for t in discourse.things(index))
-        upon = [i for i in inner if closed and self._carries(laid, discourse.things(i))]
+        upon = [i for i in inner if closed and bears(discourse.things(i), laid, self._scene)]
         if upon:
             return upon[-1]
-        sinks = not any(space.lies_on(laid, thing, self._scene) for thing in discourse.things(index))
+        sinks = not any(lies_on(laid, thing, self._scene) for thing in discourse.things(index))
         role = Role.PLACE if closed else Role.SURFACE
-        bears = [
+        rivals = [
             i
             for i in inner
             if all(can_be(thing, role, self._scene) for thing in discourse.things(i))
         ]
         if index in discourse.put:  # it stands where it was put, where there may be room, too
             below = {place.where for place in discourse.last_places if not place.beside}
-            bears += [i for i in below if i is not None and not discourse.is_desk(i)]
-        if (sinks or closed) and bears:
-            names = " or ".join(discourse.referents[i].text for i in (*bears, index))
+            rivals += [i for i in below if i is not None and not discourse.is_desk(i)]
+        if (sinks or closed) and rivals:
+            names = " or ".join(discourse.referents[i].text for i in (*rivals, index))
             raise ReferenceProblem(text, f"say whether on {names}", 4)
         return index
-
-    def _carries(self, laid: Sequence[Thing], below: Sequence[Thing]) -> bool:
-        """Whether things have a tray under them, or cover a vessel."""
-        infos = self._scene.infos
-        return all(
-            space.is_flat(infos[thing.name])
-            or (infos[thing.name].container and space.lies_on(laid, thing, self._scene))
-            for thing in below
-        )
 
     def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
         """In or on a referent, whichever fits it and what is asked for."""
@@ -242,10 +233,10 @@ class Places:
         to = toward is Toward.TO
         on = (thing for thing in things if not to or space.is_support(thing, self._scene))
         fits_on = any(
-            can_be(thing, Role.SURFACE, self._scene) and space.lies_on(laid, thing, self._scene)
+            can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
             for thing in on
         )
-        if to and not self._goes_in(laid, things):
+        if to and not goes_in(laid, things, self._scene):
             fits_in = False  # who brings it to a mug may want it beside that
         if fits_in and (toward is not Toward.ON or not fits_on):
             found.append(Place(Relation.INSIDE, index))
@@ -260,24 +251,9 @@ class Places:
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found
 
-    def _goes_in(self, laid: Sequence[Thing], around: Sequence[Thing]) -> bool:
-        """Whether things go into one that can be moved as they lie, or are meant for it.
-
-        What stands by itself rather goes beside what one drinks from.
-        """
-        infos = self._scene.infos
-        moved = [infos[t.name] for t in around if t.name != DESK and infos[t.name].movable]
-        room = [min(info.size[:2]) for info in moved]
-        drunk = all(info.kind == "cup" and not holds_things(info.label) for info in moved)
-        return all(
-            info.elongated
-            or (max(info.size[:2]) <= min(room) and not (drunk and info.size[2] > info.size[0]))
-            for info in (infos[thing.name] for thing in laid if room)
-        )
-
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""
-        ways = {any(space.lies_on([one], thing, self._scene) for thing in things) for one in laid}
+        ways = {any(lies_on([one], thing, self._scene) for thing in things) for one in laid}
         if len(ways) > 1:
             text = f"on {self.discourse.referents[index].text}"
             names = [thing.name for thing in laid]

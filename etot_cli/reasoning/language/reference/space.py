@@ -22,8 +22,6 @@ OFFSET = 0.01
 """An object is on one side of another when it is off by more than this [m]."""
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
-LID = 0.95
-"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
 DEEP = 2.0
 """Things spread so many times more away than sideways have no first from the left."""
 
@@ -306,16 +304,3 @@ def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
 
 def _bearers(thing: Thing, scene: SceneState) -> frozenset[str]:
     return bearers(scene, thing.name) if thing.name in scene.states else frozenset()
-
-
-def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
-    """Whether things stay on top of another one and do not sink into its mouth."""
-    if below.name == DESK or below.board is not None:
-        return True
-    info = scene.infos[below.name]
-    if info.surface or not info.container:
-        return True
-    mouth = LID * min(info.size[:2])
-    return all(
-        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
-    )

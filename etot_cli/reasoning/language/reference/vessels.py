@@ -1,0 +1,51 @@
+"""What lies on a vessel, and what goes into it, by its size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.reasoning.language.words.lexicon import holds_things
+from etot_cli.world.state import DESK, SceneState
+
+LID = 0.95
+"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
+
+
+def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
+    """Whether things stay on top of another one and do not sink into its mouth."""
+    if below.name == DESK or below.board is not None:
+        return True
+    info = scene.infos[below.name]
+    if info.surface or not info.container:
+        return True
+    mouth = LID * min(info.size[:2])
+    return all(
+        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
+    )
+
+
+def bears(below: Sequence[Thing], laid: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether things have a tray under them, or cover a vessel."""
+    infos = scene.infos
+    return all(
+        is_flat(infos[thing.name]) or (infos[thing.name].container and lies_on(laid, thing, scene))
+        for thing in below
+    )
+
+
+def goes_in(laid: Sequence[Thing], around: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether things go into one that can be moved as they lie, or are meant for it.
+
+    What stands by itself rather goes beside what one drinks from.
+    """
+    infos = scene.infos
+    moved = [infos[t.name] for t in around if t.name != DESK and infos[t.name].movable]
+    room = [min(info.size[:2]) for info in moved]
+    drunk = all(info.kind == "cup" and not holds_things(info.label) for info in moved)
+    return all(
+        info.elongated
+        or (max(info.size[:2]) <= min(room) and not (drunk and info.size[2] > info.size[0]))
+        for info in (infos[thing.name] for thing in laid if room)
+    )
