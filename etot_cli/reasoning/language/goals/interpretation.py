@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.plausibility import guesses
 from etot_cli.reasoning.language.goals.turns import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -255,6 +256,9 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
     if not found:
         assert problem is not None  # a sentence has at least one reading
         raise problem
+    odd = {meaning: guesses(attempt.context, attempt.timed) for meaning, attempt in found.items()}
+    least = min(odd.values())
+    found = {meaning: attempt for meaning, attempt in found.items() if odd[meaning] == least}
     if len(found) == 1:
         return next(iter(found.values()))
     return _only_one_that_asks(state, sentence, found)

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     tell_apart,
     without_riders,
 )
+from etot_cli.reasoning.language.goals.closer import certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import (
     by_color,
@@ -65,6 +66,7 @@ def put(context: Context, clause: PutClause) -> None:
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
+    chosen: list[int] = []
     for group in clause.groups:
         if clause.by_color or is_by_color(group):
             by_color(context, group)
@@ -78,9 +80,9 @@ def put(context: Context, clause: PutClause) -> None:
         themes = without_riders(context, themes)
         tell_apart(context, group, before, themes)
         before += themes
-        own = _certain(context, themes)
-        if placed & own:
-            _set_upon(context, group, themes)
+        own = certain(context, themes)
+        if placed & own or things_of(context, themes) <= placed:
+            group = set_closer(context, group, clause.groups[0], themes, chosen)
         placed |= own
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, clause.ruled_out)
@@ -115,32 +117,9 @@ def put(context: Context, clause: PutClause) -> None:
         context.discourse.last_places = places
         if clause.ruled_out:
             rule_out(context, themes, clause.ruled_out)
-
-
-def _certain(context: Context, themes: Sequence[int]) -> set[Thing | int]:
-    """The things that are moved, and the referents of which it is open which they are."""
-    options = {index: context.discourse.referents[index].options for index in themes}
-    return {item for i, o in options.items() for item in (o[0] if len(o) == 1 else (i,))}
-
-
-def _set_upon(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
-    """Things go on what goes somewhere with them ("the cup and the saucer on the tray, the cup on
-    the saucer"): they have that place alone.
-    """
-    own = _certain(context, themes)
-    places = context.places.of(group.destinations, themes)
-    under = _certain(context, [place.where for place in places if place.where is not None])
-    for number, step in enumerate(context.steps):
-        moved = _certain(context, step.what) if isinstance(step, Put) else set()
-        if isinstance(step, Put) and own < moved and under and under <= moved - own:
-            rest = [
-                item if isinstance(item, int) else context.single(item, item.name)
-                for item in sorted(moved - own, key=str)
-            ]
-            context.steps[number] = replace(step, what=tuple(rest))
-            return
-    text = context.discourse.referents[themes[0]].text
-    raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+    if chosen:
+        text = context.discourse.referents[chosen[-1]].text
+        raise ReferenceProblem(text, "say where each of them goes", 2)
 
 
 def ensure(context: Context, state: State) -> None:

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     ONLY_THOSE,
     excepting,
     exceptions,
+    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
+    separated,
     sequence,
     some,
 )
@@ -211,11 +213,10 @@ def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Cla
     return (avoided, put_to(meant, where)) if joint or only else None
 
 
+_NEITHER = sequence(verbs.PUT, "neither", separated(noun_phrase, "nor"), build=Things)
 _ONLY_THESE = located(
     sequence(
-        verbs.DO_NOT,
-        verbs.PUT,
-        THINGS,
+        either(sequence(verbs.DO_NOT, verbs.PUT, THINGS), _NEITHER),
         DESTINATIONS,
         OPTIONAL_COMMA,
         optional(phrase("but, just, but just"), ""),
@@ -228,6 +229,14 @@ LED_CLAUSE = Rule(
     either(
         sequence(LEAD, CLAUSE, build=_spoken),
         sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
+        located(
+            sequence(
+                _NEITHER,
+                DESTINATIONS,
+                build=lambda out, where: AvoidClause(Avoid.PUT, out, where, negated=True),
+            ),
+            lambda at, clause: (Spoken(clause, at),),
+        ),
         sequence(
             LEAD,
             located(PUT, lambda at, clause: (at, clause)),
@@ -265,9 +274,9 @@ _SO_BY_THEN = either(
         build=lambda things, word: MoveClause(things, word == "open"),
     ),
 )
-"""What is so by then; "when" might ask whether it is."""
+"""What is so by then."""
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_GONE))),
-    sequence("once, after", plain(_SO_BY_THEN)),
+    sequence("once, after, when, as soon as", plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

@@ -56,7 +56,7 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
     return (Beside(relation, nps),)
 
 
-_NEARBY = one_of(places.NEARBY)
+_NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR})
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
 _SIDE_OF_IT = one_of(

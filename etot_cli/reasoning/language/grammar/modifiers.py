@@ -138,11 +138,19 @@ _contents = either(
         sequence(
             optional("that, which"),
             noun_phrase,
-            either(
-                phrase("(is|are|lies|lie|sits) [currently] in", Prep.CONTAINING),
-                phrase("(is|are|stands|stand|lies|lie|sits) [currently] on", Prep.BEARING),
-            ),
-            build=lambda np, prep: Modifier(prep, (np,)),
+            "is, are, stands, stand, lies, lie, sits, sit",
+            optional("currently"),
+            optional(phrase("not", True), False),
+            one_of({Prep.CONTAINING: "in", Prep.BEARING: "on"}),
+            build=lambda np, denied, prep: Modifier(prep, (np,), denied=denied),
+        )
+    ),
+    quiet(
+        sequence(
+            one_of({Prep.CONTAINING: "in which", Prep.BEARING: "on which"}),
+            noun_phrase,
+            "is, are, stands, stand, lies, lie, sits, sit",
+            build=lambda prep, np: Modifier(prep, (np,)),
         )
     ),
 )

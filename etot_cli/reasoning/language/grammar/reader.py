@@ -21,7 +21,8 @@ from etot_cli.reasoning.language.grammar.text import (
     words_in,
 )
 from etot_cli.reasoning.language.words import known
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import is_in_lexicon, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import TIDYING, WITHOUT_MEANING
 
@@ -156,27 +157,9 @@ def _stopped(given: Input, before: str) -> UnreadableError:
             return UnreadableError(_some(words[:-1]), before, why)
         words = words[:-1]
     for index, word in enumerate(words):
-        why = "" if word in given.nouns else known.REASONS.get(word, "")
-        if why and index == 0 and word in ("is", "are"):
-            why = known.REASONS["what"]
-        if word in ("do", "does", "did") and words[index + 1 : index + 2] in (
-            ("not",),
-            ("nothing",),
-        ):
-            why = known.REASONS["nothing"]
-        if not why and word not in given.nouns and known.is_adverb(word):
-            why = "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
-        switched = word in ("turn", "switch") and words[index + 1 : index + 2] in (
-            ("on",),
-            ("off",),
-        )
-        if not why and word not in given.nouns and (switched or word in known.OTHER_VERBS):
-            why = _NO_SKILL
-        blamed = word in known.BLAMED or word not in known.ALL_WORDS
-        named = (*words[:index], "")[index - 1 : index] in _BEFORE_NOUNS
-        if why == _NO_SKILL and named:
-            why = f"nothing in the scene is called {word!r}"
-        if why and (index >= stop - 1 or blamed):
+        why = "" if word in given.nouns else _cause(given, words, index)
+        never = word not in known.ALL_WORDS and (known.is_adverb(word) or word in known.REASONS)
+        if why and (index >= stop - 1 or never or word in known.BLAMED):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(_some(words[index:]), understood, why, without)
@@ -192,9 +175,38 @@ def _stopped(given: Input, before: str) -> UnreadableError:
         return UnreadableError(_last(words), understood, why)
     small = words[stop] in known.GRAMMAR_WORDS  # it joins others, which need it
     without = "" if small else spaced((*words[:stop], *words[stop + 1 :]))
+    stop = stop or (words[0] in known.VERB_WORDS)
     before_it = spaced(words[:stop]).rstrip(",").split()[-1:]
     why = f"it is not understood after {before_it[0]!r}" if before_it else ""
     return UnreadableError(_some(words[stop:]), understood, why, without)
+
+
+def _cause(given: Input, words: tuple[str, ...], index: int) -> str:
+    """Why a word is none that could be understood here; empty for what may have a place."""
+    word, before, following = words[index], words[:index], words[index + 1 : index + 2]
+    named = before[-1:] in _BEFORE_NOUNS
+    if word in ("is", "are") and any(item in known.VERB_WORDS for item in before):
+        return ""  # it tells something apart, and states nothing
+    if word in ("is", "are") and not index:
+        return known.REASONS["what"]
+    if word in ("do", "does", "did") and following in (("not",), ("nothing",)):
+        return known.REASONS["nothing"]
+    if word == "as" and following in (("soon",), ("long",)):
+        return known.REASONS["while"]
+    if word in known.REASONS:
+        return known.REASONS[word]
+    switched = word in ("turn", "switch") and following in (("on",), ("off",))
+    if (switched or word in known.OTHER_VERBS) and not named:
+        return _NO_SKILL
+    if known.is_adverb(word):
+        return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
+    if word in known.OTHER_VERBS:
+        return f"nothing in the scene is called {word!r}"
+    listed = _is_known(word, given.nouns) or is_category(word) or is_in_lexicon(word)
+    if not word.isalpha() or not index or listed:
+        return ""
+    unknown = f"nothing in the scene is called {word!r}"
+    return unknown if named else f"{unknown}, nor is it another word that is known"
 
 
 def _some(words: tuple[str, ...]) -> str:

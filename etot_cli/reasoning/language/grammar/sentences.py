@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     sequence,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
@@ -37,6 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Destination,
     EnsureClause,
+    Modifier,
     MoveClause,
     NounPhrase,
     Order,
@@ -48,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
 
 
 def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
@@ -188,6 +192,14 @@ SENTENCE = either(
     ),
     sequence(UNORDERED, plain(IF_NOT_SO)),
     sequence(UNORDERED, LEFT_OUT, COMMA, CHAIN, build=_without),
+    sequence(
+        LEAD,
+        "instead of, rather than",
+        valued(noun_phrase, lambda np: Modifier(Prep.CONTRAST, (np,))),
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=_without,
+    ),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,

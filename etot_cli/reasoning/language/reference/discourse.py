@@ -106,7 +106,8 @@ class Discourse:
             if things & set(things_in(referent.options))
         ]
         if resolved.other:
-            return tuple(shared)
+            choices = [index for index in shared if len(self.referents[index].options) > 1]
+            return tuple(choices if resolved.again else shared)
         known = resolved.definite and (len(things) > 1 or len(resolved.options) > 1)
         if known or resolved.again or role is not Role.THEME:
             return ()

@@ -7,6 +7,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
+from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
@@ -156,6 +157,8 @@ def between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneStat
 
 def is_one(phrase: NounPhrase) -> bool:
     """Whether a phrase speaks of one thing that is known ("the cup")."""
+    if phrase.words[-1:] and phrase.words[-1] in GENERAL:
+        return False
     quantity = quantity_of(phrase.determiner)
     plural = not phrase.words or singular(phrase.words[-1]) != phrase.words[-1]
     return quantity.definite and not quantity.every and quantity.count in (None, 1) and not plural

@@ -147,7 +147,8 @@ def match_words(
             # "The blue one", after a box that is called so, is no block that is like a box.
             named = any(e.grade(head) in (EXACT, HEAD) for e in vocabulary.objects)
             found = None if named else found
-        if found is not None:
+        level = any(word in LEVELS for word in adjectives)
+        if found is not None and (level or not _is_of_another(head, found.entries, vocabulary)):
             return found
     raise nothing_fits(head, adjectives, number, vocabulary, phrase)
 
@@ -302,6 +303,15 @@ def _match_in(
 def _are_like(noun: str, entries: Sequence[Entry]) -> bool:
     """Whether objects are called by a noun for their kind alone."""
     return all(is_object(entry) and entry.grade(noun) == GENERIC for entry in entries)
+
+
+def _is_of_another(noun: str, entries: Sequence[Entry], vocabulary: Vocabulary) -> bool:
+    """Whether a noun would mean boards for their kind, where something else is called so: where
+    there is a brown tray "the white tray" is no board of a white shelf.
+    """
+    called = {e.thing.name for e in vocabulary.objects if e.grade(noun) in (EXACT, HEAD)}
+    boards = all(entry.thing.board is not None for entry in entries)
+    return bool(called) and boards and not called & {entry.thing.name for entry in entries}
 
 
 def is_object(entry: Entry) -> bool:

@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
     narrowed_to,
     of_last_choice,
     of_spoken_owner,
+    one_of_several,
     others,
     spoken_part,
 )
@@ -88,6 +89,9 @@ class Meanings:
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
+        chosen = one_of_several(phrase, role, self.discourse)
+        if chosen is not None:
+            return chosen
         phrase = as_rest(phrase, noun_before, self.discourse)
         quantity = quantity_of(phrase.determiner)
         if quantity.other and quantity.definite and (quantity.count or 1) > 1:

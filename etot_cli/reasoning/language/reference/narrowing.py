@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.relations import is_inside
+from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -78,6 +79,27 @@ def of_last_choice(resolved: Resolved, discourse: Discourse) -> Resolved:
         if len(referent.options) == 2 and {*referent.options} < {*resolved.options}:
             return replace(resolved, options=referent.options)
     return resolved
+
+
+def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
+    """After "the pen and the key on the shelf" of the same clause "one" is one of these, and "the
+    other" what is left of two after "one of them"; None where no such thing is said.
+    """
+    said = [item for item in discourse.mentions if item.role is role is Role.THEME]
+    if phrase.modifiers or phrase.words not in ((), ("one",)) or not said:
+        return None
+    noun, chosen = said[-1].noun, discourse.referents[said[-1].referent].options
+    known = {item.referent for item in said if len(discourse.referents[item.referent].options) == 1}
+    spoken = {thing for index in known for thing in discourse.things(index)}
+    choice = len(chosen) > 1 and {*discourse.things(said[-1].referent)} <= spoken
+    if phrase.determiner == "the other" and choice and len(chosen) == 2:
+        return Resolved(chosen, definite=True, other=True, noun=noun, again=True)
+    here = {item.referent for item in said if item.clause == discourse.clause} & known
+    things = dict.fromkeys(thing for index in sorted(here) for thing in discourse.things(index))
+    if phrase.determiner not in ("one", "") or len(things) < 2:
+        return None
+    options = tuple((thing,) for thing in things)
+    return Resolved(options, definite=False, other=choice, noun=noun, again=True)
 
 
 def others(resolved: Resolved, discourse: Discourse) -> Resolved:

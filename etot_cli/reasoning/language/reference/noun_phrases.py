@@ -268,7 +268,10 @@ class Resolver:
         if modifier.prep is Prep.BETWEEN and not more:
             both = self._landmarks(pronoun, only)
             if len(both) != 2:
-                raise ReferenceProblem(phrase.text, "say between which two things", 2)
+                # "Between the cup" is no place; "… and the plate" may belong to it.
+                single = only.words and singular(only.words[-1]) == only.words[-1]
+                why = "say between which two things"
+                raise ReferenceProblem(phrase.text, why, 0 if single else 2)
             return [[[both[0]], [both[1]]]]
         each = [
             self._landmarks(pronoun, item, (phrase.head or None) if item.head == "one" else None)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD, Entry
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_general_noun
+from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -19,8 +19,12 @@ from etot_cli.reasoning.language.words.lexicon import (
     STATES,
     THING_NOUNS,
     basic_color,
+    is_general_noun,
     matches_any,
 )
+
+TAKEN_FOR = "took "
+"""How notes begin on an adjective that is not plainly true of what it is said of."""
 
 
 def names_of(entries: Iterable[Entry]) -> str:
@@ -117,7 +121,7 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
             return
         sifted.graded = apt
         names = names_of([entry for entry, _ in apt])
-        sifted.notes.append(f"took {word!r} for what {names} is for")
+        sifted.notes.append(f"{TAKEN_FOR}{word!r} for what {names} is for")
         sifted.dropped.append(word)
     else:
         sifted.unknown.append(word)
@@ -145,7 +149,7 @@ def _of_color(sifted: Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
     found = near or [item for item in graded if not item[0].is_colored()]
     if found:
         names = names_of([entry for entry, _ in found])
-        sifted.notes.append(f"took {names} for {word!r}")
+        sifted.notes.append(f"{TAKEN_FOR}{names} for {word!r}")
     return found
 
 

@@ -168,7 +168,7 @@ def holds_at(
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
         Prep.UNDER: lambda landmark: (
             (thing.board is None and thing.name in _bearers(landmark, scene))
-            or _levels_up(thing, landmark, scene) == 1
+            or _levels_up(thing, _level_of(landmark, thing, scene), scene) == 1
         ),
         Prep.ABOVE: lambda landmark: (
             landmark.name in _bearers(thing, scene)

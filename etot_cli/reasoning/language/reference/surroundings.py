@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import is_robot
 from etot_cli.reasoning.language.words.lexicon import singular, word_set
-from etot_cli.world.spatial import BESIDE, Nearby
+from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState
 
 _OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
@@ -120,6 +120,8 @@ class Surroundings:
             if is_robot(phrase) or phrase.text in ("each other", "one another"):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
             landmarks += self._landmark(phrase, themes, beside.relation)
+        if beside.text.startswith(("closer", "nearer")):
+            self._check_closer(beside.text, themes, landmarks)
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*_OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
@@ -130,6 +132,14 @@ class Surroundings:
         if beside.relation in _OPPOSITE:
             self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
+
+    def _check_closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> None:
+        """Whether what is to be closer to something is not near it yet: near is where it goes."""
+        things = [thing.name for index in themes for thing in self._discourse.things(index)]
+        marks = [mark.name for index in landmarks for mark in self._discourse.things(index)]
+        near = (Whereabouts(Nearby.NEAR, (mark,)) for mark in marks)
+        if any(holds(where, name, self._scene) for where in near for name in things):
+            raise ReferenceProblem(text, "it is near that already; say next to it", 3)
 
     def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,

@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
-_GENERAL = {
+GENERAL = {
     "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
     "all else": "all other",
 }  # fmt: skip
@@ -55,8 +55,8 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
     ):
         raise ReferenceProblem(phrase.text, "name them one by one", 3)
     last = phrase.head
-    if last in _GENERAL and len(phrase.words) == 1:
-        determiner = _GENERAL[last]
+    if last in GENERAL and len(phrase.words) == 1:
+        determiner = GENERAL[last]
         described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
         if last == "anything" and (described or phrase.modifiers):
             determiner = "all"  # whatever is so

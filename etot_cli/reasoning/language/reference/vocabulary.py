@@ -20,19 +20,15 @@ from etot_cli.reasoning.language.reference.entries import (
 from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
-    CONTAINER_NOUNS,
     DESK_NOUNS,
-    JOINT_NOUNS,
-    KIND_NOUNS,
     MATERIALS,
     NUMBERS,
     PURPOSES,
     RUBBISH,
     STATES,
-    THING_NOUNS,
     TWINS,
     is_descriptive,
-    matches_any,
+    is_general_noun,
     singular,
 )
 from etot_cli.world.state import DESK, SceneState
@@ -182,14 +178,6 @@ def _spelled_out(name: str, letter: re.Match[str]) -> str:
     """The name that a letter stands for; "tote A" is no shelf A."""
     before = letter.string[: letter.start()].split()[-1:]
     return letter[0] if before and before[0].isalpha() and before[0] not in GRAMMAR_WORDS else name
-
-
-def is_general_noun(word: str) -> bool:
-    """Whether a word is one of the lexicon's nouns, whatever the scene."""
-    groups: Sequence[Sequence[str]] = (
-        *KIND_NOUNS.values(), *JOINT_NOUNS.values(), CONTAINER_NOUNS, THING_NOUNS, DESK_NOUNS,
-    )  # fmt: skip
-    return any(matches_any(word, group) for group in groups)
 
 
 def is_of_parts(entry: Entry, noun: str, vocabulary: Vocabulary) -> bool:

@@ -25,7 +25,7 @@ _FUNCTION = """
     such only again now hey hi hello ok okay robot let lets alone untouched unmoved except
     during through across around toward towards against among anyone someone yet still even ever
     most more less few several many much enough half quite very really almost nearly maybe
-    perhaps otherwise else other others remaining same single exactly
+    perhaps anywhere somewhere otherwise else other others remaining same single exactly
 """
 VERB_WORDS = words_of(
     (
@@ -45,7 +45,8 @@ OTHER_VERBS = word_set(
     dragging sweep sweeping dust polish paint draw write hit hammer count find look search
     wait stop follow show tell describe explain say measure weigh heat cool mix blend scoop
     serve feed water inspect scan balance hang catch wave point dance walk drive fly jump
-    sing toggle activate chuck chucking discard discarding dispose disposing fling flinging
+    sing toggle activate knock topple tip bump touch chuck chucking discard
+    discarding dispose disposing fling flinging
     """
 )
 """What no skill does."""
@@ -60,7 +61,7 @@ def is_adverb(text: str) -> bool:
 
 REASONS = {
     **dict.fromkeys(
-        ("if", "unless", "when", "whenever", "while", "until", "once"),
+        ("if", "unless", "when", "whenever", "while", "until", "once", "provided"),
         "conditions and waiting are not supported; say what is to be done",
     ),
     **dict.fromkeys(
@@ -81,9 +82,13 @@ REASONS = {
         ("hands", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"
     ),
     **dict.fromkeys(
-        ("halfway", "half", "partially", "slightly", "partly", "little"),
+        ("halfway", "half", "partially", "slightly", "partly", "little", "bit"),
         "how far something goes cannot be asked for",
     ),
+    **dict.fromkeys(
+        ("moment", "moments", "seconds", "minutes"), "how long something lasts cannot be asked for"
+    ),
+    "least": "say how many exactly",
     **dict.fromkeys(
         ("push", "pull", "slide", "swing", "shove", "nudge", "drag"),
         "no skill pushes or pulls, but for opening and closing; say where it is to be put",

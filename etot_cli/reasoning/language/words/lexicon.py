@@ -255,3 +255,19 @@ def matches_any(word: str, nouns: Iterable[str]) -> bool:
 def is_plural_of(word: str, nouns: Iterable[str]) -> bool:
     """Whether a word is the plural of one of some nouns."""
     return any(word != noun and singular(word) == noun for noun in nouns)
+
+
+def is_general_noun(word: str) -> bool:
+    """Whether a word is one of the lexicon's nouns, whatever the scene."""
+    groups: tuple[Iterable[str], ...] = (
+        *KIND_NOUNS.values(), *JOINT_NOUNS.values(), CONTAINER_NOUNS, THING_NOUNS, DESK_NOUNS,
+    )  # fmt: skip
+    return any(matches_any(word, group) for group in groups)
+
+
+def is_in_lexicon(word: str) -> bool:
+    """Whether a word is one of these tables, in either number."""
+    tables = (LEVELS, STATES, NUMBERS, COMMON_NOUNS, PURPOSES, MATERIALS, HELPING_NOUNS, BINS)
+    single = singular(word)
+    listed = any(word in table or single in table for table in tables)
+    return listed or is_descriptive(word) or is_general_noun(word)

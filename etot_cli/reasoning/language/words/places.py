@@ -63,6 +63,7 @@ NEARBY: dict[Nearby, str] = {
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: "[far] away from, far from",
 }
+GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to"
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",

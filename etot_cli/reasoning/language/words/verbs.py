@@ -6,10 +6,10 @@ PICK = """
     pick[ing] up, pick[ing], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up], fetch[ing],
     get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up], seiz(e|ing), collect[ing], hand me,
     rais(e|ing), choose and pick up, bring me, giv(e|ing) me, pass[ing] me, retriev(e|ing),
-    gather[ing], (fetch|fetching|get|getting|grab|find|take) me
+    gather[ing], (fetch|fetching|get|getting|grab|find|take) me, hand[ing] over
 """
 TO_SOMEBODY = """
-    (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me)
+    (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me), hand[ing] over
 """
 """They ask for more than picking up, which is all that is done."""
 SET_DOWN = """
@@ -37,7 +37,7 @@ TAKE = "tak(e|ing), lift[ing], pull[ing], mov(e|ing), bring[ing], transfer[ring]
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
-    remov(e|ing), clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
+    remov(e|ing), unstack[ing], clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
     get[ting] (out|down|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"

@@ -1,0 +1,67 @@
+"""Where exactly some of several things go, said again behind where all of them go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Put, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax import PutGroup
+
+
+def set_closer(
+    context: Context, group: PutGroup, whole: PutGroup, themes: Sequence[int], chosen: list[int]
+) -> PutGroup:
+    """Where exactly some things of the clause go, on what goes somewhere with them ("the cup and
+    the saucer on the tray, the cup on the saucer") or on a part of where all go ("one on the top
+    board"): they have that place alone. ``chosen`` gets those of which it is open which they are.
+    """
+    own, closer = certain(context, themes), _of_the_same(group, whole)
+    for number, step in enumerate(context.steps):
+        moved = certain(context, step.what) if isinstance(step, Put) else set()
+        if not isinstance(step, Put) or not things_of(context, themes) <= moved:
+            continue
+        places = context.places.of(closer.destinations, themes)
+        marks = [place.where for place in places if place.where is not None]
+        under, around = certain(context, marks), things_of(context, step.places[0].referents())
+        upon = under and under <= moved - own and own <= moved
+        there = things_of(context, marks)
+        same = bool(there) and {t.name for t in there} == {t.name for t in around}
+        if not upon and not (same and (there != around or any(p.beside for p in places))):
+            break
+        if not own <= moved:
+            chosen += themes
+            if len(chosen) < len(moved):
+                return closer
+            own = moved
+        rest = [
+            item if isinstance(item, int) else context.single(item, item.name)
+            for item in sorted(moved - own, key=str)
+        ]
+        context.steps[number : number + 1] = [replace(step, what=tuple(rest))] if rest else []
+        chosen[:] = [index for index in chosen if own != moved]
+        return closer
+    text = context.discourse.referents[themes[0]].text
+    raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+
+
+def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
+    """A side without a surface is one of what all go on ("on the tray, one on the left")."""
+    (at, *more), (surface, *others) = group.destinations, whole.destinations
+    side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
+    if not side or more or others or not surface.targets or surface.beside:
+        return group
+    return replace(group, destinations=(replace(surface, beside=at.beside),))
+
+
+def things_of(context: Context, indices: Sequence[int]) -> set[Thing]:
+    """All that some referents may stand for."""
+    return {thing for index in indices for thing in context.discourse.things(index)}
+
+
+def certain(context: Context, themes: Sequence[int]) -> set[Thing | int]:
+    """The things that are moved, and the referents of which it is open which they are."""
+    options = {index: context.discourse.referents[index].options for index in themes}
+    return {item for i, o in options.items() for item in (o[0] if len(o) == 1 else (i,))}
