@@ -229,13 +229,12 @@ LED_CLAUSE = Rule(
     either(
         sequence(LEAD, CLAUSE, build=_spoken),
         sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
-        located(
+        plain(
             sequence(
                 _NEITHER,
                 DESTINATIONS,
                 build=lambda out, where: AvoidClause(Avoid.PUT, out, where, negated=True),
-            ),
-            lambda at, clause: (Spoken(clause, at),),
+            )
         ),
         sequence(
             LEAD,

@@ -29,7 +29,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     sequence,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
@@ -139,6 +138,11 @@ def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     return None if str(asks).startswith("what") else _chained(first, more)
 
 
+_NOT_THIS = sequence(
+    "instead of, rather than", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
+)
+
+
 def _without(out: Any, rest: Reading) -> Reading | None:
     """A sentence that begins with what is left out."""
     clause = excluding(rest[0].clause, out)
@@ -192,14 +196,7 @@ SENTENCE = either(
     ),
     sequence(UNORDERED, plain(IF_NOT_SO)),
     sequence(UNORDERED, LEFT_OUT, COMMA, CHAIN, build=_without),
-    sequence(
-        LEAD,
-        "instead of, rather than",
-        valued(noun_phrase, lambda np: Modifier(Prep.CONTRAST, (np,))),
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=_without,
-    ),
+    sequence(UNORDERED, _NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
