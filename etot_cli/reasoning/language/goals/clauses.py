@@ -93,7 +93,7 @@ def _all_of(context: Context, index: int) -> int:
         )
         for option in discourse.referents[index].options
     )
-    every = Resolved(options, definite=True, other=False, noun=noun)
+    every = Resolved(options, definite=True, noun=noun)
     return discourse.add(every, discourse.referents[index].text, Role.PART)
 
 

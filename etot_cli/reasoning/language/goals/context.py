@@ -46,7 +46,7 @@ class Context:
 
     def single(self, thing: Thing, text: str) -> int:
         """A referent for one thing."""
-        alone = Resolved(((thing,),), definite=True, other=False, noun=thing.name)
+        alone = Resolved(((thing,),), definite=True, noun=thing.name)
         return self.discourse.add(alone, text, Role.THEME)
 
     def tell_others(self, things: Things, destinations: Sequence[Destination]) -> None:

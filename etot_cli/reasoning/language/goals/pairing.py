@@ -112,9 +112,7 @@ def by_color(context: Context, group: PutGroup) -> None:
     for thing in things:
         theme = context.single(thing, text)
         found = _of_color(context, thing, targets, group.destinations[0].targets[0].text)
-        referent = Resolved(
-            tuple((target,) for target in found), definite=False, other=False, noun=found[0].name
-        )
+        referent = Resolved(tuple((target,) for target in found), noun=found[0].name)
         where = context.discourse.add(referent, text, _ROLES[toward])
         places = tuple(context.places.relations_to(toward, where, [theme]))
         context.discourse.put |= {theme}
@@ -210,14 +208,14 @@ def one_each(context: Context, group: PutGroup) -> None:
         options = tuple(islice(combinations(free, count), MAX_OPTIONS))
         if not options:
             raise ReferenceProblem(phrase.text, f"there are {len(free)} for {count} places", 2)
-        chosen = Resolved(options, definite=False, other=False, noun=resolved.noun)
+        chosen = Resolved(options, noun=resolved.noun)
         themes = [context.discourse.add(chosen, phrase.text, Role.THEME)]
     else:
         themes = context.phrases.things(group.things, Role.THEME)
         number = sum(len(context.only(index, "say which ones")) for index in themes)
         if number != count:
             raise ReferenceProblem(text, f"there are {number} things for {count} places", 2)
-    every = Resolved((tuple(targets),), definite=True, other=False, noun=text.split()[-1])
+    every = Resolved((tuple(targets),), definite=True, noun=text.split()[-1])
     where = context.discourse.add(every, text, _ROLES[toward])
     places = tuple(context.places.relations_to(toward, where, themes))
     context.discourse.put |= {*themes}

@@ -52,6 +52,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
     Turns,
+    put_to,
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
@@ -59,8 +60,10 @@ from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.world.state import DESK
 
 
-def put(context: Context, clause: PutClause) -> None:
-    """Adds the steps of a clause that says what goes where."""
+def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
+    """Adds the steps of a clause that says what goes where; ``wherever``: what is there already
+    may be meant as well.
+    """
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = " and ".join(phrase.text for phrase in clause.groups[-1].things.phrases)
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
@@ -103,7 +106,7 @@ def put(context: Context, clause: PutClause) -> None:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(spread(context, place) for place in places)
-        for index in themes:
+        for index in () if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
@@ -142,26 +145,14 @@ def ensure(context: Context, state: State) -> None:
                         other = context.single(thing, thing.part or thing.name)
                         context.steps.append(_made(other, opens=state.word != "open"))
         return
-    group = PutGroup(Things(state.subjects), state.destinations)
-    if is_by_color(group):
-        by_color(context, group)
-        return
-    if is_one_each(group):
-        one_each(context, group)
-        return
-    themes = context.phrases.things(group.things, Role.THEME)
-    if any(item.toward is Toward.HOME for item in state.destinations):
-        put_back(context, themes, group)
-        return
-    shared, grouping = _shared(context, group, themes, Grouping.ANY)
-    places = context.places.of(shared.destinations, themes)
-    again = [index for index in themes if index in context.discourse.put]
-    if again and any(place.beside for place in places):
-        text = context.discourse.referents[again[0]].text
-        why = "say where it goes in one: 'on the tray, next to the cup'"
-        raise ReferenceProblem(text, why, 3)
-    add_put(context, themes, places, grouping)
-    context.discourse.last_places = places
+    before, done = context.discourse.put, len(context.steps)
+    put(context, put_to(Things(state.subjects), state.destinations), wherever=True)
+    for step in (step for step in context.steps[done:] if isinstance(step, Put)):
+        again = before.intersection(step.what)
+        if again and any(place.beside for place in step.places):
+            text = context.discourse.referents[min(again)].text
+            why = "say where it goes in one: 'on the tray, next to the cup'"
+            raise ReferenceProblem(text, why, 3)
 
 
 def _made(index: int, *, opens: bool) -> Open | Close:

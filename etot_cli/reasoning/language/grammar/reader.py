@@ -165,7 +165,7 @@ def _stopped(given: Input, before: str) -> UnreadableError:
             return UnreadableError(_some(words[index:]), understood, why, without)
     if words[0] in given.nouns and words[1:2] in _BEFORE_NOUNS and stop <= 2:
         return UnreadableError(_some(words), before, _NO_SKILL)
-    strange = words[0] not in known.ALL_WORDS and words[0] not in given.nouns
+    strange = words[0] not in known.OPENING_WORDS and words[0] not in given.nouns
     if strange and stop <= 1 < len(words):
         why = f"{words[0]!r} is no verb that is known"
         return UnreadableError(_some(words), before, why)

@@ -47,20 +47,15 @@ class Discourse:
 
     def copy(self) -> Discourse:
         """An independent copy, for trying a reading."""
-        return Discourse(
-            self.scene,
-            list(self.referents),
-            list(self.mentions),
-            self.clause,
-            self.last_places,
-            dict(self.put_into),
-            list(self.notes),
-            self.put,
-            self.last_landmark,
-            dict(self.stacks),
-            dict(self.left_out),
-            dict(self.fitting),
-            self.undecided,
+        return replace(
+            self,
+            referents=list(self.referents),
+            mentions=list(self.mentions),
+            put_into=dict(self.put_into),
+            notes=list(self.notes),
+            stacks=dict(self.stacks),
+            left_out=dict(self.left_out),
+            fitting=dict(self.fitting),
         )
 
     def add(

@@ -73,7 +73,7 @@ class Meanings:
             things = discourse.things(*indices)
             options = tuple((thing,) for thing in things)
             noun = discourse.last_noun(role) or ""
-            return Resolved(options, definite=False, other=False, noun=noun, again=True)
+            return Resolved(options, noun=noun, again=True)
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"
             plural = phrase.pronoun in PLURAL_PRONOUNS

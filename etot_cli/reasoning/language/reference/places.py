@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
 from etot_cli.world.state import DESK, SceneState
 
-_DESK = Resolved(((Thing(DESK),),), definite=False, other=False, noun=DESK)
+_DESK = Resolved(((Thing(DESK),),), noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
 

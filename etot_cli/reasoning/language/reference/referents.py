@@ -49,7 +49,7 @@ class Phrases(Meanings):
         ]
         resolved = [self.meaning(phrase, role) for phrase in phrases]
         options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
-        either = Resolved(options, definite=False, other=False, noun=resolved[-1].noun)
+        either = Resolved(options, noun=resolved[-1].noun)
         text = " or ".join(phrase.text for phrase in things.phrases)
         return [self.discourse.add(either, text, role)]
 
@@ -192,7 +192,7 @@ class Phrases(Meanings):
                     if all(space.touches(thing, place, self.scene) for thing in moved)
                 ]
             if len(here) == 1:
-                now = Resolved(((here[0],),), definite=False, other=False, noun=fitting.noun)
+                now = Resolved(((here[0],),), noun=fitting.noun)
                 discourse.add(now, phrase.text, Role.ANY)
                 return
 

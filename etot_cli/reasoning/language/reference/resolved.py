@@ -25,9 +25,9 @@ class Resolved:
     """
 
     options: tuple[tuple[Thing, ...], ...]
-    definite: bool
-    other: bool
-    noun: str
+    definite: bool = False
+    other: bool = False
+    noun: str = ""
     every: bool = False
     notes: tuple[str, ...] = ()
     again: bool = False

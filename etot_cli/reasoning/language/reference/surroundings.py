@@ -176,7 +176,7 @@ class Surroundings:
                 found.append(index)
             else:
                 for thing in things:
-                    alone = Resolved(((thing,),), definite=False, other=False, noun=thing.name)
+                    alone = Resolved(((thing,),), noun=thing.name)
                     found.append(self._discourse.add(alone, phrase.text, Role.ANY))
         return found
 

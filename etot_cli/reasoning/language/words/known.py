@@ -131,3 +131,7 @@ ALL_WORDS = GRAMMAR_WORDS.union(
     *(words_of(_patterns(module)) for module in (manner, nouns, places, small_words, verbs))
 )
 """Every word that the grammar knows."""
+OPENING_WORDS = GRAMMAR_WORDS.union(
+    *(words_of(_patterns(module)) for module in (small_words, verbs))
+)
+"""Words that a sentence may begin with that is not about a thing of the scene."""
