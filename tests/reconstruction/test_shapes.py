@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from etot_cli.reconstruction.capture.view import View
-from etot_cli.reconstruction.fit.pose import convex_distance
+from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.pose import residuals_beside, residuals_of
 from etot_cli.reconstruction.shapes.ball import Ball
+from etot_cli.reconstruction.shapes.base import convex_distance
 from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 from etot_cli.reconstruction.shapes.rod import Capsule, Pen
@@ -79,3 +81,21 @@ def test_parameters_have_names_and_bounds(family, values) -> None:
     assert (low <= params).all()
     assert (params <= high).all()
     assert family.volume(params) > 0
+
+
+@pytest.mark.parametrize(("family", "values"), SHAPES, ids=IDS)
+def test_residuals_change_with_parameters_as_those_of_shapes_beside(family, values) -> None:
+    """What holds fast which edge bounds a pixel, and asks no other, says the same."""
+    params, rng = np.array(values), np.random.default_rng(0)
+    around = VIEW.project(np.vstack(family.hulls(params, VIEW)))
+    pixels = rng.uniform(around.min(axis=0) - 10, around.max(axis=0) + 10, (300, 2))
+    points = family.center(params) + rng.uniform(-0.1, 0.1, (100, 3))
+    seen = Observation(VIEW, pixels[:100], pixels[100:200], pixels[200:], points, 0.1)
+    step = 1e-6
+    others = list(params + step * np.eye(len(params)))
+    here = residuals_of(family, seen, params)
+    slopes = (residuals_beside(family, seen, params, others) - here) / step
+    exact = (np.array([residuals_of(family, seen, other) for other in others]) - here) / step
+    assert np.abs(exact).max() > 1
+    # Where two edges are equally far, the slope is that of the one or of the other.
+    assert np.mean(np.abs(slopes - exact) < 1e-3 * np.abs(exact).max()) > 0.995

@@ -46,10 +46,8 @@ class View:
     def project(self, points: Array) -> Array:
         """Pixels (n, 2) of points (n, 3)."""
         local = (points - self.position) @ self.rotation
-        depth = np.maximum(local[:, 2], NEAREST)
-        return np.column_stack(
-            [self.fx * local[:, 0] / depth + self.cx, self.fy * local[:, 1] / depth + self.cy]
-        )
+        depth = np.maximum(local[:, 2:], NEAREST)
+        return np.asarray(local[:, :2] * (self.fx, self.fy) / depth + (self.cx, self.cy))
 
     def depth_of(self, points: Array) -> Array:
         """Distances (n,) of points (n, 3) along the optical axis."""

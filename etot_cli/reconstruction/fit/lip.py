@@ -169,20 +169,23 @@ def _edge_at(wall: _Wall, height: float, second: float | None) -> _Edge | None:
     profile = _profile(wall, height)
     if profile is None:
         return None
-    variance = profile.variance
+    variance, blurs = profile.variance, np.array(BLURS) / wall.scale
     if second is None:
-        left, levels = min(
-            (_steps(profile, (height,), blur / wall.scale) for blur in BLURS), key=lambda f: f[0]
-        )
-        return _believed(levels, _Edge(height, left, variance - left, variance))
+        lefts, levels = _steps(profile, np.full((len(BLURS), 1), height), blurs)
+        best = int(np.argmin(lefts))
+        left = float(lefts[best])
+        return _believed(levels[best], _Edge(height, left, variance - left, variance))
     edges: list[_Edge] = []
-    seconds = [at for at in second + np.array([-1.0, -0.5, 0.0, 0.5]) / wall.scale
-               if at > height + APART / wall.scale]  # fmt: skip
-    for blur in (b / wall.scale for b in BLURS) if seconds else ():
-        alone = min(_steps(profile, (at,), blur)[0] for at in seconds)
-        left, levels = min((_steps(profile, (height, at), blur) for at in seconds),
-                           key=lambda f: f[0])  # fmt: skip
-        edge = _believed(levels, _Edge(height, left, alone - left, variance))
+    seconds = second + np.array([-1.0, -0.5, 0.0, 0.5]) / wall.scale
+    seconds = seconds[seconds > height + APART / wall.scale]
+    both = np.column_stack([np.full(len(seconds), height), seconds])
+    for blur in blurs if len(seconds) else ():
+        same = np.full(len(seconds), blur)
+        alone = float(_steps(profile, seconds[:, None], same)[0].min())
+        lefts, levels = _steps(profile, both, same)
+        best = int(np.argmin(lefts))
+        left = float(lefts[best])
+        edge = _believed(levels[best], _Edge(height, left, alone - left, variance))
         edges += [] if edge is None else [edge]
     return max(edges, key=lambda edge: edge.gain, default=None)
 
@@ -210,9 +213,17 @@ def _profile(wall: _Wall, height: float) -> _Profile | None:
     return _Profile(heights[kept], mean, weights[kept])
 
 
-def _steps(profile: _Profile, edges: tuple[float, ...], blur: float) -> tuple[float, Array]:
-    """What blurred steps at edges leave unexplained, and the steps' colours (k, 3)."""
-    shape = np.column_stack([ndtr((profile.heights - edge) / blur) for edge in edges])
-    root = np.sqrt(profile.weights)[:, None]
-    levels = np.linalg.lstsq(shape * root, profile.colors * root, rcond=None)[0]
-    return profile.rest(profile.colors - shape @ levels), levels
+def _steps(profile: _Profile, edges: Array, blurs: Array) -> tuple[Array, Array]:
+    """What blurred steps leave unexplained (n,), and the steps' colours (n, k, 3).
+
+    Args:
+        profile: the colours.
+        edges: heights (n, k) of k steps that are there together [m].
+        blurs: standard deviations (n,) of each set's blur [m].
+    """
+    shape = ndtr((profile.heights[:, None] - edges[:, None, :]) / blurs[:, None, None])
+    weighted = np.swapaxes(shape * profile.weights[:, None], 1, 2)
+    # Of steps beyond all that is seen nothing can be said: their colour is none.
+    levels = np.linalg.pinv(weighted @ shape, hermitian=True) @ (weighted @ profile.colors)
+    errors = ((profile.colors - shape @ levels) ** 2).sum(axis=2)
+    return errors @ profile.weights / profile.weights.sum(), levels

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 
@@ -34,6 +35,9 @@ LEAST_SPREAD = 30
 """With fewer readings depth does not say how large a thing is."""
 FREE_RING = 25
 """How far around a mask free space is sampled [px]."""
+LOOKED_AT = FREE_RING + SEAM
+"""What is farther from a mask says nothing about its object: neither is free space sampled there,
+nor is anything there in front of what is sampled [px]."""
 
 
 @dataclass(frozen=True)
@@ -107,21 +111,28 @@ def observe(
         erosion: pixels at the mask's edge whose depth is not trusted.
     """
     height, width = mask.shape
+    corner, window = _window(mask)
+    heights = cloud[..., 2]
+    mask, nearness, cloud = mask[window], nearness[window], cloud[window]
     ring = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
     # Who is in front is asked a little inside each mask, where depth is sure.
     wide = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 3,) * 2)
     own = _spread(nearness, mask, wide)
     occluder, hiding = np.zeros_like(mask), np.zeros_like(mask)
     hull = convex_hull_mask(mask)
-    level = median_height(cloud, mask)
-    for other in others:
-        border = other & np.isfinite(own)
-        if (other & hull).sum() > CONTAINED * other.sum():
+    level = _median_of(cloud[..., 2][mask])
+    near = np.isfinite(own)
+    for everywhere in others:
+        other = everywhere[window]
+        border = other & near
+        if np.count_nonzero(other & hull) > CONTAINED * np.count_nonzero(everywhere):
             front = other  # it lies on or in the object: its edge is not the object's
+        elif not border.any():
+            continue
         else:
             foreign = _spread(nearness, other, wide)
             front = border & (foreign < own - MARGIN)
-            if median_height(cloud, other) > level + HIGHER:
+            if _median_of(heights[everywhere]) > level + HIGHER:
                 # Where they touch, depth cannot tell; what is higher hides what is lower.
                 front |= border & (foreign < own + CLOSE)
         occluder |= front
@@ -136,14 +147,14 @@ def observe(
     v, u = np.nonzero(mask)
     for du, dv in NEIGHBOURS:
         nu, nv = u + du, v + dv
-        within = (nu >= 0) & (nu < width) & (nv >= 0) & (nv < height)
+        within = (nu >= 0) & (nu < mask.shape[1]) & (nv >= 0) & (nv < mask.shape[0])
         pu, pv = u[within], v[within]
         nu, nv = nu[within], nv[within]
         outside = ~mask[nv, nu]
         total += int(outside.sum())
         keep = outside & ~occluder[nv, nu]
         edges.append(np.column_stack([pu[keep] + du / 2, pv[keep] + dv / 2]))
-    found = np.vstack(edges).astype(np.float64)
+    found = np.vstack(edges) + corner
     near_border = (
         (found[:, 0] < 2) | (found[:, 0] > width - 3)
         | (found[:, 1] < 2) | (found[:, 1] > height - 3)
@@ -153,12 +164,12 @@ def observe(
     grown = cv2.dilate(mask.astype(np.uint8), reach) > 0
     close = cv2.dilate(mask.astype(np.uint8), ring) > 0
     hiding |= occluder
-    free = np.column_stack(np.nonzero(grown & ~close & ~hiding)[::-1]).astype(np.float64)
+    free = _pixels(grown & ~close & ~hiding) + corner
     kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
     sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
     # Pixels at the edge say no more than the edge itself, and the mask may err there.
     within = sure if sure.any() else mask
-    inside = np.column_stack(np.nonzero(within)[::-1]).astype(np.float64)
+    inside = _pixels(within) + corner
     points = cloud[sure]
     points = points[np.isfinite(points[:, 2])]
     return Observation(view, found, free, inside, points, base,
@@ -167,7 +178,10 @@ def observe(
 
 def median_height(cloud: Array, mask: Mask) -> float:
     """Median height of a mask's readings [m]; low where there are none."""
-    heights = cloud[..., 2][mask]
+    return _median_of(cloud[..., 2][mask])
+
+
+def _median_of(heights: Array) -> float:
     heights = heights[np.isfinite(heights)]
     return float(np.median(heights)) if len(heights) else -1.0
 
@@ -175,10 +189,24 @@ def median_height(cloud: Array, mask: Mask) -> float:
 def convex_hull_mask(mask: Mask) -> Mask:
     """The convex hull of a mask (h, w), filled."""
     filled = np.zeros(mask.shape, np.uint8)
-    points = np.column_stack(np.nonzero(mask)[::-1]).astype(np.int32)
+    points = _pixels(mask)
     if len(points):
-        cv2.fillConvexPoly(filled, cv2.convexHull(points), 1)
+        cv2.fillConvexPoly(filled, cv2.convexHull(points.astype(np.int32)), 1)
     return np.asarray(filled > 0)
+
+
+def _pixels(mask: Mask) -> NDArray[np.intp]:
+    return np.column_stack(np.nonzero(mask)[::-1])
+
+
+def _window(mask: Mask) -> tuple[Array, tuple[slice, slice]]:
+    """Pixels around a mask: the first of them, and where they are in pictures (h, w)."""
+    pixels = _pixels(mask)
+    if not len(pixels):
+        return np.zeros(2), (slice(None), slice(None))
+    left, top = np.maximum(pixels.min(axis=0) - LOOKED_AT, 0)
+    right, bottom = pixels.max(axis=0) + LOOKED_AT + 1
+    return np.array([left, top], dtype=np.float64), (slice(top, bottom), slice(left, right))
 
 
 def _spread(nearness: Array, mask: Mask, kernel: object) -> Array:

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from etot_cli.reconstruction.capture.view import Array, View
+from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.silhouette import (
+    bounding_edges,
+    distances_beside,
+    silhouette_distance,
+)
 from etot_cli.reconstruction.fit.solver import TOLERANCE, minimize
-from etot_cli.reconstruction.shapes.base import Evidence, Family, convex_distance
+from etot_cli.reconstruction.shapes.base import Evidence, Family
 
 FREE_WEIGHT = 0.5
 """Of a pixel inside the outline where nothing is, against an edge that is off by as much."""
@@ -64,12 +70,6 @@ class Fit:
         return self.score - SIMPLICITY * self.family.complexity
 
 
-def silhouette_distance(hulls: list[Array], view: View, pixels: Array) -> Array:
-    """Signed distance (n,) [px] of pixels (n, 2) from the union of projected hulls."""
-    found = [convex_distance(pixels, view.project(points)) for points in hulls]
-    return np.asarray(np.min(found, axis=0))
-
-
 def fit_shape(
     family: Family,
     seen: Observation,
@@ -107,40 +107,67 @@ def fit_shape(
     def residuals(part: Array) -> Array:
         return residuals_of(family, seen, whole(part))
 
+    def beside(part: Array, others: Array) -> Array:
+        return residuals_beside(family, seen, whole(part), [whole(other) for other in others])
+
     scale = np.where([n == "yaw" or n == "angle" for n in family.names], 0.1, 0.02)[free]
     solution = minimize(
         residuals, begin[free], scale=scale, low=low[free], high=high[free], steps=steps,
-        tolerance=tolerance,
+        tolerance=tolerance, beside=beside,
     )  # fmt: skip
     return whole(solution.x)
 
 
 def residuals_of(family: Family, seen: Observation, params: Array) -> Array:
     """Weighted residuals of silhouette, free space, depth and prior."""
-    hulls = family.hulls(params, seen.view)
-    parts = []
-    distance = silhouette_distance(hulls, seen.view, seen.pixels)
+    distance = silhouette_distance(family.hulls(params, seen.view), seen.view, seen.pixels)
+    depth = family.distance(params, seen.points) if len(seen.points) else np.zeros(0)
+    return _weighted(seen, distance, depth, family.prior(params))
+
+
+def residuals_beside(
+    family: Family, seen: Observation, params: Array, others: Sequence[Array]
+) -> Array:
+    """As :func:`residuals_of` (k, m), of k parameter vectors that are very near to ``params``."""
+    edges = bounding_edges(family.hulls(params, seen.view), seen.view, seen.pixels)
+    distances = None
+    if edges is not None:
+        shapes = [family.hulls(other, seen.view) for other in others]
+        distances = distances_beside(shapes, seen.view, seen.pixels, edges)
+    if distances is None:
+        return np.array([residuals_of(family, seen, other) for other in others])
+    depths = np.zeros((len(others), len(seen.points)))
+    if len(seen.points):
+        for depth, other in zip(depths, others, strict=True):
+            depth[:] = family.distance(other, seen.points)
+    return _weighted(seen, distances, depths, np.array([family.prior(other) for other in others]))
+
+
+def _weighted(seen: Observation, distance: Array, depth: Array, prior: Array) -> Array:
+    """Residuals (..., m) from distances [px] of the pixels, of the points [m], and the prior's."""
     e, f = len(seen.edges), len(seen.edges) + len(seen.free)
+    parts = []
     # Each kind of evidence counts as much as its own number of points, evened out to 100.
     if e:
-        parts.append(distance[:e] / seen.edge_sigma * np.sqrt(100 / e))
+        parts.append(distance[..., :e] * (np.sqrt(100 / e) / seen.edge_sigma))
     if f > e:
-        parts.append(np.minimum(distance[e:f], 0.0) * FREE_WEIGHT * np.sqrt(50 / (f - e)))
+        parts.append(np.minimum(distance[..., e:f], 0.0) * (FREE_WEIGHT * np.sqrt(50 / (f - e))))
     if len(seen.pixels) > f:
         count = len(seen.pixels) - f
-        parts.append(np.maximum(distance[f:], 0.0) * FREE_WEIGHT * np.sqrt(50 / count))
+        parts.append(np.maximum(distance[..., f:], 0.0) * (FREE_WEIGHT * np.sqrt(50 / count)))
     if len(seen.points):
-        depth = family.distance(params, seen.points) / seen.depth_sigma
-        parts.append(depth * np.sqrt(100 / len(seen.points)))
-    parts.append(family.prior(params))
-    return np.concatenate(parts)
+        parts.append(depth * (np.sqrt(100 / len(seen.points)) / seen.depth_sigma))
+    parts.append(prior)
+    return np.concatenate(parts, axis=-1)
 
 
 def judge(family: Family, seen: Observation, params: Array) -> Fit:
     """How well a shape explains an observation."""
     hulls = family.hulls(params, seen.view)
     plausible = family.plausible(params) and max(family.size(params)) < MOST_HIDDEN * seen.spread
-    edge = np.abs(silhouette_distance(hulls, seen.view, seen.edges)) if len(seen.edges) else None
+    distance = silhouette_distance(hulls, seen.view, seen.pixels)
+    e, f = len(seen.edges), len(seen.edges) + len(seen.free)
+    edge = np.abs(distance[:e]) if e else None
     signed = family.distance(params, seen.points) if len(seen.points) else np.zeros(0)
     edge_rms = 0.0 if edge is None else trimmed_rms(edge)
     depth_rms = trimmed_rms(np.abs(signed))
@@ -148,7 +175,7 @@ def judge(family: Family, seen: Observation, params: Array) -> Fit:
     total = len(signed)
     if edge is not None:
         good, total = good + int((edge < EXPLAINED_PX).sum()), total + len(edge)
-    stray = silhouette_distance(hulls, seen.view, seen.free) if len(seen.free) else np.zeros(0)
+    stray = distance[e:f]
     spill = float(np.mean(np.maximum(-stray, 0.0) ** 2)) if len(stray) else 0.0
     # The few points that tell similar shapes apart, such as those at the ends of a rod, must count.
     score = (

@@ -21,6 +21,7 @@ from etot_cli.reconstruction.fit.protrusions import without_protrusions
 from etot_cli.reconstruction.fit.second_look import DOUBTFUL, GAIN, MOST_LOOKS
 from etot_cli.reconstruction.fit.supports import CONVINCING, fit_all, fit_alone
 from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.reconstruction.shapes.catalog import NO_FURNITURE
 from etot_cli.reconstruction.shapes.upright import Cylinder
 
 SEAM = LOST
@@ -45,6 +46,10 @@ def rejoin(
         if not all(any(item is solid for solid in solids) for item in pair):
             continue  # one of them has become a part of another
         rest = [item.segment for item in solids if all(item is not one for one in pair)]
+        # Furniture takes long to fit, and only counts against what is round otherwise.
+        plain = fit_alone(seen, union, rest, np.random.default_rng(seed), NO_FURNITURE)
+        if plain is None or not _is_better(plain, pair):
+            continue
         rng = np.random.default_rng(seed)
         whole = fit_alone(seen, union, rest, rng)
         if whole is not None and _is_better(whole, pair):

@@ -6,6 +6,7 @@ axis at a height that follows from both sizes. Each one's silhouette then helps 
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 
 import cv2
@@ -15,7 +16,12 @@ from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.fit.lip import rim_height
 from etot_cli.reconstruction.fit.observation import SEAM, Observation
-from etot_cli.reconstruction.fit.pose import fit_shape, judge, residuals_of
+from etot_cli.reconstruction.fit.pose import (
+    fit_shape,
+    judge,
+    residuals_beside,
+    residuals_of,
+)
 from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
@@ -74,18 +80,21 @@ def disagreement(solids: list[Solid], sigmas: dict[str, float] | None = None) ->
     return total
 
 
-def settle_on_rim(seen: Calibrated, solids: list[Solid]) -> list[Solid]:
+def settle_on_rim(
+    seen: Calibrated, solids: list[Solid], settled: Set[str] = frozenset()
+) -> list[Solid]:
     """Fits every ball that was found in or on a cup together with its cup.
 
     A cylinder whose top a ball covers may be a cup: it stays a cylinder where the ball on top of
-    it agrees better with the picture than one in a mouth.
+    it agrees better with the picture than one in a mouth. Pairs of those that are named in
+    ``settled`` stay as they are.
     """
     found = {solid.name: solid for solid in solids}
     for solid in solids:
         vessel = found.get(solid.support)
         if vessel is None or not isinstance(vessel.fit.family, Cylinder):
             continue
-        if not isinstance(solid.fit.family, Ball):
+        if not isinstance(solid.fit.family, Ball) or {solid.name, vessel.name} <= settled:
             continue
         pair = _in_the_mouth(seen, as_cup(vessel), solid)
         if vessel.kind == "cylinder" and disagreement([vessel, solid]) <= disagreement([*pair]):
@@ -173,24 +182,39 @@ def _together(
             [*place, resting_height(cup, values[4], rim=rim) + values[6], values[4]]
         )
 
-    def residuals(values: Array) -> Array:
-        cup, content = split(values)
+    def rules(values: Array, cup: Array, content: Array) -> list[float]:
         room = cup[3] / 2 - cup[5] - content[3] / 2
         off_axis = float(np.hypot(*(content[:2] - cup[:2])))
         broken = max(room, 0.0) if rim else max(off_axis - room, 0.0)
-        rules = [
+        broken_by = [
             (values[5] - WALL_PRIOR[0]) / WALL_PRIOR[1],
             30 * broken / TOO_SMALL,
             values[6] / (UNROUND if rim else ON_FLOOR),
         ]
         if tall is not None:
-            rules.append((values[3] - tall) / LIP_SIGMA)
+            broken_by.append((values[3] - tall) / LIP_SIGMA)
+        return broken_by
+
+    def residuals(values: Array) -> Array:
+        cup, content = split(values)
         return np.concatenate(
             [
                 residuals_of(vessel.fit.family, vessel.observation, cup),
                 residuals_of(ball.fit.family, ball.observation, content),
-                rules,
+                rules(values, cup, content),
             ]
+        )
+
+    def beside(values: Array, others: Array) -> Array:
+        cup, content = split(values)
+        cups, contents = zip(*(split(other) for other in others), strict=True)
+        return np.concatenate(
+            [
+                residuals_beside(vessel.fit.family, vessel.observation, cup, cups),
+                residuals_beside(ball.fit.family, ball.observation, content, contents),
+                list(map(rules, others, cups, contents)),
+            ],
+            axis=1,
         )
 
     if tall is not None:
@@ -200,5 +224,5 @@ def _together(
     if not rim:
         start += list(ball_start[:2])
     begin = np.array(start)
-    solution = minimize(residuals, begin, scale=np.full(len(begin), 0.02), steps=60)
+    solution = minimize(residuals, begin, scale=np.full(len(begin), 0.02), steps=60, beside=beside)
     return solution.cost, *split(solution.x)

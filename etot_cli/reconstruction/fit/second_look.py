@@ -16,10 +16,10 @@ from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import median_height
 from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED, Fit
 from etot_cli.reconstruction.fit.refine import exact_depth
-from etot_cli.reconstruction.fit.supports import fit_all, free_ball
+from etot_cli.reconstruction.fit.supports import fit_all, free_ball, window_around
 from etot_cli.reconstruction.masks.boundaries import refine_masks
 from etot_cli.reconstruction.masks.color_regions import UNLIKE, color_regions
-from etot_cli.reconstruction.objects import Segment, Solid
+from etot_cli.reconstruction.objects import DESK, Segment, Solid
 
 DOUBTFUL = 0.95
 """A shape that explains less of what is seen gets a second look, as one with a bad misfit does."""
@@ -71,11 +71,26 @@ def look_again(
             replace(solid.segment, name=f"{solid.name}_{index}", mask=part)
             for index, part in enumerate(_redrawn(seen, parts, others), start=1)
         ]
-        again = fit_all(seen, [*others, *pair], rng=rng, hints=hints)
+        kept = _apart(solid, whole[solid.name].mask, solids)
+        again = fit_all(seen, [*others, *pair], rng=rng, hints=hints, kept=kept)
         if _is_filled_mouth(again, pair, solid.fit):
             solids = again
             whole = {segment.name: segment for segment in [*others, *pair]}
     return solids
+
+
+def _apart(solid: Solid, mask: Mask, solids: list[Solid]) -> dict[str, Solid]:
+    """The solids, by name, for which it is all the same what becomes of one of them.
+
+    They are not near its pixels (h, w) in the picture, nor do they carry what is, or stand on it.
+    """
+    touched = {solid.name} | {
+        other.name for other in solids if mask[window_around(other.segment.mask)].any()
+    }
+    pairs = [{other.name, other.support} for other in solids if other.support != DESK]
+    for _ in solids:
+        touched.update(*(pair for pair in pairs if pair & touched))
+    return {other.name: other for other in solids if other.name not in touched}
 
 
 def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], rng: np.random.Generator) -> bool:

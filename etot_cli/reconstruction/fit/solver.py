@@ -26,6 +26,10 @@ TOLERANCE = 1e-7
 """A step that lowers the cost by a smaller share is the last one."""
 STEP_TOLERANCE = 1e-7
 """So is a step that is shorter than this, in scales of the parameters."""
+TOO_LONG = 1e-3
+"""A step this share too long is cut instead of damped more: the radius itself is a guess."""
+MOST_DAMPINGS = 20
+"""Newton's steps to a step's damping; a handful is usual."""
 POOR, GOOD = 0.25, 0.75
 """Shares of the promised gain below which steps get shorter, and above which longer."""
 
@@ -47,6 +51,7 @@ def minimize(
     high: Array | None = None,
     steps: int = 60,
     tolerance: float = TOLERANCE,
+    beside: Callable[[Array, Array], Array] | None = None,
 ) -> Minimum:
     """Parameters that make the sum of softened squares of residuals small.
 
@@ -61,13 +66,20 @@ def minimize(
         high: highest parameters (n,); none by default.
         steps: most evaluations of the residuals, those for derivatives not counted.
         tolerance: see :data:`TOLERANCE`.
+        beside: maps parameters (n,) and others (k, n) very near to them to the residuals (k, m) of
+            the others, where that takes less than all of ``residuals`` for each.
     """
+    if beside is None:
+
+        def beside(x: Array, others: Array) -> Array:
+            return np.array([residuals(other) for other in others])
+
     low = np.full(len(start), -np.inf) if low is None else low
     high = np.full(len(start), np.inf) if high is None else high
     x = np.clip(np.asarray(start, dtype=np.float64), low, high)
     values = residuals(x)
     cost, radius = _cost(values), FIRST_RADIUS
-    gradient, curved = _model(residuals, x, values, scale, high)
+    gradient, curved = _model(beside, x, values, scale, high)
     for _ in range(steps - 1):
         step = _step(gradient, curved, (low - x) / scale, (high - x) / scale, radius)
         length = float(np.linalg.norm(step))
@@ -85,7 +97,7 @@ def minimize(
             cost -= gain
             if gain < tolerance * cost:
                 break
-            gradient, curved = _model(residuals, x, values, scale, high)
+            gradient, curved = _model(beside, x, values, scale, high)
     return Minimum(x, cost)
 
 
@@ -94,15 +106,13 @@ def _cost(values: Array) -> float:
 
 
 def _model(
-    residuals: Callable[[Array], Array], x: Array, values: Array, scale: Array, high: Array
+    beside: Callable[[Array, Array], Array], x: Array, values: Array, scale: Array, high: Array
 ) -> tuple[Array, Array]:
     """Gradient (n,) and approximate curvature (n, n) of the cost, per scale of the parameters."""
-    slopes = np.empty((len(x), len(values)))
-    for index in range(len(x)):
-        moved = x.copy()
-        change = DIFFERENCE * scale[index]
-        moved[index] += change if x[index] + change <= high[index] else -change
-        slopes[index] = (residuals(moved) - values) * (scale[index] / (moved[index] - x[index]))
+    change = DIFFERENCE * scale
+    moved = x + np.diag(np.where(x + change <= high, change, -change))
+    change = np.diag(moved) - x
+    slopes = (beside(x, moved) - values) * (scale / change)[:, None]
     spread = 1.0 + (values / ROBUST) ** 2
     return slopes @ (values / np.sqrt(spread)), (slopes * spread**-1.5) @ slopes.T
 
@@ -113,10 +123,13 @@ def _step(gradient: Array, curved: Array, low: Array, high: Array, radius: float
     free = ~(((low >= 0) & (gradient > 0)) | ((high <= 0) & (gradient < 0)))
     # A parameter whose step a bound cuts off stays at the bound, and the others are asked again.
     while free.any():
-        inner = curved[np.ix_(free, free)]
-        slope = gradient[free] + curved[np.ix_(free, ~free)] @ step[~free]
-        rest = radius**2 - float(step[~free] @ step[~free])
-        step[free] = _inside_ball(slope, inner, np.sqrt(max(rest, 0.0)))
+        if free.all():
+            step = _inside_ball(gradient, curved, radius)
+        else:
+            inner = curved[np.ix_(free, free)]
+            slope = gradient[free] + curved[np.ix_(free, ~free)] @ step[~free]
+            rest = radius**2 - float(step[~free] @ step[~free])
+            step[free] = _inside_ball(slope, inner, np.sqrt(max(rest, 0.0)))
         cut = free & ((step < low) | (step > high))
         step = np.clip(step, low, high)
         if not cut.any():
@@ -131,15 +144,14 @@ def _inside_ball(gradient: Array, curved: Array, radius: float) -> Array:
     values = np.maximum(values, 1e-12 * max(float(values[-1]), 1e-12))
     along = axes.T @ gradient
     step = along / values
-    if float(step @ step) > radius**2:
-        # Damping from which on the step fits into the ball, by bisection of its logarithm.
-        lowest, highest = 1e-12 * values[-1], float(np.linalg.norm(along)) / max(radius, 1e-12)
-        for _ in range(40):
-            damping = float(np.sqrt(lowest * highest))
-            step = along / (values + damping)
-            if float(step @ step) > radius**2:
-                lowest = damping
-            else:
-                highest = damping
-        step = along / (values + highest)
-    return np.asarray(-axes @ step)
+    length = float(np.linalg.norm(step))
+    damping = 0.0
+    # The damping at which the step is just as long as allowed; Newton's steps come from below.
+    for _ in range(MOST_DAMPINGS):
+        if length <= radius * (1 + TOO_LONG):
+            break
+        slope = float(step @ (step / (values + damping)))
+        damping += length**2 / slope * (length / max(radius, 1e-12) - 1.0)
+        step = along / (values + damping)
+        length = float(np.linalg.norm(step))
+    return np.asarray(-axes @ step) * min(1.0, radius / max(length, 1e-300))

@@ -6,11 +6,14 @@ the one with which silhouette and depth agree best is kept.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import Observation, observe
 from etot_cli.reconstruction.fit.pose import (
     COARSE,
@@ -46,6 +49,7 @@ def fit_all(
     *,
     rng: np.random.Generator,
     hints: dict[str, str] | None = None,
+    kept: Mapping[str, Solid] = MappingProxyType({}),
 ) -> list[Solid]:
     """Shapes, poses and supports of all objects.
 
@@ -54,6 +58,7 @@ def fit_all(
         segments: the objects' pixels.
         rng: draws samples.
         hints: kinds by object name that are known from elsewhere.
+        kept: solids of segments that have been fitted already, by name.
 
     Returns:
         one solid for every segment that could be fitted, supports before what they carry.
@@ -62,11 +67,14 @@ def fit_all(
     order = sorted(segments, key=lambda segment: _lowest(seen, segment))
     done: list[Solid] = []
     for segment in order:
+        if segment.name in kept:
+            done.append(kept[segment.name])
+            continue
         solid = _fit_one(seen, segment, segments, done, rng, hints.get(segment.name))
         if solid is not None:
             done.append(solid)
             done = _reopened(seen, segments, done, rng, hints)
-    return settle_on_rim(seen, done)
+    return settle_on_rim(seen, done, kept.keys())
 
 
 def _reopened(
@@ -121,10 +129,14 @@ def _ball_in(
 
 
 def fit_alone(
-    seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
+    seen: Calibrated,
+    segment: Segment,
+    others: list[Segment],
+    rng: np.random.Generator,
+    hint: str | None = None,
 ) -> Solid | None:
     """A segment's shape on the desk; ``others`` may hide parts of it."""
-    return _fit_one(seen, segment, [segment, *others], [], rng, None)
+    return _fit_one(seen, segment, [segment, *others], [], rng, hint)
 
 
 def free_ball(
@@ -151,16 +163,21 @@ def _lowest(seen: Calibrated, segment: Segment) -> float:
     return float(np.percentile(heights, 5) + 0.3 * np.percentile(heights, 95))
 
 
+def window_around(mask: Mask) -> tuple[slice, slice]:
+    """Where in a picture (h, w) things are that may change what is seen of the one of a mask."""
+    rows, columns = (
+        slice(max(0, int(at.min()) - AROUND), int(at.max()) + AROUND) for at in np.nonzero(mask)
+    )
+    return rows, columns
+
+
 def _observe(seen: Calibrated, segment: Segment, segments: list[Segment]) -> Observation:
     nearness = np.where(seen.depth > 0, seen.depth, np.inf)
-    rows, columns = np.nonzero(segment.mask)
-    window = tuple(
-        slice(max(0, int(at.min()) - AROUND), int(at.max()) + AROUND) for at in (rows, columns)
-    )
+    around = window_around(segment.mask)
     others = [
         mask
         for mask in (*(o.mask for o in segments if o.name != segment.name), *seen.aside)
-        if mask[window].any()
+        if mask[around].any()
     ]
     exact = exact_depth(seen)
     observation = observe(

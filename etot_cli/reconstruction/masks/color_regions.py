@@ -88,6 +88,14 @@ def _extent(mask: Mask, direction: Array) -> float:
 
 def color_regions(color: NDArray[np.float32], piece: Mask) -> Labels:
     """Connected regions of one colour in a piece, all of its pixels labelled; (h, w) int32."""
+    # Whether colour changes beside a pixel shows one pixel beyond the piece.
+    window = tuple(slice(max(0, int(at.min()) - 1), int(at.max()) + 2) for at in np.nonzero(piece))
+    labels = np.zeros(piece.shape, np.int32)
+    labels[window] = _regions(color[window], piece[window])
+    return labels
+
+
+def _regions(color: NDArray[np.float32], piece: Mask) -> Labels:
     pixels = color[piece]
     if len(pixels) < 2 * LEAST_REGION:
         return piece.astype(np.int32)

@@ -27,12 +27,14 @@ class Ball(Family):
         offset = center - view.position
         away = max(float(np.linalg.norm(offset)), radius * 1.01)
         axis = offset / away
-        side = np.cross(axis, [0.0, 0.0, 1.0] if abs(axis[2]) < 0.9 else [1.0, 0.0, 0.0])
+        x, y, z = axis
+        side = np.array([y, -x, 0.0] if abs(z) < 0.9 else [0.0, z, -y])
         side /= np.linalg.norm(side)
+        across = [y * side[2] - z * side[1], z * side[0] - x * side[2], x * side[1] - y * side[0]]
         # The circle in which the cone of tangent rays touches the ball.
         ring = radius * np.sqrt(1 - (radius / away) ** 2)
         middle = center - axis * radius**2 / away
-        return [middle + ring * (CIRCLE[:, :1] * side + CIRCLE[:, 1:] * np.cross(axis, side))]
+        return [middle + ring * (CIRCLE[:, :1] * side + CIRCLE[:, 1:] * across)]
 
     def distance(self, params: Array, points: Array) -> Array:
         return np.asarray(np.linalg.norm(points - self.center(params), axis=1) - params[3] / 2)

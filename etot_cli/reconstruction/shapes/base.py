@@ -9,10 +9,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.view import Array, View
 
@@ -24,6 +26,11 @@ GREATEST = 0.9
 """No side of an object is larger [m]."""
 _ANGLES = np.linspace(0.0, 2 * np.pi, SIDES, endpoint=False)
 CIRCLE = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
+UPPER = np.indices((2, 2, 2)).reshape(3, 8).T == 1
+"""Of a box's corners (8, 3), along which axes they are at its upper end."""
+Boxes = Sequence[Sequence[Sequence[float]]] | Array
+"""Boxes (k, 2, d): their lowest and highest corners."""
+LEVEL_CIRCLE = np.column_stack([CIRCLE, np.zeros(SIDES)])
 
 
 @dataclass(frozen=True)
@@ -102,8 +109,7 @@ class Family(ABC):
 
 def circle(x: float, y: float, z: float, radius: float) -> Array:
     """A level circle (SIDES, 3)."""
-    return np.column_stack([x + radius * CIRCLE[:, 0], y + radius * CIRCLE[:, 1],
-                            np.full(SIDES, z)])  # fmt: skip
+    return LEVEL_CIRCLE * radius + (x, y, z)
 
 
 def rotate(points: Array, yaw: float) -> Array:
@@ -120,18 +126,24 @@ def own_frame(points: Array, params: Array, yaw: float) -> Array:
     return rotate(points - params[:3], -yaw)
 
 
-def box_corners(low: Sequence[float], high: Sequence[float]) -> Array:
-    """The corners (8, 3) of a box."""
-    return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1])
-                     for z in (low[2], high[2])])  # fmt: skip
+def box_corners(boxes: Boxes) -> Array:
+    """The corners (k, 8, 3) of boxes."""
+    ends = np.asarray(boxes, dtype=np.float64)[:, :, None]
+    return np.where(UPPER, ends[:, 1], ends[:, 0])
 
 
-def box_distance(points: Array, low: Array, high: Array) -> Array:
-    """Signed distance (n,) of points (n, d) from a box in d dimensions."""
-    outside = np.abs(points - (low + high) / 2) - (high - low) / 2
-    deepest = np.minimum(outside.max(axis=1), 0.0)
+def box_distance(points: Array, boxes: Boxes) -> Array:
+    """Signed distance (n,) of points (n, d) from the nearest of boxes in d dimensions."""
+    ends = np.asarray(boxes, dtype=np.float64).T[..., None]
+    low, high = ends[:, 0], ends[:, 1]
+    # Each axis by itself lies together in memory: sums over axes are sums of rows.
+    along = np.ascontiguousarray(points.T)[:, None]
+    outside = np.abs(along - (low + high) / 2) - (high - low) / 2
+    deepest = np.minimum(outside.max(axis=0), 0.0)
     beyond = np.maximum(outside, 0.0, out=outside)
-    return np.asarray(np.sqrt(np.einsum("ij,ij->i", beyond, beyond)) + deepest)
+    beyond *= beyond
+    found = np.sqrt(beyond.sum(axis=0)) + deepest
+    return np.asarray(found[0] if len(found) == 1 else found.min(axis=0))
 
 
 def convex_distance(points: Array, polygon: Array) -> Array:
@@ -139,23 +151,45 @@ def convex_distance(points: Array, polygon: Array) -> Array:
 
     Outside beyond a corner it is an underestimate, which a fit does not mind.
     """
-    # Single precision is enough to say which corners there are, if they lie around the origin.
-    corners = cv2.convexHull(
-        (polygon - polygon[0]).astype(np.float32), clockwise=False, returnPoints=False
-    )
-    hull = polygon[corners[:, 0]]
-    along = np.empty_like(hull)
-    along[:-1], along[-1] = hull[1:] - hull[:-1], hull[0] - hull[-1]
-    length = np.hypot(along[:, 0], along[:, 1])
-    if len(hull) < 3 or length.min() <= 0:
+    hull = polygon[corners_of(polygon)]
+    planes = half_planes(hull, hull[following(len(hull))])
+    if planes is None:
         return np.asarray(np.linalg.norm(points - polygon.mean(axis=0), axis=1))
-    planes = np.empty((len(hull), 3))
-    planes[:, 0], planes[:, 1] = along[:, 1] / length, -along[:, 0] / length
-    planes[:, 2] = -(planes[:, :2] * hull).sum(axis=1)
     # One product with homogeneous points is much quicker than a product and a sum.
     homogeneous = np.ones((3, len(points)))
     homogeneous[:2] = points.T
     return np.asarray((planes @ homogeneous).max(axis=0))
+
+
+def corners_of(polygon: Array) -> NDArray[np.intp]:
+    """Which points (k, 2) are corners of their hull, in the order in which they go round it."""
+    # Single precision is enough to say which corners there are, if they lie around the origin.
+    found = cv2.convexHull(
+        (polygon - polygon[0]).astype(np.float32), clockwise=False, returnPoints=False
+    )
+    return np.asarray(found, np.intp)[:, 0]
+
+
+@lru_cache(maxsize=256)
+def following(count: int) -> NDArray[np.intp]:
+    """For each of so many corners the next one round the hull (count,); not to be written to."""
+    return np.roll(np.arange(count), -1)
+
+
+def half_planes(begins: Array, ends: Array) -> Array | None:
+    """Lines (..., 3) along edges from ``begins`` (..., 2) to ``ends`` (..., 2).
+
+    With a line (a, b, c) the signed distance of a pixel is a u + b v + c. None where an edge has
+    no length, or there are too few for an outline.
+    """
+    along = ends - begins
+    length = np.hypot(along[..., 0], along[..., 1])
+    if length.shape[-1] < 3 or length.min() <= 0:
+        return None
+    planes = np.empty((*length.shape, 3))
+    planes[..., 0], planes[..., 1] = along[..., 1] / length, -along[..., 0] / length
+    planes[..., 2] = -(planes[..., 0] * begins[..., 0] + planes[..., 1] * begins[..., 1])
+    return planes
 
 
 def roof_rectangle(evidence: Evidence) -> tuple[Array, Array, float, float]:

@@ -30,11 +30,10 @@ class Block(Family):
         return [np.array([*center, evidence.base, yaw, *sides, height])]
 
     def hulls(self, params: Array, view: View) -> list[Array]:
-        return [self._place(box_corners(*self._extent(params)), params)]
+        return [self._place(box_corners([self._extent(params)])[0], params)]
 
     def distance(self, params: Array, points: Array) -> Array:
-        low, high = self._extent(params)
-        return box_distance(own_frame(points, params, params[3]), np.array(low), np.array(high))
+        return box_distance(own_frame(points, params, params[3]), [self._extent(params)])
 
     def size(self, params: Array) -> tuple[float, float, float]:
         return float(params[4]), float(params[5]), float(params[6])

@@ -122,21 +122,18 @@ class OpenUnit(_Case):
     def hulls(self, params: Array, view: View) -> list[Array]:
         length, width, height = params[4:7]
         fixed, moving = self.panels(params)
-        body = box_corners(
-            [-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height]
-        )
-        sets = [body, box_corners(*moving[0])]
-        sets += [box_corners(*panel) for panel in fixed if panel[1][0] > length / 2 - 1e-9]
+        body = [-length / 2, -width / 2, 0], [length / 2 - UNIT_WALL, width / 2, height]
+        whole = [body, moving[0], *(p for p in fixed if p[1][0] > length / 2 - 1e-9)]
+        corners = box_corners([*whole, *moving[1:]]).reshape(-1, 3)
+        placed = rotate(corners, params[3]) + params[:3]
         # The drawer's body is open at the top: its hull is that of its panels, front apart.
-        tray = [box_corners(*panel) for panel in moving[1:]]
-        sets.append(np.vstack(tray))
-        return [rotate(points, params[3]) + params[:3] for points in sets]
+        apart = 8 * len(whole)
+        return [*placed[:apart].reshape(-1, 8, 3), placed[apart:]]
 
     def distance(self, params: Array, points: Array) -> Array:
         local = own_frame(points, params, params[3])
         fixed, moving = self.panels(params)
-        found = [box_distance(local, np.array(low), np.array(high)) for low, high in fixed + moving]
-        return np.asarray(np.min(found, axis=0))
+        return box_distance(local, fixed + moving)
 
     def plausible(self, params: Array) -> bool:
         fits = self.drawers <= most_drawers(params[6])
@@ -191,11 +188,10 @@ class OpenCabinet(_Case):
 
     def hulls(self, params: Array, view: View) -> list[Array]:
         length, width, height = params[4:7]
-        body = box_corners(
-            [-length / 2, -width / 2, 0], [length / 2 - DOOR_THICKNESS, width / 2, height]
-        )
+        case = [-length / 2, -width / 2, 0], [length / 2 - DOOR_THICKNESS, width / 2, height]
+        body, leaf = box_corners([case, self._door_extent(params)])
         hinge, turn = self._door(params)
-        door = rotate(box_corners(*self._door_extent(params)), turn) + hinge
+        door = rotate(leaf, turn) + hinge
         return [rotate(points, params[3]) + params[:3] for points in (body, door)]
 
     def distance(self, params: Array, points: Array) -> Array:
@@ -209,11 +205,9 @@ class OpenCabinet(_Case):
             ([-depth, -width, 0.0], [front, -width + t, height]),
             ([-depth, width - t, 0.0], [front, width, height]),
         ]
-        found = [box_distance(local, np.array(low), np.array(high)) for low, high in panels]
         hinge, turn = self._door(params)
-        low, high = self._door_extent(params)
-        found.append(box_distance(rotate(local - hinge, -turn), np.array(low), np.array(high)))
-        return np.asarray(np.min(found, axis=0))
+        leaf = box_distance(rotate(local - hinge, -turn), [self._door_extent(params)])
+        return np.minimum(box_distance(local, panels), leaf)
 
     def plausible(self, params: Array) -> bool:
         return bool(min(params[4:7]) > 0.08 and params[7] > 0.03)

@@ -43,9 +43,7 @@ class Cylinder(Family):
 
     def distance(self, params: Array, points: Array) -> Array:
         radius, height = params[3] / 2, params[4]
-        return box_distance(
-            _profile(params, points), np.array([-radius, 0.0]), np.array([radius, height])
-        )
+        return box_distance(_profile(params, points), [[[-radius, 0.0], [radius, height]]])
 
     def size(self, params: Array) -> tuple[float, float, float]:
         return float(params[3]), float(params[3]), float(params[4])
@@ -78,9 +76,9 @@ class Cup(Cylinder):
     def distance(self, params: Array, points: Array) -> Array:
         profile, radius = _profile(params, points), params[3] / 2
         height, wall, floor = params[4:7]
-        side = box_distance(profile, np.array([radius - wall, 0.0]), np.array([radius, height]))
-        ground = box_distance(profile, np.array([-radius, 0.0]), np.array([radius, floor]))
-        return np.minimum(side, ground)
+        side = [[radius - wall, 0.0], [radius, height]]
+        ground = [[-radius, 0.0], [radius, floor]]
+        return box_distance(profile, [side, ground])
 
     def prior(self, params: Array) -> Array:
         return np.array([(params[5] - TYPICAL_WALL) / 0.0005, (params[6] - TYPICAL_FLOOR) / 0.0007])
