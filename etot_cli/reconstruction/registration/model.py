@@ -12,10 +12,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.reconstruction.shapes.base import own_frame
+from etot_cli.reconstruction.shapes.base import convex_distance, own_frame
 from etot_cli.reconstruction.shapes.free import FreeForm
 from etot_cli.world.pose import UP, rotation_between, turn_about
 from etot_cli.world.surface import sampled
@@ -120,12 +119,14 @@ def resting_turns(vertices: Array) -> list[Array]:
     center = np.asarray(hull.center_mass)
     tolerance = 1e-3 * float(np.ptp(vertices, axis=0).max())
     found: list[tuple[float, Array]] = []
-    seen: list[Array] = []
     order = np.argsort(-np.asarray(hull.area_faces))
-    for normal in np.asarray(hull.face_normals)[order]:
-        if any(normal @ other > np.cos(np.radians(COPLANAR)) for other in seen):
+    normals = np.asarray(hull.face_normals)[order]
+    seen = np.zeros(len(normals), dtype=bool)
+    for index, normal in enumerate(normals):
+        # Round things have thousands of facets: all earlier ones are asked at once.
+        if (normals[seen] @ normal > np.cos(np.radians(COPLANAR))).any():
             continue
-        seen.append(normal)
+        seen[index] = True
         heights = vertices @ normal
         ground = vertices[heights > heights.max() - tolerance]
         tip = _tip_angle(ground, normal, center, float(heights.max() - center @ normal))
@@ -143,10 +144,5 @@ def resting_turns(vertices: Array) -> list[Array]:
 def _tip_angle(ground: Array, normal: Array, center: Array, height: float) -> float:
     """By how much a thing on the side with this outward normal may lean [deg]; 0: it falls."""
     level = rotation_between(normal, -UP)[:2]
-    flat, middle = ground @ level.T, level @ center
-    try:
-        equations = ConvexHull(flat).equations
-    except (QhullError, ValueError):
-        return 0.0
-    margin = float(-(equations[:, :2] @ middle + equations[:, 2]).max())
+    margin = -float(convex_distance((level @ center)[None], ground @ level.T)[0])
     return float(np.degrees(np.arctan2(margin, max(height, 1e-9)))) if margin > 0 else 0.0
