@@ -132,6 +132,10 @@ class PartSearch:
             for move in self._in_two(partial):
                 found = True
                 yield move
+            for item in partial:
+                reached = fraction_open(self.part, item.move.reached)
+                if OPEN_AT <= reached < OPEN_AT + OPEN_SPARE:
+                    yield item.move
         if not found and explain:
             self._belief.checker.freeze(self._belief.data)
             for number, hold in enumerate(hindered[:MAX_HINDERED]):
