@@ -183,6 +183,16 @@ def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -
     episode(unit=GRIPPED, other=aside).must("[OPEN, unit]")
 
 
+@pytest.mark.parametrize(("side", "hinge"), [(1, "right"), (-1, "left")])
+def test_a_door_whose_hinge_is_far_is_pulled_by_its_edge_and_pushed_shut(
+    side: int, hinge: str
+) -> None:
+    """Its outer face looks away from the robot."""
+    at = {"at": [0.47, side * 0.26], "yaw_deg": -90 * side}
+    oven = OVEN | at | {"size": [0.20, 0.24, 0.24], "door": {"hinge": hinge, "open_deg": 85}}
+    assert episode(oven=oven).must("[CLOSE, oven]").states["oven"].openness["door"] <= CLOSED_AT
+
+
 POST = {"kind": "box", "size": [0.04, 0.26, 0.10], "fixed": True}
 
 
@@ -194,6 +204,12 @@ def test_what_is_fastened_before_a_door_is_named_and_without_it_the_door_opens(f
     assert record.cause is not None and record.cause.kind is CauseKind.BLOCKED
     assert record.cause.objects == ("post", "oven")
     episode(oven=oven).must("[OPEN, oven]")
+
+
+def test_a_door_that_only_just_gets_far_enough_is_opened() -> None:
+    size, door = [0.24, 0.30, 0.26], {"hinge": "right", "handle": {"vertical": True}}
+    oven = OVEN | {"at": [0.60, 0.0], "yaw_deg": 180, "size": size, "door": door}
+    assert episode(oven=oven).must("[OPEN, oven]").states["oven"].openness["door"] >= OPEN_AT
 
 
 def test_who_keeps_the_arm_from_a_door_is_named_or_swept_away() -> None:

@@ -128,7 +128,7 @@ class PartSearch:
             if self._suffices(item.move.reached):
                 found = True
                 yield item.move
-        if in_two and self.opening:
+        if in_two and (self.opening or not found):
             for move in self._in_two(partial):
                 found = True
                 yield move
@@ -182,15 +182,24 @@ class PartSearch:
         """
         face = self.part.inner if self.opening else self.part.outer
         pushed: list[Contact] = [] if face is None else [*pushes(self._travel, face)]
-        gripped: list[Contact] = [
-            *sorted(
-                (grip for grasp in self.part.grasps for grip in grips(self._travel, grasp)),
+        hinged = self.part.info.joint_type == "hinge"
+        gripped, edges = (
+            sorted(
+                (
+                    grip
+                    for grasp in self.part.grasps
+                    if (hinged and not grasp.bar) is last
+                    for grip in grips(self._travel, grasp)
+                ),
                 key=lambda grip: grip.cost,
             )
-        ]
-        kinds = [gripped, pushed]
+            for last in (False, True)
+        )
+        kinds: list[Sequence[Contact]] = [gripped, pushed]
         if not self.opening:
             kinds.reverse()
+        # Over the edge of a door the hand is held up by the furniture long before it is shut.
+        kinds.append(edges)
         for kind in (self._again(chain(*kinds)), *kinds):
             for contact in kind:
                 met = self._room(contact)
@@ -270,16 +279,19 @@ class PartSearch:
             yield best
 
     def _is_ajar(self, move: PreparedMove) -> bool:
-        """Whether an opening move leaves room for a second one."""
-        return self.opening and move.grip and move.length >= AJAR
+        """Whether a move leaves room for a second one: a finger's behind the part, or a push's
+        before a door that has been pulled towards the arm.
+        """
+        second = self.opening or self.part.info.joint_type == "hinge"
+        return second and move.grip and move.length >= AJAR
 
     def _in_two(self, partial: list[_Partial]) -> Iterator[PreparedMove]:
-        """Grips that bring the part far enough for a finger to get behind it, each with the move
-        that goes on from there. The hand often cannot stay on a handle all the way.
+        """Grips that bring the part so far that another hold goes on from there, each with the move
+        that does. The hand often cannot stay on a handle all the way.
         """
         ajar = (item.move for item in partial if self._is_ajar(item.move))
         for move in islice(ajar, MAX_FIRST_STEPS):
-            after = PartSearch(belief_after(self._belief, self.part, move), self.part, True)
+            after = PartSearch(belief_after(self._belief, self.part, move), self.part, self.opening)
             second = next(after.moves(in_two=False, explain=False), None)
             if second is not None:
                 yield replace(move, then=second)

@@ -23,6 +23,9 @@ DRAWER_GAP = 0.0015
 """Play between a drawer and its carcass [m]."""
 SIDE_HEIGHT = 0.6
 """Height of a drawer's sides as a share of its compartment."""
+DOOR_EDGE_SHARES = (0.85, 0.6, 0.35)
+"""Where along a door's upper edge it can be gripped, as shares of its width from the hinge: far out
+the lever is long, near the hinge the way is short."""
 EDGE_GRIP = 0.014
 """How far below a panel's edge the fingertips close on it [m]."""
 
@@ -231,6 +234,13 @@ def add_cabinet(
     if door.handle is not None:
         mount = (door.thickness - 0.001, reach * (span - 0.04), 0.0)
         grasps.append(_add_handle(moving, door.handle, look, mount))
+    grasps += [
+        Graspable(
+            (door.thickness / 2, reach * span * share, height - EDGE_GRIP), (1, 0, 0), (0, 1, 0),
+            0.005, door.thickness, ((0, 0, -1),), behind=0.0,
+        )
+        for share in DOOR_EDGE_SHARES
+    ]  # fmt: skip
     info = PartInfo(name, door.name, name, "hinge", travel, container=True, front=True)
     region = Region(
         name,
