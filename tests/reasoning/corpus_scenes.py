@@ -1114,3 +1114,12 @@ def craft_table() -> SceneState:
         item("shoe_box", "bowl", (0.48, -0.42), size=(0.24, 0.14, 0.10)),
         item("comb", "box", (0.30, -0.32), size=(0.14, 0.03, 0.01)),
     )  # fmt: skip
+
+
+def sideboard() -> SceneState:
+    """Two drawers beside each other, the right one open, a coaster and a torch."""
+    return scene(
+        drawers("sideboard", (0.62, 0.10), {"left": 0.0, "right": 0.9}, color="brown"),
+        item("torch", "cylinder", (0.35, 0.20), size=(0.04, 0.04, 0.12), color="black"),
+        item("coaster", "box", (0.30, -0.25), size=(0.10, 0.10, 0.01), color="green"),
+    )

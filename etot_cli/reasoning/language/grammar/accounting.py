@@ -161,8 +161,8 @@ def _said(node: object) -> Iterator[str]:
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
             yield from (_ORDER, "top", "middle", "bottom")
-        case PickClause(poses=poses) if len(poses) > 1:
-            yield "either"
+        case PickClause(poses=poses) if poses:
+            yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
         case Turns(first=first, last=last, all=every) if first or last or every:
             yield _ORDER
         case SwapClause():

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT, PUT_GROUP
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -111,7 +111,7 @@ LEFT_OUT = either(
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",
         exceptions,
-        optional(manner.AS_IT_IS),
+        optional(f"{manner.AS_IT_IS}, out"),
         build=excepting,
     ),
 )
@@ -133,7 +133,7 @@ def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, AGAIN, FILL, HAND_OVER),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

@@ -16,7 +16,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
-from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Things
+from etot_cli.reasoning.language.grammar.syntax import (
+    Avoid,
+    AvoidClause,
+    Destination,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 
@@ -54,6 +60,15 @@ WITHOUT = either(
         "[while] avoiding",
         THINGS,
         build=lambda things: AvoidClause(Avoid.TOUCH, things),
+    ),
+)
+KEEP_OUT = sequence(
+    verbs.KEEP,
+    THINGS,
+    either(phrase("out of", Toward.INSIDE), phrase("off [of]", Toward.ON)),
+    NP_LIST,
+    build=lambda things, toward, nps: AvoidClause(
+        Avoid.PUT, things, (Destination(toward, nps),), negated=True
     ),
 )
 KEEP_STILL = either(

@@ -80,6 +80,7 @@ THROWN = quiet(
             ),
             build=PutClause,
         ),
+        sequence(verbs.DISCARD, THINGS, sequence(INTO, build=lambda place: (place,)), build=put_to),
         sequence(phrase(verbs.THROW_AWAY), THINGS, build=_away),
         sequence(
             verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
@@ -208,6 +209,11 @@ def _elsewhere(things: Things, places: tuple[tuple[Destination, ...], ...]) -> P
     return PutClause((group,), ruled_out=out)
 
 
+def _got(gathered: bool, group: PutGroup) -> PutClause:
+    several = gathered and any(singular(np.head) != np.head for np in group.things.phrases)
+    return PutClause((group,), far_fetched=0 if several else 2)
+
+
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
     group = PutGroup(things, (Destination(Toward.TO, over),))
     return put_of((group,), extras, Grouping.SPREAD)
@@ -247,9 +253,9 @@ PUT = either(
     sequence("keep[ing]", PUT_GROUPS, EXTRAS, build=kept),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
-        "get[ting]",
+        either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),
         PUT_GROUP,
-        build=lambda group: PutClause((group,), far_fetched=2),
+        build=_got,
     ),
     sequence(verbs.PUT, THINGS, either(_NEITHER, sequence("not", _INSTEAD)), build=_elsewhere),
     sequence(verbs.DO_NOT, verbs.PUT, THINGS, _INSTEAD, build=_elsewhere),

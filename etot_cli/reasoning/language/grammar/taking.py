@@ -37,8 +37,27 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 from etot_cli.skills.action import GraspPose
 
-POSE = either(
+_POSE = either(
     phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
+)
+
+
+def _other(pose: GraspPose) -> GraspPose:
+    """The pose that is left where one is ruled out."""
+    return next(item for item in GraspPose if item is not pose)
+
+
+_OTHER_POSE = sequence("not", _POSE, build=_other)
+POSE = either(
+    sequence(optional("only, just"), _POSE, optional("only")),
+    _OTHER_POSE,
+    sequence(
+        _POSE,
+        OPTIONAL_COMMA,
+        optional("and, but"),
+        _OTHER_POSE,
+        build=lambda pose, left: pose if pose is left else None,
+    ),
 )
 POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
@@ -57,7 +76,7 @@ PICK = sequence(
     THINGS,
     optional("up"),
     optional(SOURCE, None),
-    optional(sequence(OPTIONAL_COMMA, POSES), None),
+    optional(sequence(OPTIONAL_COMMA, optional("but"), POSES), None),
     build=_pick,
 )
 HAND_OVER = quiet(

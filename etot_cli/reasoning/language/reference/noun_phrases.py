@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.reference.instances import called_exactly, opti
 from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.matching import is_object
 from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
-from etot_cli.reasoning.language.reference.nouns import matched, parts_of
+from etot_cli.reasoning.language.reference.nouns import matched, names_part, parts_of
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
@@ -174,7 +174,7 @@ class Resolver:
             if not things:
                 raise ReferenceProblem(phrase.text, "there is no other one", 2)
         things = usable_ones(things, role, phrase, self._scene)
-        modifiers = phrase.modifiers
+        modifiers = tuple(m for m in phrase.modifiers if not names_part(m, self._vocabulary))
         if phrase.owner is not None:
             modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
         count = quantity.count or (None if match.plural else 1)

@@ -29,6 +29,12 @@ def _tells_parts(modifier: Modifier) -> bool:
     return state or side or by_part or modifier.prep in _OF_PARTS
 
 
+def names_part(modifier: Modifier, vocabulary: Vocabulary) -> list[str]:
+    """The side that drawers are called by ("the drawer on the left" is "the left drawer")."""
+    at = {*modifier.words} & SIDES.keys() - LEVELS.keys() if modifier.prep is Prep.SIDE else ()
+    return [word for word in at if any(part.has_word(word) for part in vocabulary.parts)]
+
+
 def matched(
     phrase: NounPhrase,
     words: tuple[str, ...],
@@ -59,7 +65,8 @@ def matched(
         if modifier.prep is Prep.QUALITY and not modifier.denied
         for word in modifier.words
     ]
-    words = (*words[:-1], *extra, words[-1])
+    sides = [word for item in phrase.modifiers for word in names_part(item, vocabulary)]
+    words = (*words[:-1], *extra, *sides, words[-1])
     if not phrase.joined:
         quantity = quantity_of(phrase.determiner)
         plain = not phrase.modifiers and not phrase.without and not quantity.every
@@ -69,7 +76,7 @@ def matched(
             phrase.text,
             noun,
             by_name=plain and quantity.definite and not quantity.other,
-            parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)),
+            parts_first=parts_first or any(map(_tells_parts, phrase.modifiers)) or bool(sides),
             upon=upon or any(item.prep is Prep.BEARING for item in phrase.modifiers),
             place=place,
             counted=any(

@@ -82,11 +82,11 @@ PREPOSITIONS: dict[Prep, str] = {
 }
 INTO = "in to, into, inside [of], in, within"
 ON_TOP_OF = "on [the] top of, atop"
-ONTO = f"onto, on to, on, upon, {ON_TOP_OF}"
+ONTO = f"onto, on to, on, upon, {ON_TOP_OF}, to the top of"
 AT_END = {"at the top": "at the top of", "at the bottom": "(at|on|to) the bottom of"}
 OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
-ONTO_DIRECTED = "onto, on to, on top of, over"
+ONTO_DIRECTED = "onto, on to, on top of, over, to the top of"
 TO = "[over] to"
 AMONG = """
     over, among, amongst, between, across, into, in, onto, on, to
