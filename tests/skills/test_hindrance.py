@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from etot_cli.skills.hindrance import Hindrances, Passage
+from etot_cli.skills.motion.collision import HandPart
 from etot_cli.skills.motion.ready import WAITING_CLEARANCE, ready_pose
 from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL, BOX, CUP, UNIT, drawers, episode
@@ -68,10 +69,15 @@ def test_hand_alone_meets_what_the_arm_with_it_meets() -> None:
             continue
         tool = arm.forward(result.joints)
         whole = set(checker.hits(result.joints, clearance=0.001, hand_only=True))
-        hand_hits = partial(checker.hand_hits, tool, clearance=0.001, fingers_only=False)
+        hand_hits = partial(checker.hand_hits, tool, clearance=0.001, part=HandPart.ALL)
         assert set(hand_hits()) == whole - {"robot"}
         with checker.without(["box"]):
             assert set(hand_hits()) == whole - {"robot", "box"}
+        of_palm = set(hand_hits(part=HandPart.PALM))
+        assert of_palm <= set(hand_hits())
+        checker.set_fingers(0.01)
+        assert set(hand_hits(part=HandPart.PALM)) == of_palm
+        checker.freeze(belief.data)
         seen += bool(whole)
     assert seen > 20
 

@@ -140,9 +140,10 @@ def test_cuts_are_lines_that_stand_upright(stage: Stage) -> None:
         places = origin + (index.reshape(-1, 2) - 40) * cell @ axes
         origins = np.column_stack([places, np.zeros(len(places))])
         pose = shapes[number].pose
-        enters, leaves, *_ = solids._crossings(
-            shapes[number].geom, pose.position, pose.rotation, origins, np.array([[0.0, 0.0, 1.0]])
-        )
+        ((enters, leaves, *_),) = solids._crossings(
+            np.array([shapes[number].geom]), pose.position[None], pose.rotation[None], origins,
+            np.array([[0.0, 0.0, 1.0]]),
+        )  # fmt: skip
         met = leaves - enters > 1e-6
         assert 2 < met.sum() < met.size
         assert np.array_equal((high - low > 1e-6).ravel(), met)

@@ -25,6 +25,7 @@ from etot_cli.skills.articulation.part_path import (
 from etot_cli.skills.articulation.pushes import pushes
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
+from etot_cli.skills.motion.collision import HandPart
 from etot_cli.world.index import Part
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
@@ -238,9 +239,8 @@ class PartSearch:
         middle = tool.moved((before.position - tool.position) / 2)
         for pose in (tool, middle, before):
             # Closed fingers may come at a face with the hand turned any way about them.
-            hits = checker.hand_hits(
-                pose, clearance=CONTACT_CLEARANCE, fingers_only=not contact.grip
-            )
+            part = HandPart.ALL if contact.grip else HandPart.FINGERS
+            hits = checker.hand_hits(pose, clearance=CONTACT_CLEARANCE, part=part)
             if not met.admits(hits):
                 return None
         return met

@@ -9,7 +9,7 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.candidates import Grasp
-from etot_cli.skills.motion.collision import Attached
+from etot_cli.skills.motion.collision import Attached, HandPart
 from etot_cli.skills.motion.kinematics import ANGLE_TOLERANCE, POSITION_TOLERANCE
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.arrays import Vector
@@ -65,11 +65,20 @@ def prepare_grasp(
     met: list[str] = []
     for opening in openings:
         checker.set_fingers(opening)
-        hits = checker.hand_hits(grasp.tool, clearance=SURELY_MET, fingers_only=False)
-        hits = [address for address in hits if owner_of(address) not in allow]
+        hits, of_palm = (
+            [
+                address
+                for address in checker.hand_hits(grasp.tool, clearance=SURELY_MET, part=part)
+                if owner_of(address) not in allow
+            ]
+            for part in (HandPart.ALL, HandPart.PALM)
+        )
         met = met or hits
         if not hits:
             break
+        if of_palm:  # which no opening changes
+            blockers.add(met)
+            return False
     else:
         blockers.add(met)
         return False

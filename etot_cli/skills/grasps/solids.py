@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
@@ -75,15 +76,11 @@ class Solids:
         Returns:
             For every line its disjoint intervals in order, touching pieces merged.
         """
-        spans = [
-            self._crossings(
-                int(geom), data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3),
-                origins, directions,
-            )
-            for geom in self._world.geoms_of(name)
-        ]  # fmt: skip
+        geoms = np.asarray(self._world.geoms_of(name), dtype=np.int64)
+        turns = data.geom_xmat[geoms].reshape(-1, 3, 3)
+        spans = self._crossings(geoms, data.geom_xpos[geoms], turns, origins, directions)
         lines: list[list[Interval]] = []
-        table = np.array(spans).reshape(len(spans), 4, len(origins)).transpose(2, 0, 1)
+        table = spans.transpose(2, 0, 1)
         # Plain numbers: there are too few along one line for arrays to pay.
         for along_line in table.tolist():
             pieces = sorted(tuple(piece) for piece in along_line if piece[1] - piece[0] > 1e-4)
@@ -107,38 +104,61 @@ class Solids:
 
     def _crossings(
         self,
-        geom: int,
-        position: Vector,
-        rotation: Vector,
+        geoms: NDArray[np.int64],
+        positions: Vector,
+        rotations: Vector,
         origins: Vector,
         directions: Vector,
-    ) -> tuple[Vector, Vector, Vector, Vector]:
-        """Where lines enter and leave one geom at ``position`` (3,), turned by ``rotation`` (3, 3):
-        distances (m,), (m,) along them [m], the second smaller where a line misses; and the cosines
-        between line and surface normal at both crossings.
+    ) -> Vector:
+        """Where lines enter and leave geoms at ``positions`` (n, 3), turned by ``rotations`` (n, 3,
+        3).
+
+        Returns:
+            (n, 4, m): distances along the lines [m], the second smaller where a line misses; and
+            the cosines between line and surface normal at both crossings.
         """
-        local = (origins - position) @ rotation
-        along = directions @ rotation
-        radius = self.radius(geom)
-        if radius is not None:
-            middle = -(local * along).sum(axis=1)
-            squared = radius**2 - (np.einsum("ij,ij->i", local, local) - middle**2)
-            half = np.sqrt(np.maximum(squared, 0.0))
-            return middle - half, middle + half, half / radius, half / radius
-        normals, offsets = self.planes(geom)
-        rate = along @ normals.T
-        slack = offsets - local @ normals.T
-        with np.errstate(divide="ignore", invalid="ignore"):
-            crossing = slack / rate
-        entering = np.where(rate < -PARALLEL, crossing, -np.inf)
-        leaving = np.where(rate > PARALLEL, crossing, np.inf)
-        low, high = entering.max(axis=1), leaving.min(axis=1)
-        outside = ((np.abs(rate) <= PARALLEL) & (slack < 0)).any(axis=1)
-        high = np.where(outside, low, high)
-        rows = np.arange(len(rate))
-        entry = -rate[rows, entering.argmax(axis=1)]
-        leave = rate[rows, leaving.argmin(axis=1)]
-        return low, high, entry, leave
+        found = np.empty((len(geoms), 4, len(origins)))
+        kinds: dict[int, list[int]] = {}
+        for index, geom in enumerate(geoms.tolist()):
+            kinds.setdefault(0 if self.radius(geom) else len(self.planes(geom)[1]), []).append(
+                index
+            )
+        for sides, of in kinds.items():
+            local = (origins - positions[of, None]) @ rotations[of]
+            along = directions @ rotations[of]
+            if sides:
+                planes = zip(*(self.planes(geom) for geom in geoms[of].tolist()), strict=True)
+                found[of] = _through_planes(local, along, *map(np.array, planes))
+            else:
+                radii = self._world.model.geom_size[geoms[of], :1]
+                found[of] = _through_balls(local, along, radii)
+        return found
+
+
+def _through_balls(local: Vector, along: Vector, radii: Vector) -> Vector:
+    """Crossings (n, 4, m) of lines from ``local`` (n, m, 3) with balls of ``radii`` (n, 1) [m]."""
+    middle = -(local * along).sum(axis=2)
+    squared = radii**2 - (np.einsum("nij,nij->ni", local, local) - middle**2)
+    half = np.sqrt(np.maximum(squared, 0.0))
+    return np.stack([middle - half, middle + half, half / radii, half / radii], axis=1)
+
+
+def _through_planes(local: Vector, along: Vector, normals: Vector, offsets: Vector) -> Vector:
+    """Crossings (n, 4, m) of lines from ``local`` (n, m, 3) with what is inside of planes:
+    ``normals`` (n, k, 3) and ``offsets`` (n, k) [m].
+    """
+    inward = normals.transpose(0, 2, 1)
+    slack = offsets[:, None] - local @ inward
+    rate = np.broadcast_to(along @ inward, slack.shape)
+    entering, leaving = rate < -PARALLEL, rate > PARALLEL
+    crossing = np.divide(slack, rate, out=np.zeros_like(slack), where=entering | leaving)
+    first = np.where(entering, crossing, -np.inf)
+    last = np.where(leaving, crossing, np.inf)
+    low, high = first.max(axis=2), last.min(axis=2)
+    outside = (~(entering | leaving) & (slack < 0)).any(axis=2)
+    entry = -np.take_along_axis(rate, first.argmax(axis=2)[..., None], 2)[..., 0]
+    leave = np.take_along_axis(rate, last.argmin(axis=2)[..., None], 2)[..., 0]
+    return np.stack([low, np.where(outside, low, high), entry, leave], axis=1)
 
 
 def _planes(model: mujoco.MjModel, geom: int) -> tuple[Vector, Vector]:

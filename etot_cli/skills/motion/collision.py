@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from enum import Enum
 
 import mujoco
 import numpy as np
@@ -22,6 +23,16 @@ CLEARANCE = 0.008
 SELF_CLEARANCE = 0.004
 """Distance that links of the robot keep from each other [m]: an arm that follows its targets some
 milliradians late must not get stuck on itself."""
+
+
+class HandPart(Enum):
+    """What of the hand is looked at: all, the fingers, which are much the same from all sides, or
+    what stays where it is when they open and close.
+    """
+
+    ALL = "all"
+    FINGERS = "fingers"
+    PALM = "palm"
 
 
 @dataclass(frozen=True)
@@ -54,6 +65,11 @@ class CollisionChecker(FrozenScene):
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
+        # What the gripper's joints do not move.
+        weld = world.model.body_weldid
+        rigid = weld[world.model.site_bodyid[self._tool]] == weld[self._model.geom_bodyid]
+        self._palm = rigid & (self._owner == -2)
+        self._hands: dict[bytes, tuple[Vector, Vector]] = {}
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
 
@@ -157,7 +173,7 @@ class CollisionChecker(FrozenScene):
             address = data.joint(attached.name).qpos
             address[:3] = pose.position
             mujoco.mju_mat2Quat(address[3:], pose.rotation.ravel())
-        mujoco.mj_kinematics(model, data)
+        self._show()
         mujoco.mj_collision(model, data)
         if data.ncon == 0:
             return []
@@ -215,13 +231,7 @@ class CollisionChecker(FrozenScene):
         required[touched & _either(self._finger[pairs])] = worked[1]
         return required
 
-    def hand_hits(
-        self,
-        tool: Pose,
-        *,
-        clearance: float,
-        fingers_only: bool,
-    ) -> list[str]:
+    def hand_hits(self, tool: Pose, *, clearance: float, part: HandPart) -> list[str]:
         """Addresses of what the hand alone would come too close to, wherever the arm might be.
 
         Needs no inverse kinematics, so it is the cheap first look at a tool pose.
@@ -229,13 +239,16 @@ class CollisionChecker(FrozenScene):
         Args:
             tool: tool pose, base frame.
             clearance: required distance [m].
-            fingers_only: look at the fingers alone, which are much the same from all sides.
+            part: what of the hand is looked at.
         """
         pose = (tool.position.tobytes(), tool.rotation.tobytes())
-        key = (self._data.qpos.tobytes(), self._carried, *pose, clearance, fingers_only)
-        if key not in self._known:
-            self._remember(key, self._hand_hits(tool, clearance, fingers_only))
-        return self._not_ignored(self._known[key])
+        key = (self._data.qpos.tobytes(), self._carried, *pose, clearance)
+        if (*key, part) in self._known:
+            return self._not_ignored(self._known[*key, part])
+        found = self._hand_hits(tool, clearance)
+        for each, addresses in found.items():
+            self._remember((*key, each), addresses)
+        return self._not_ignored(found[part])
 
     def part_hits(self, joint: str) -> list[str]:
         """Objects that a door or drawer overlaps where it stands in the frozen scene, the furniture
@@ -249,7 +262,7 @@ class CollisionChecker(FrozenScene):
         np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)
         model.geom_margin[:] = model.body_margin[:] = 0.0
         self._within = -1.0  # whoever looks at the robot next chooses the pairs anew
-        mujoco.mj_kinematics(model, data)
+        self._show()
         mujoco.mj_collision(model, data)
         owners = np.unique(self._owner[data.contact.geom])
         names = [self._object_names[int(index)] for index in owners if index >= 0]
@@ -259,28 +272,52 @@ class CollisionChecker(FrozenScene):
     def _object_names_of(self, geoms: NDArray[np.bool_]) -> list[str]:
         return [self._object_names[int(index)] for index in np.unique(self._owner[geoms])]
 
-    def _hand_hits(self, tool: Pose, clearance: float, fingers_only: bool) -> list[str]:
+    def _hand_hits(self, tool: Pose, clearance: float) -> dict[HandPart, dict[str, None]]:
         model, data = self._model, self._data
         self._select_pairs(self._carried, clearance)
-        mujoco.mj_kinematics(model, data)
-        move = tool @ self.tool_pose().inverse()
-        bodies, geoms = self._hand_bodies, self._hand
-        data.xipos[bodies] = data.xipos[bodies] @ move.rotation.T + move.position
-        data.geom_xpos[geoms] = data.geom_xpos[geoms] @ move.rotation.T + move.position
-        for frames, rows in ((data.ximat, bodies), (data.geom_xmat, geoms)):
-            frames[rows] = (move.rotation @ frames[rows].reshape(-1, 3, 3)).reshape(-1, 9)
+        points, turns = self._hand_frames()
+        # The arm may be anywhere; what else there is has to be where it is.
+        if self._shown != data.qpos[self._things].tobytes():
+            self._show()
+        points = points @ tool.rotation.T + tool.position
+        turns = (tool.rotation @ turns).reshape(-1, 9)
+        bodies, geoms, count = self._hand_bodies, self._hand, len(self._hand_bodies)
+        data.xipos[bodies], data.geom_xpos[geoms] = points[:count], points[count:]
+        data.ximat[bodies], data.geom_xmat[geoms] = turns[:count], turns[count:]
         mujoco.mj_collision(model, data)
+        found: dict[HandPart, dict[str, None]] = {part: {} for part in HandPart}
         if data.ncon == 0:
-            return []
-        pairs = data.contact.geom
+            return found
+        near = np.flatnonzero(data.contact.dist < clearance)
+        pairs = data.contact.geom[near]
         owners = self._owner[pairs]
-        near = data.contact.dist < clearance
-        hand = owners == -2
-        if fingers_only:
-            hand &= self._finger[pairs]
-        near &= _either(hand) & _either(owners > -2)
-        others = (pairs[index][int(owners[index][0] == -2)] for index in np.nonzero(near)[0])
-        return list(dict.fromkeys(self.world.geom_address[int(other)] for other in others))
+        for (one, two), (first, second) in zip(pairs.tolist(), owners.tolist(), strict=True):
+            if (first == -2) == (second == -2) or min(first, second) < -2:
+                continue
+            own, other = (one, two) if first == -2 else (two, one)
+            address = self.world.geom_address[other]
+            found[HandPart.ALL][address] = None
+            if self._finger[own]:
+                found[HandPart.FINGERS][address] = None
+            if self._palm[own]:
+                found[HandPart.PALM][address] = None
+        return found
+
+    def _hand_frames(self) -> tuple[Vector, Vector]:
+        """Where bodies and geoms of the hand are, as the fingers stand now: points (k, 3) and
+        rotations (k, 3, 3), tool frame.
+        """
+        data = self._data
+        key = data.qpos[self.world.robot.finger_qpos].tobytes()
+        if key not in self._hands:
+            if len(self._hands) >= MAX_KNOWN:
+                self._hands.clear()
+            self._show()
+            tool, bodies, geoms = self.tool_pose(), self._hand_bodies, self._hand
+            points = np.vstack([data.xipos[bodies], data.geom_xpos[geoms]])
+            turns = np.vstack([data.ximat[bodies], data.geom_xmat[geoms]]).reshape(-1, 3, 3)
+            self._hands[key] = tool.local(points), tool.rotation.T @ turns
+        return self._hands[key]
 
 
 def _either(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -30,6 +30,9 @@ class FrozenScene:
         self._live = mujoco.MjData(world.model)
         self._riders: dict[str, list[str]] = {}
         self._tool = world.robot.tool_site
+        robot = (*world.robot.qpos, *world.robot.finger_qpos)
+        self._things = np.setdiff1d(np.arange(world.model.nq), robot)
+        self._shown = b""
 
     def freeze(self, data: mujoco.MjData) -> None:
         """Takes the scene's configuration from ``data``."""
@@ -39,6 +42,12 @@ class FrozenScene:
         self._model.body_quat[:] = self.world.model.body_quat
         self._live = data
         self._riders.clear()
+        self._shown = b""
+
+    def _show(self) -> None:
+        """Brings all frames up to the joint values."""
+        mujoco.mj_kinematics(self._model, self._data)
+        self._shown = self._data.qpos[self._things].tobytes()
 
     def place(self, name: str, pose: Pose) -> None:
         """Puts a free object of the frozen scene at a pose of its body, base frame."""
@@ -76,7 +85,7 @@ class FrozenScene:
         kept = address.copy()
         address[:3] = 0.0
         address[3:] = quaternion_of(rotation)
-        mujoco.mj_kinematics(self._model, self._data)
+        self._show()
         low, high = object_bounds(self.world, self._data, name)
         address[:] = kept
         return low, high
