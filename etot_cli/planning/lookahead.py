@@ -29,7 +29,9 @@ Foresight = Callable[[PlanNode, RolloutRecord], Iterable[Branch]]
 """Branches that the search is likely to take up once it judges a node that had no effect."""
 
 SUBMISSIONS_PER_JOB = 2
-"""One running and one ready per worker, so that none idles while a slow node holds up the order."""
+"""One running and one ready per worker, so that none idles while a reasoner takes its time, or
+while worlds beside the twin wait for each other. Elsewhere nothing is made ready: what is would
+come before the longer chains that turn up meanwhile, which task 7 pays for with a twentieth."""
 
 
 @dataclass(slots=True)
@@ -56,7 +58,8 @@ class Lookahead:
         simulator: runs the actions.
         start_of: gives the stored state that a node starts from once its parent is judged.
         until_s: when work ends, a reading of ``time.monotonic`` [s].
-        foresee: asked once for every failure that waits for its turn.
+        foresee: asked once for every failure that waits for its turn; None where the reasoner is
+            slow.
     """
 
     def __init__(
@@ -64,13 +67,15 @@ class Lookahead:
         simulator: Simulator,
         start_of: Callable[[PlanNode], StateToken],
         until_s: float = NEVER,
-        foresee: Foresight = lambda node, record: (),
+        foresee: Foresight | None = None,
     ) -> None:
         self._simulator = simulator
         self._start_of = start_of
         self._until_s = until_s
         self._foresee = foresee
         self._jobs = max(simulator.jobs, 1)
+        quick = foresee is not None and simulator.world_count == 1
+        self._window = self._jobs * (1 if quick or self._jobs == 1 else SUBMISSIONS_PER_JOB)
         self._works: dict[History, _Work] = {}
         self._done: dict[History, tuple[PlanNode, StateToken]] = {}
         self._foreseen: dict[PlanNode, tuple[Branch, ...]] = {}
@@ -107,8 +112,7 @@ class Lookahead:
 
     def _keep_busy(self, queue: Sequence[PlanNode], allowance: int) -> None:
         """Starts what will be asked for next, then what may be asked for after that."""
-        window = 1 if self._jobs == 1 else SUBMISSIONS_PER_JOB * self._jobs
-        for node in queue[: min(window, allowance)]:
+        for node in queue[: min(self._window, allowance)]:
             if not self._has(node):
                 self._submit(_Next(node.actions, node, self._start_of(node), 0))
         if self._jobs == 1:
@@ -141,6 +145,8 @@ class Lookahead:
                     yield _Next(child.actions, child, simulated.end, _height(child))
 
     def _corrections(self, failed: PlanNode, record: RolloutRecord) -> Iterator[_Next]:
+        if self._foresee is None:
+            return
         if failed not in self._foreseen:
             self._foreseen[failed] = tuple(self._foresee(failed, record))
         for branch in self._foreseen[failed]:

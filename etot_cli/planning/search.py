@@ -112,8 +112,8 @@ class _Search:
         self._started = time.monotonic()
         seconds = limits.time_limit_s
         self._until_s = NEVER if seconds is None else self._started + seconds
-        ahead = (self._foresee,) if foresee and Ablation.REFLECTIVE not in without else ()
-        self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s, *ahead)
+        ahead = self._foresee if foresee and Ablation.REFLECTIVE not in without else None
+        self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s, ahead)
         self._proposals: Iterator[Branch] = iter(())
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()

@@ -87,7 +87,7 @@ class Canvas:
         # heights.
         edges = np.zeros((rows, columns + 1), dtype=np.int64)
         tilted: list[Shape] = []
-        for group in self._groups(solids, shapes, 0.0):
+        for group in self._groups(solids, shapes, 0.0, by_rows=True):
             spans = group.spans(solids)
             if spans is None:
                 tilted += [shapes[number] for number in group.numbers]
@@ -106,26 +106,29 @@ class Canvas:
             covered[window] |= high > low
         return np.asarray(covered)
 
-    def _groups(self, solids: Solids, shapes: Sequence[Shape], margin: float) -> Iterator[_Group]:
+    def _groups(
+        self, solids: Solids, shapes: Sequence[Shape], margin: float, *, by_rows: bool = False
+    ) -> Iterator[_Group]:
         """Shapes over or under the grid, alike ones together, so that little is worked out that
-        nobody asked for.
+        nobody asked for; ``by_rows``: for whoever asks for something of whole rows only.
         """
         if not shapes:
             return
         first, last = self._windows(solids, shapes, margin)
         counts = last - first + 1
+        asked = counts[:, :1] if by_rows else counts
         planes = [
             len(solids.planes(shape.geom)[1]) if solids.radius(shape.geom) is None else 0
             for shape in shapes
         ]
         met = np.flatnonzero((counts > 0).all(axis=1)).tolist()
-        met.sort(key=lambda number: (planes[number], int(counts[number].prod())))
+        met.sort(key=lambda number: (planes[number], int(asked[number].prod())))
         numbers: list[int] = []
         for number in (*met, None):
             if numbers and (
                 number is None
                 or planes[number] != planes[numbers[0]]
-                or (len(numbers) + 1) * counts[[*numbers, number]].max(axis=0).prod() > MOST_LINES
+                or (len(numbers) + 1) * asked[[*numbers, number]].max(axis=0).prod() > MOST_LINES
             ):
                 chosen = [shapes[number] for number in numbers]
                 corners = self._origin + ((first[numbers] - self._counts) * self._cell) @ self._axes
