@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from etot_cli.reconstruction.capture.view import Array
+from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.fit.observation import Observation
 from etot_cli.reconstruction.fit.silhouette import (
     bounding_edges,
@@ -19,6 +19,9 @@ from etot_cli.reconstruction.shapes.base import Evidence, Family
 
 FREE_WEIGHT = 0.5
 """Of a pixel inside the outline where nothing is, against an edge that is off by as much."""
+LARGE = 1.0
+"""A size of so much is off by one standard deviation for its size alone [m]: what is hidden of a
+thing is as small as what is seen of it allows, and of what is seen it moves nothing."""
 COARSE = (160, 160)
 """Edge and surface points while shapes are compared."""
 COMPARED = 1e-4
@@ -91,13 +94,8 @@ def fit_shape(
         steps: most function evaluations, Jacobians not counted.
         tolerance: share of the cost below which gains do not matter.
     """
-    held = set(fixed) | (set() if free_z else {"z"})
-    if seen.depth_sigma > FINE_DEPTH:
-        held |= {"wall", "floor"}  # too thin to be seen by such depth
-    free = np.array([name not in held for name in family.names])
-    low, high = family.bounds(start)
-    high = np.maximum(high, low + 1e-4)
-    begin = np.clip(start, low + 1e-9, high - 1e-9)
+    free, low, high, scale = freedom_of(family, seen, start, fixed if free_z else (*fixed, "z"))
+    begin = np.clip(start[free], low + 1e-9, high - 1e-9)
 
     def whole(part: Array) -> Array:
         params = np.where(free, 0.0, start)
@@ -110,19 +108,32 @@ def fit_shape(
     def beside(part: Array, others: Array) -> Array:
         return residuals_beside(family, seen, whole(part), [whole(other) for other in others])
 
-    scale = np.where([n == "yaw" or n == "angle" for n in family.names], 0.1, 0.02)[free]
     solution = minimize(
-        residuals, begin[free], scale=scale, low=low[free], high=high[free], steps=steps,
-        tolerance=tolerance, beside=beside,
+        residuals, begin, scale=scale, low=low, high=high, steps=steps, tolerance=tolerance,
+        beside=beside,
     )  # fmt: skip
     return whole(solution.x)
+
+
+def freedom_of(
+    family: Family, seen: Observation, start: Array, held: tuple[str, ...]
+) -> tuple[Mask, Array, Array, Array]:
+    """Which parameters (n,) a fit may change, and of those, each (k,), the lowest and the highest
+    values and by how much they may be expected to change.
+    """
+    if seen.depth_sigma > FINE_DEPTH:
+        held = (*held, "wall", "floor")  # too thin to be seen by such depth
+    free = np.array([name not in held for name in family.names])
+    low, high = family.bounds(start)
+    scale = np.where([name in ("yaw", "angle") for name in family.names], 0.1, 0.02)
+    return free, low[free], np.maximum(high, low + 1e-4)[free], scale[free]
 
 
 def residuals_of(family: Family, seen: Observation, params: Array) -> Array:
     """Weighted residuals of silhouette, free space, depth and prior."""
     distance = silhouette_distance(family.hulls(params, seen.view), seen.view, seen.pixels)
     depth = family.distance(params, seen.points) if len(seen.points) else np.zeros(0)
-    return _weighted(seen, distance, depth, family.prior(params))
+    return _weighted(seen, distance, depth, _usual(family, params))
 
 
 def residuals_beside(
@@ -140,7 +151,12 @@ def residuals_beside(
     if len(seen.points):
         for depth, other in zip(depths, others, strict=True):
             depth[:] = family.distance(other, seen.points)
-    return _weighted(seen, distances, depths, np.array([family.prior(other) for other in others]))
+    return _weighted(seen, distances, depths, np.array([_usual(family, other) for other in others]))
+
+
+def _usual(family: Family, params: Array) -> Array:
+    """Residuals of what nothing shows: it is as usual, and no larger than it has to be."""
+    return np.concatenate([np.array(family.size(params)) / LARGE, family.prior(params)])
 
 
 def _weighted(seen: Observation, distance: Array, depth: Array, prior: Array) -> Array:

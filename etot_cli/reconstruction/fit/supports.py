@@ -27,6 +27,7 @@ from etot_cli.reconstruction.fit.pose import (
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
 from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
 from etot_cli.reconstruction.fit.rims import as_cup, disagreement, settle_on_rim
+from etot_cli.reconstruction.fit.stacked import stacked
 from etot_cli.reconstruction.fit.standing import Support, offence, possible_supports
 from etot_cli.reconstruction.fit.strays import find_strays
 from etot_cli.reconstruction.objects import Segment, Solid
@@ -72,7 +73,7 @@ def fit_all(
             continue
         solid = _fit_one(seen, segment, segments, done, rng, hints.get(segment.name))
         if solid is not None:
-            done.append(solid)
+            done = stacked([*done, solid])
             done = _reopened(seen, segments, done, rng, hints)
     return settle_on_rim(seen, done, kept.keys())
 
