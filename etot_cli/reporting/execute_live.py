@@ -11,6 +11,7 @@ from rich.text import Text
 
 from etot_cli.execution.observers import ExecutionObserver
 from etot_cli.execution.records import Carried, Happened, Look, PlanMade, Trial
+from etot_cli.reporting.live import REFRESHES_PER_SECOND
 from etot_cli.reporting.style import (
     LOOKS,
     RUNNING,
@@ -23,8 +24,6 @@ from etot_cli.reporting.style import (
 from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.reading import visible
 
-REFRESHES_PER_SECOND = 4
-"""Often enough for a running clock."""
 EVENTS_KEPT = 8
 """Looks, replans and disturbances that stay in sight."""
 TRIALS_KEPT = 12

@@ -99,7 +99,7 @@ class Scripted:
 
 BAD = {
     "lost": (ServiceError("no picture came"), "no picture came"),
-    "zero": (frame(2, depth=np.zeros((6, 8))), "depth is zero everywhere"),
+    "zero": (frame(2, depth=np.zeros((6, 8))), "depth is empty"),
     "size": (frame(2, depth=np.ones((3, 4))), "depth is 4 × 3, colour 8 × 6"),
     "other": (frame(2, color=np.ones((9, 9, 3), np.uint8), depth=np.ones((9, 9))), "9 × 9"),
     "unit": (frame(2, depth=np.full((6, 8), 900.0)), "no desk"),

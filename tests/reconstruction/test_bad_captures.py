@@ -77,7 +77,8 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
         "878.2 m from the base; expected metres",
     ),
     "depth in metres": (
-        lambda f: in_units(f, 1.0), r"median is 0.001 m.*depth_scale 0.001 is wrong \(with 1 it"
+        lambda f: in_units(f, 1.0),
+        r"median depth is 0.001 m.*depth_scale 0.001 is wrong \(with 1 it",
     ),
     "depth in 0.1 mm": (lambda f: in_units(f, 0.0001), r"is wrong \(with 0.0001 it would be 0.7"),
     "depth in 0.25 mm": (lambda f: in_units(f, 0.00025), "seen with 0.25 times the depth_scale"),

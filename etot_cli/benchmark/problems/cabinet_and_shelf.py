@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from etot_cli.benchmark.problems.desk import Desk
 from etot_cli.benchmark.problems.furniture import cupboard, rack
+from etot_cli.benchmark.problems.margins import LEVEL_ROOM
 from etot_cli.benchmark.problems.problem import Document, Problem, into, onto, sentence, the
 from etot_cli.benchmark.problems.things import ball, between, block, can, cup
-
-LEVEL_ROOM = 0.08
-"""Free space around what a level hand takes: half a palm and 22 mm [m]."""
 
 
 def _facing(seed: int) -> str:

@@ -45,6 +45,8 @@ ABOVE_HANDLE = 0.065
 may rise this far above the handle."""
 LEVEL_PALM = 0.075
 """Height above the desk of what a level hand takes: half a palm and 17 mm."""
+LEVEL_ROOM = 0.08
+"""Free space around what a level hand takes: half a palm and 22 mm."""
 TILTED_PALM = 0.042
 """Height above the desk of what a hand tilted by 45 degrees takes: its lower edge is 33 mm higher
 than the fingertips."""

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from etot_cli.benchmark.problems.desk import Desk
 from etot_cli.benchmark.problems.furniture import chest
-from etot_cli.benchmark.problems.margins import HEADROOM, LEVEL_PALM
+from etot_cli.benchmark.problems.margins import HEADROOM, LEVEL_PALM, LEVEL_ROOM
 from etot_cli.benchmark.problems.problem import Document, Problem, into, sentence, the
 from etot_cli.benchmark.problems.things import between, block, bottle, cup, mm, pen, solid
 
-LEVEL_ROOM = 0.08
-"""Free space around what a level hand takes [m]."""
 ENDS = 0.024
 """Inner width of a drawer minus the length of what lies across it, at least [m]."""
 

@@ -9,15 +9,12 @@ import numpy as np
 
 from etot_cli.errors import ServiceError
 from etot_cli.execution.protocols import Camera, Frame
+from etot_cli.reconstruction.capture.folder import depth_trouble
 
 ATTEMPTS = 4
 """Pictures asked for before the camera counts as gone."""
 PAUSE = 0.1
 """Time between attempts [s]: three frames of a camera of 30 Hz."""
-LEAST_READINGS = 0.02
-"""With a smaller share of pixels that have a reading, depth is empty."""
-NEAREST, FARTHEST = 0.1, 5.0
-"""The median depth of a desk scene lies between these [m]; else the unit is wrong."""
 
 
 class WatchedCamera:
@@ -78,14 +75,9 @@ class WatchedCamera:
             return f"the picture is {_size(size)}, the one before {_size(last.color.shape)}"
         if not np.isfinite(frame.camera_to_base).all() or not np.isfinite(frame.matrix).all():
             return "its calibration has entries that are no numbers"
-        read = np.isfinite(frame.depth) & (frame.depth > 0)
-        if not read.any():
-            return "depth is zero everywhere"
-        if read.mean() < LEAST_READINGS:
-            return f"depth is empty: {100 * read.mean():.1f} % of the pixels have a reading"
-        middle = float(np.median(frame.depth[read]))
-        if not NEAREST <= middle <= FARTHEST:
-            return f"the median depth is {middle:.4g} m, which is no desk in front of a camera"
+        trouble = depth_trouble(frame.depth)
+        if trouble is not None:
+            return trouble
         if last is not None and (
             frame.taken_s == last.taken_s
             or (np.array_equal(frame.depth, last.depth) and np.array_equal(frame.color, last.color))

@@ -26,6 +26,8 @@ LEVELS = (-0.4, 0.6)
 """Heights at which a desk may lie, base frame [m]."""
 MAX_TILT = 25.0
 """A desk that leans more means a wrong pose, not an inexact one [deg]."""
+CLEAN = 0.0002
+"""A desk plane with a smaller residual comes from a renderer [m]: a sensor's is three times that."""
 TILT_NOTED = 0.3
 """Smaller tilts are corrected silently [deg]."""
 INLIER = 0.006
@@ -70,6 +72,11 @@ class Calibrated:
     shift: tuple[int, int]
     warnings: tuple[str, ...]
     aside: tuple[Mask, ...] = ()
+
+    @property
+    def exact(self) -> bool:
+        """Whether depth comes from a renderer rather than from a sensor."""
+        return self.noise <= CLEAN and self.shift == (0, 0)
 
 
 def calibrate(

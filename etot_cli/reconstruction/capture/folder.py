@@ -199,27 +199,29 @@ def _metres(raw: NDArray[Any], view: View, info: dict[str, Any], folder: Path) -
             file=str(folder / "camera.json"), path="depth_kind",
         )  # fmt: skip
     depth = raw.astype(np.float64) * scale
-    valid = depth > 0
-    if valid.mean() < LEAST_READINGS:
-        raise SpecError(
-            f"is empty: {100 * valid.mean():.1f} % of its pixels have a reading", file=str(path)
-        )
-    middle = float(np.median(depth[valid]))
-    if not NEAREST <= middle <= FARTHEST:
-        hint = next(
-            (s for s in SCALES
-             if NEAREST <= middle / scale * s <= FARTHEST), None,
-        )  # fmt: skip
-        raise SpecError(
-            f"its median is {middle:.4g} m, which is no desk in front of a camera: "
-            f"depth_scale {scale:g} is wrong"
-            + (f" (with {hint:g} it would be {middle / scale * hint:.3g} m)" if hint else ""),
-            file=str(path),
-        )
+    trouble = depth_trouble(depth)
+    if trouble is not None:
+        hint = next((s for s in SCALES if depth_trouble(depth / scale * s) is None), None)
+        told = ""
+        if hint is not None:
+            meant = np.median(depth[depth > 0]) / scale * hint
+            told = f": depth_scale {scale:g} is wrong (with {hint:g} it would be {meant:.3g} m)"
+        raise SpecError(trouble + told, file=str(path))
     if kind == "ray":
         v, u = np.mgrid[0 : view.height, 0 : view.width]
         depth /= np.sqrt(1 + ((u - view.cx) / view.fx) ** 2 + ((v - view.cy) / view.fy) ** 2)
     return depth
+
+
+def depth_trouble(depth: Array) -> str | None:
+    """Why a depth picture (h, w) [m] cannot show a desk, in words; None where it may."""
+    read = np.isfinite(depth) & (depth > 0)
+    if read.mean() < LEAST_READINGS:
+        return f"depth is empty: {100 * read.mean():.1f} % of its pixels have a reading"
+    middle = float(np.median(depth[read]))
+    if not NEAREST <= middle <= FARTHEST:
+        return f"the median depth is {middle:.4g} m, which is no desk in front of a camera"
+    return None
 
 
 def read_masks(folder: Path, shape: tuple[int, ...]) -> tuple[dict[str, Mask], list[str]]:

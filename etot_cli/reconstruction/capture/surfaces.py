@@ -22,6 +22,9 @@ APART = 4
 """The two sides of a border are compared this far from it [px]."""
 SURROUNDINGS = (121, 121)
 """The desk's colour at a place is its mean over so much around it [px]."""
+ONE_COLOR, OTHER_COLOR = 14.0, 20.0
+"""Colours of one object differ by less than the first (as in :func:`color_features`): light costs
+one side of a thing up to ten. From the second on they have different names."""
 SHADOW_HUE = 7.0
 """A shadow keeps the desk's hue and saturation up to this distance."""
 DARKEST_SHADOW = 0.3

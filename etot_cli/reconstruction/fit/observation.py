@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask, View
 
 NEIGHBOURS = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -33,6 +34,8 @@ LOST = 9
 """Readings that are lost at an edge are replaced by others up to this far away [px]."""
 LEAST_SPREAD = 30
 """With fewer readings depth does not say how large a thing is."""
+EROSION = 3
+"""Pixels at the edge of a mask whose depth is left out where depth is noisy."""
 FREE_RING = 25
 """How far around a mask free space is sampled [px]."""
 LOOKED_AT = FREE_RING + SEAM
@@ -174,6 +177,15 @@ def observe(
     points = points[np.isfinite(points[:, 2])]
     return Observation(view, found, free, inside, points, base,
                        complete=len(found) / max(total, 1))  # fmt: skip
+
+
+def observed(seen: Calibrated, mask: Mask, others: list[Mask], base: float) -> Observation:
+    """Measures one object in a capture; see :func:`observe`."""
+    found = observe(
+        seen.view, mask, others, np.where(seen.depth > 0, seen.depth, np.inf), seen.cloud, base,
+        erosion=1 if seen.exact else EROSION,
+    )  # fmt: skip
+    return replace(found, edge_sigma=0.5 if seen.exact else 0.8)
 
 
 def median_height(cloud: Array, mask: Mask) -> float:

@@ -14,8 +14,6 @@ from etot_cli.reconstruction.shapes.upright import Cup
 
 FIRST_DEPTH = 0.006
 """Trust in a sensor's depth before it is compared with silhouettes: half to twice this [m]."""
-CLEAN = 0.0002
-"""A desk plane with a smaller residual comes from a renderer [m]."""
 LEAST_DEPTH = 0.0007
 """Depth is never taken to be better than this [m]."""
 WORST_DEPTH = 0.008
@@ -32,16 +30,23 @@ BLUR = 4.0
 """Exact depth is made this much coarser to find a way out of a local minimum."""
 
 
-def exact_depth(seen: Calibrated) -> bool:
-    """Whether depth comes from a renderer rather than from a sensor."""
-    return seen.noise <= CLEAN and seen.shift == (0, 0)
-
-
 def first_sigma(seen: Calibrated) -> float:
     """How far depth is trusted before it has been compared with silhouettes [m]."""
-    if exact_depth(seen):
+    if seen.exact:
         return FIRST_DEPTH / 4
     return float(np.clip(FIRST_DEPTH / 2 + 2 * (seen.noise - 0.0007), 0.003, 2 * FIRST_DEPTH))
+
+
+def least_sigma(seen: Calibrated) -> float:
+    """The best that depth is taken to be [m]: half its noise, as neighbours are smoothed."""
+    return max(LEAST_DEPTH, seen.noise / 2)
+
+
+def trusted(rms: float, least: float) -> float:
+    """How far depth that agrees with a shape to ``rms`` is trusted [m], no further than ``least``:
+    a fifth less than that, as the largest errors are left out of it.
+    """
+    return float(np.clip(1.2 * rms, least, WORST_DEPTH))
 
 
 def refine(
@@ -58,15 +63,14 @@ def refine(
     Returns:
         the fit, what it was fitted to, and what is doubtful about it in words.
     """
-    fit, trusted, fine = fits[0], placed, placed
+    fit, fine = fits[0], placed
     # How far depth is to be trusted shows in how well it agrees with the silhouette.
     for turn in range(REWEIGHTINGS):
-        sigma = float(np.clip(1.2 * fit.depth_rms, max(LEAST_DEPTH, seen.noise / 2), WORST_DEPTH))
-        trusted = replace(placed, depth_sigma=sigma)
-        fine = trusted.thinned(*FINE, rng)
+        sigma = trusted(fit.depth_rms, least_sigma(seen))
+        fine = replace(placed, depth_sigma=sigma).thinned(*FINE, rng)
         rivals = fits[:RIVALS] if turn == 0 else [fit]
         starts = [(rival, rival.params) for rival in rivals]
-        if turn == 0 and exact_depth(seen):
+        if turn == 0 and seen.exact:
             starts += [(rival, _blurred(rival, fine)) for rival in rivals]
         options = [
             judge(rival.family, fine, fit_shape(rival.family, fine, start, steps=60))
@@ -79,7 +83,7 @@ def refine(
             f"depth disagrees with the silhouette by {1000 * abs(fit.depth_bias):.0f} mm: the size "
             "is mostly from the silhouette"
         )
-    if trusted.depth_sigma > FINE_DEPTH and isinstance(fit.family, Cup):
+    if fine.depth_sigma > FINE_DEPTH and isinstance(fit.family, Cup):
         warnings.append("wall and floor are from rule, not from data")
     if len(placed.points):
         top = float(fit.params[2]) + fit.family.size(fit.params)[2]

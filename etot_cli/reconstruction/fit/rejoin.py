@@ -16,9 +16,8 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import LOST, convex_hull_mask
-from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
-from etot_cli.reconstruction.fit.second_look import DOUBTFUL, GAIN, MOST_LOOKS
+from etot_cli.reconstruction.fit.second_look import MOST_LOOKS, doubtful, explain_better
 from etot_cli.reconstruction.fit.supports import CONVINCING, fit_all, fit_alone
 from etot_cli.reconstruction.objects import Segment, Solid
 from etot_cli.reconstruction.shapes.catalog import NO_FURNITURE
@@ -59,11 +58,9 @@ def rejoin(
 
 def _pairs(solids: list[Solid]) -> Iterator[tuple[list[Solid], Segment]]:
     """Solids side by side, one of them doubtful, and the segment that may stand in for both."""
-    doubtful = [solid for solid in solids if _is_doubtful(solid)]
-    doubtful.sort(key=lambda solid: solid.fit.explained)
     reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 1,) * 2)
     tried: list[set[str]] = []
-    for solid in doubtful:
+    for solid in doubtful(solids):
         near = cv2.dilate(solid.segment.mask.astype(np.uint8), reach) > 0
         for other in solids:
             names = {solid.name, other.name}
@@ -84,11 +81,6 @@ def _pairs(solids: list[Solid]) -> Iterator[tuple[list[Solid], Segment]]:
                 yield [solid, other], replace(larger.segment, mask=union)
 
 
-def _is_doubtful(solid: Solid) -> bool:
-    poor = solid.fit.explained < DOUBTFUL or solid.fit.misfit > GOOD_MISFIT
-    return poor and not solid.segment.named
-
-
 def _is_compact(mask: Mask) -> bool:
     body = without_protrusions(mask)
     body = mask if body is None else body
@@ -97,11 +89,5 @@ def _is_compact(mask: Mask) -> bool:
 
 def _is_better(whole: Solid, pair: list[Solid]) -> bool:
     """Whether one round thing explains the picture much better than two do."""
-    if not isinstance(whole.fit.family, Cylinder) or whole.fit.explained < CONVINCING:
-        return False
-    pixels = [int(solid.segment.mask.sum()) for solid in pair]
-    explained = float(np.average([solid.fit.explained for solid in pair], weights=pixels))
-    misfit = float(np.average([solid.fit.misfit for solid in pair], weights=pixels))
-    return whole.fit.explained > explained + GAIN or (
-        whole.fit.misfit < INVOLVED * misfit and whole.fit.explained > explained - GAIN
-    )
+    round_ = isinstance(whole.fit.family, Cylinder) and whole.fit.explained >= CONVINCING
+    return round_ and explain_better([whole], pair)

@@ -14,8 +14,7 @@ from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
 from etot_cli.reconstruction.capture.surfaces import color_features, shaded_desk
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import median_height
-from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED, Fit
-from etot_cli.reconstruction.fit.refine import exact_depth
+from etot_cli.reconstruction.fit.pose import GOOD_MISFIT, INVOLVED
 from etot_cli.reconstruction.fit.supports import fit_all, free_ball, window_around
 from etot_cli.reconstruction.masks.boundaries import refine_masks
 from etot_cli.reconstruction.masks.color_regions import UNLIKE, color_regions
@@ -51,15 +50,8 @@ def look_again(
         hints: kinds by object name that are known from elsewhere.
         seed: of the fits' samples.
     """
-    doubtful = [
-        solid
-        for solid in solids
-        if not solid.segment.named
-        and (solid.fit.explained < DOUBTFUL or solid.fit.misfit > GOOD_MISFIT)
-    ]
-    doubtful.sort(key=lambda solid: solid.fit.explained)
     whole = {segment.name: segment for segment in segments}
-    for solid in doubtful[:MOST_LOOKS]:
+    for solid in doubtful(solids)[:MOST_LOOKS]:
         parts = two_colors(seen, whole[solid.name].mask)
         if parts is None:
             continue
@@ -73,7 +65,7 @@ def look_again(
         ]
         kept = _apart(solid, whole[solid.name].mask, solids)
         again = fit_all(seen, [*others, *pair], rng=rng, hints=hints, kept=kept)
-        if _is_filled_mouth(again, pair, solid.fit):
+        if _is_filled_mouth(again, pair, solid):
             solids = again
             whole = {segment.name: segment for segment in [*others, *pair]}
     return solids
@@ -103,7 +95,7 @@ def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], rng: np.random.G
 
 def _redrawn(seen: Calibrated, parts: tuple[Mask, Mask], others: list[Segment]) -> list[Mask]:
     """The parts with their edges drawn anew, each by its own colour, where depth does not say."""
-    if exact_depth(seen):
+    if seen.exact:
         return list(parts)
     flat, _ = flattened(seen)
     masks = [*parts, *(other.mask for other in others)]
@@ -111,17 +103,37 @@ def _redrawn(seen: Calibrated, parts: tuple[Mask, Mask], others: list[Segment]) 
     return refine_masks(flat, masks, color, shaded_desk(flat))[:2]
 
 
-def _is_filled_mouth(solids: list[Solid], pair: list[Segment], single: Fit) -> bool:
+def _is_filled_mouth(solids: list[Solid], pair: list[Segment], single: Solid) -> bool:
     """Whether two segments are a vessel and what rests on its rim, better explained than as one."""
     names = {segment.name for segment in pair}
     found = [solid for solid in solids if solid.name in names]
     if len(found) < 2 or not any(s.relation == "rim" and s.support in names for s in found):
         return False
-    pixels = [int(solid.segment.mask.sum()) for solid in found]
-    explained = float(np.average([solid.fit.explained for solid in found], weights=pixels))
-    misfit = float(np.average([solid.fit.misfit for solid in found], weights=pixels))
-    return explained > single.explained + GAIN or (
-        misfit < INVOLVED * single.misfit and explained > single.explained - GAIN
+    return explain_better(found, [single])
+
+
+def doubtful(solids: list[Solid]) -> list[Solid]:
+    """Those of pixels that were found, not given, and that explain these badly; the worst first."""
+    found = [
+        solid
+        for solid in solids
+        if not solid.segment.named
+        and (solid.fit.explained < DOUBTFUL or solid.fit.misfit > GOOD_MISFIT)
+    ]
+    return sorted(found, key=lambda solid: solid.fit.explained)
+
+
+def explain_better(solids: list[Solid], others: list[Solid]) -> bool:
+    """Whether solids explain their pixels much better than other ones do the same pixels."""
+    (explained, misfit), (before, rest) = (
+        np.average(
+            [(one.fit.explained, one.fit.misfit) for one in group],
+            axis=0, weights=[int(one.segment.mask.sum()) for one in group],
+        )
+        for group in (solids, others)
+    )  # fmt: skip
+    return bool(
+        explained > before + GAIN or (misfit < INVOLVED * rest and explained > before - GAIN)
     )
 
 

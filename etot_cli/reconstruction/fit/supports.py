@@ -14,7 +14,7 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.reconstruction.fit.observation import Observation, observe
+from etot_cli.reconstruction.fit.observation import Observation, observed
 from etot_cli.reconstruction.fit.pose import (
     COARSE,
     FINE,
@@ -25,7 +25,7 @@ from etot_cli.reconstruction.fit.pose import (
     judge,
 )
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
-from etot_cli.reconstruction.fit.refine import exact_depth, first_sigma, refine
+from etot_cli.reconstruction.fit.refine import first_sigma, refine
 from etot_cli.reconstruction.fit.rims import as_cup, disagreement, settle_on_rim
 from etot_cli.reconstruction.fit.stacked import stacked
 from etot_cli.reconstruction.fit.standing import Support, offence, possible_supports
@@ -36,8 +36,6 @@ from etot_cli.reconstruction.shapes.base import Evidence
 from etot_cli.reconstruction.shapes.catalog import tiers
 from etot_cli.reconstruction.shapes.upright import Cylinder
 
-EROSION = 3
-"""Pixels at the edge of a mask whose depth is left out where depth is noisy."""
 AROUND = 60
 """Things farther than this from an object change nothing of what is seen of it [px]."""
 CONVINCING = 0.9
@@ -173,19 +171,13 @@ def window_around(mask: Mask) -> tuple[slice, slice]:
 
 
 def _observe(seen: Calibrated, segment: Segment, segments: list[Segment]) -> Observation:
-    nearness = np.where(seen.depth > 0, seen.depth, np.inf)
     around = window_around(segment.mask)
     others = [
         mask
         for mask in (*(o.mask for o in segments if o.name != segment.name), *seen.aside)
         if mask[around].any()
     ]
-    exact = exact_depth(seen)
-    observation = observe(
-        seen.view, segment.mask, others, nearness, seen.cloud, seen.desk_top,
-        erosion=1 if exact else EROSION,
-    )  # fmt: skip
-    return replace(observation, edge_sigma=0.5 if exact else 0.8)
+    return observed(seen, segment.mask, others, seen.desk_top)
 
 
 def _fit_one(
@@ -200,7 +192,7 @@ def _fit_one(
     if choice is None:
         return None
     fits, support, placed = choice
-    strays = find_strays(seen, segment.mask, fits[0]) if exact_depth(seen) else None
+    strays = find_strays(seen, segment.mask, fits[0]) if seen.exact else None
     if strays is not None:
         own = replace(segment, mask=strays.own)
         before = Segment(f"before {segment.name}", strays.before, named=False)
@@ -226,7 +218,7 @@ def _without_handle(
 
     With exact depth the handle becomes part of a free form instead.
     """
-    body = None if exact_depth(seen) else without_protrusions(whole.segment.mask)
+    body = None if seen.exact else without_protrusions(whole.segment.mask)
     if body is None:
         return whole
     own = replace(whole.segment, mask=body)

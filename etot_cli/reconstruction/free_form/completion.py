@@ -12,7 +12,6 @@ from etot_cli.reconstruction.articulation.furnish import LEAST_SIDE
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.fit.pose import INVOLVED
-from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.free_form.carving import carve
 from etot_cli.reconstruction.free_form.surface_nets import surface_of
 from etot_cli.reconstruction.objects import Solid
@@ -45,7 +44,7 @@ def complete(seen: Calibrated, solid: Solid, others: list[Mask]) -> Solid:
         others: pixels (h, w) of each other object.
     """
     fit = solid.fit
-    strict = exact_depth(seen) and min(solid.size) <= LEAST_SIDE
+    strict = seen.exact and min(solid.size) <= LEAST_SIDE
     least = POOR_EXACT if strict else POOR
     doubtful = solid.warned("its shape is poorly explained: treat size and pose with care")
     poor = fit.explained <= least or fit.edge_rms >= POOR_EDGE

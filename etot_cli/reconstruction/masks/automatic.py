@@ -12,7 +12,6 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
 from etot_cli.reconstruction.capture.surfaces import measure_surfaces, shaded_desk
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.reconstruction.fit.refine import exact_depth
 from etot_cli.reconstruction.masks.boundaries import EXACT, refine_masks
 from etot_cli.reconstruction.masks.color_regions import FRAGMENT, part_by_color
 from etot_cli.reconstruction.masks.foreground import (
@@ -42,7 +41,7 @@ ABOVE = 0.4
 
 def find_segments(seen: Calibrated) -> list[Segment]:
     """Segments with provisional names, larger ones first."""
-    noisy = not exact_depth(seen)
+    noisy = not seen.exact
     threshold = LEAST_HEIGHT
     if noisy:
         seen, local = flattened(seen)

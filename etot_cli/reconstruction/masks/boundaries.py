@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.surfaces import ONE_COLOR, OTHER_COLOR
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.masks.readings import Readings, settled_by_depth, sure_readings
 
@@ -17,12 +18,8 @@ INNER = 4
 """Pixels this far inside a mask are the object's for sure."""
 OUTER = 14
 """Pixels this far outside are not."""
-COLOURFUL = 20.0
-"""An object whose hue is this far from the desk's cannot be mistaken for a shadow."""
 EXACT = 0.0015
 """With a smaller residual of the desk plane depth is believed against colour [m]."""
-UNLIKE = 14.0
-"""A colour this far from all of an object's is not its own."""
 SAMPLES = 400
 """So many pixels show the colours of an object."""
 MARGIN = 40
@@ -60,7 +57,7 @@ def refine_masks(
                 continue
             mask = result[index]
             own = np.median(color[mask][:, :2], axis=0)
-            apart = bool(np.linalg.norm(own - desk) > COLOURFUL)
+            apart = bool(np.linalg.norm(own - desk) > OTHER_COLOR)
             others = [other for i, other in enumerate(result) if i != index]
             doubtful = smeared if apart else np.zeros_like(smeared)
             result[index] = _refine(
@@ -78,7 +75,7 @@ def like_desk(seen: Calibrated, color: NDArray[np.float32]) -> Mask:
     """Pixels (h, w) that have one of the desk's colours."""
     known = color[seen.desk]
     palette = cKDTree(known[:: max(1, len(known) // SAMPLES)])
-    away = palette.query(color.reshape(-1, 3), distance_upper_bound=UNLIKE)[0]
+    away = palette.query(color.reshape(-1, 3), distance_upper_bound=ONE_COLOR)[0]
     return np.asarray(np.isfinite(away).reshape(seen.desk.shape))
 
 
@@ -148,5 +145,5 @@ def _of_others(color: NDArray[np.float32], doubtful: Mask, own: Mask, foreign: M
         cKDTree(color[known][:: max(1, int(known.sum()) // SAMPLES)]).query(asked)[0]
         for known in (own, foreign)
     )
-    result[doubtful] = (from_own > UNLIKE) & (from_foreign < from_own / 2)
+    result[doubtful] = (from_own > ONE_COLOR) & (from_foreign < from_own / 2)
     return result

@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import Surfaces
 from etot_cli.reconstruction.capture.view import Array, Mask
+from etot_cli.reconstruction.masks.foreground import LEAST_PIXELS
 from etot_cli.reconstruction.masks.fragments import rejoined
 from etot_cli.reconstruction.masks.labels import Labels, label_components, nearest_label, opened
 
-LEAST_PIXELS = 150
-"""A part that is smaller belongs to the one beside it [px]."""
 COLOR_STEP = 22.0
 """Distance of colours that may be different objects."""
 SAME_SURFACE = 0.6

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
+from etot_cli.reconstruction.capture.surfaces import OTHER_COLOR
 from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.masks.labels import label_components, opened
 
@@ -28,8 +29,6 @@ LEAST_TALL = 0.006
 """Lower things are folds and stains [m]."""
 THINNEST = 7.0
 """Thinner things are fringes [px]."""
-FOREIGN = 20.0
-"""Colours this far from the desk's are no desk."""
 FEET = 45
 """An object's lower part may be hidden from depth up to this far below the rest [px]."""
 COVERED = 0.6
@@ -84,7 +83,7 @@ def with_feet(
     """Adds what is not desk by colour below what is raised: feet are lost in the noise of depth."""
     desk = np.median(color[seen.desk], axis=0)
     spread = np.percentile(np.linalg.norm(color[seen.desk] - desk, axis=1), 90)
-    other = np.linalg.norm(color - desk, axis=2) > max(FOREIGN, 1.5 * float(spread))
+    other = np.linalg.norm(color - desk, axis=2) > max(OTHER_COLOR, 1.5 * float(spread))
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FEET + 1,) * 2)
     near = cv2.dilate((raised & above_desk).astype(np.uint8), kernel) > 0
     # A foot is as low as the desk: beyond the desk's edge a lost reading is the floor's.

@@ -8,15 +8,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.reconstruction.capture.surfaces import ONE_COLOR
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import convex_hull_mask
 
 TEAR = 13
 """Lost readings tear things apart by this much: an edge of each piece, with the displacement of
 depth against colour [px]."""
-ONE_COLOR = 14.0
-"""Typical colours of one object's pieces differ by less (CIE Lab): light costs one side of a thing
-up to ten, from twenty on colours have different names."""
 COMPACT = 0.7
 """Share of its hull that one object's pieces fill together; a ring's two halves fill it whole, an
 angle's arms a half."""

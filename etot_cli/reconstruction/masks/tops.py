@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.surfaces import Surfaces
+from etot_cli.reconstruction.capture.surfaces import ONE_COLOR, Surfaces
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.masks.foreground import TALLEST
-from etot_cli.reconstruction.masks.fragments import ONE_COLOR, join_fragments
+from etot_cli.reconstruction.masks.fragments import join_fragments
 from etot_cli.reconstruction.masks.labels import (
     grow_labels,
     label_components,

@@ -15,9 +15,9 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask, View
-from etot_cli.reconstruction.fit.observation import Observation, observe
+from etot_cli.reconstruction.fit.observation import Observation, observed
 from etot_cli.reconstruction.fit.pose import FINE
-from etot_cli.reconstruction.fit.refine import exact_depth
+from etot_cli.reconstruction.fit.refine import least_sigma
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.raster import Window, coarse_depth, window_around
 from etot_cli.reconstruction.shapes.base import rotate
@@ -28,10 +28,6 @@ CELLS = 72
 """About so many cells along the longer side of the window."""
 TOLERANCE = 0.010
 """Depth that is off by this much, or more, is plainly wrong [m]."""
-EROSION = 3
-"""Pixels at the edge of a mask whose depth is left out where depth is noisy."""
-READING_SIGMA = 0.0007
-"""Readings are never taken to be better than this [m]."""
 NOISES = 4.0
 """… or by so many standard deviations of the depth."""
 
@@ -70,15 +66,9 @@ def target_of(
         base: height of what it stands on [m].
         seed: draws the measurements that are used.
     """
-    exact = exact_depth(seen)
-    observation = observe(
-        seen.view, mask, list(others), np.where(seen.depth > 0, seen.depth, np.inf), seen.cloud,
-        base, erosion=1 if exact else EROSION,
-    )  # fmt: skip
     observation = replace(
-        observation, edge_sigma=0.5 if exact else 0.8,
-        depth_sigma=max(READING_SIGMA, seen.noise / 2),
-    ).thinned(*FINE, np.random.default_rng(seed))  # fmt: skip
+        observed(seen, mask, list(others), base), depth_sigma=least_sigma(seen)
+    ).thinned(*FINE, np.random.default_rng(seed))
     pixels = np.column_stack(np.nonzero(mask)[::-1]).astype(np.float64)
     window = window_around(pixels, MARGIN, seen.view)
     cell = max(1, round(max(window.width, window.height) / CELLS))

@@ -9,6 +9,7 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import EXPLAINED_M, EXPLAINED_PX, Fit, trimmed_rms
+from etot_cli.reconstruction.fit.refine import trusted
 from etot_cli.reconstruction.registration.align import Candidate, candidates
 from etot_cli.reconstruction.registration.evidence import Target, mismatch
 from etot_cli.reconstruction.registration.model import Model
@@ -28,8 +29,6 @@ EDGE_COST = 0.05
 """Mismatch that a pixel between the mesh's outline and the mask's edge counts for."""
 WORST_EDGE = 10.0
 """An outline that is farther off is equally wrong [px]."""
-WORST_DEPTH = 0.008
-"""Depth is never taken to be worse than this [m]."""
 MISFIT = 0.35
 """A mesh that disagrees with more of the picture is not what is seen."""
 POOR = 0.6
@@ -156,7 +155,7 @@ def _reweighted(target: Target, item: Candidate, *, fit_scale: bool) -> Candidat
     """The alignment with depth trusted as far as it agrees with the mesh."""
     depth, _ = measured(target, item.model, item.params)
     seen = target.observation
-    sigma = float(np.clip(1.2 * trimmed_rms(depth), seen.depth_sigma, WORST_DEPTH))
+    sigma = trusted(trimmed_rms(depth), seen.depth_sigma)
     if sigma > 1.2 * seen.depth_sigma:
         target = replace(target, observation=replace(seen, depth_sigma=sigma))
         item = _improved(target, item, fit_scale=fit_scale, rounds=4)
