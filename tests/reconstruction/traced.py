@@ -43,7 +43,7 @@ def trace(family: Family, params: Array, view: View = VIEW) -> tuple[Mask, Array
 def seen_as(depth: Array, view: View = VIEW) -> Any:
     """What the fit asks of a calibrated capture with exact depth (h, w) [m]."""
     return SimpleNamespace(
-        depth=depth, cloud=view.cloud(depth), view=view, noise=1e-5, shift=(0, 0), desk_top=DESK
+        depth=depth, cloud=view.cloud(depth), view=view, noise=1e-5, exact=True, desk_top=DESK
     )
 
 

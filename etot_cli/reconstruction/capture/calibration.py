@@ -27,7 +27,7 @@ LEVELS = (-0.4, 0.6)
 MAX_TILT = 25.0
 """A desk that leans more means a wrong pose, not an inexact one [deg]."""
 CLEAN = 0.0002
-"""A desk plane with a smaller residual comes from a renderer [m]: a sensor's is three times that."""
+"""A desk plane with a smaller residual is a renderer's [m]; a sensor's is three times that."""
 TILT_NOTED = 0.3
 """Smaller tilts are corrected silently [deg]."""
 INLIER = 0.006
