@@ -114,7 +114,7 @@ def rotation_by(turn: Vector) -> Vector:
 
 def rotation_between(source: Vector, target: Vector) -> Vector:
     """The smallest rotation (3, 3) that takes one unit vector (3,) to another; of those to the
-    opposite one, that about the axis of the frame which is most nearly square to it.
+    opposite one, that about an axis which is square to x too.
     """
     axis, cosine = cross(source, target), float(source @ target)
     sine = math.sqrt(float(axis @ axis))
@@ -122,8 +122,7 @@ def rotation_between(source: Vector, target: Vector) -> Vector:
         return turn_about(axis / sine, math.atan2(sine, cosine))
     if cosine > 0:
         return np.eye(3)
-    square = np.eye(3)[int(np.abs(source).argmin())]
-    square = square - source * float(square @ source)
+    square = cross(source, np.eye(3)[1 if abs(source[0]) > 1.0 - 1e-12 else 0])
     return turn_about(square / math.sqrt(float(square @ square)), math.pi)
 
 

@@ -1,7 +1,7 @@
 """What stands on another thing, fitted together with it.
 
-How high the lower one is shows badly where the upper one covers its top; but there the upper one's
-foot is seen, and that is as high.
+How high the lower one is cannot be seen where the upper one covers its top; but there the upper
+one's foot is seen, and that is as high.
 """
 
 from __future__ import annotations
@@ -12,14 +12,21 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.pose import freedom_of, judge, residuals_of
+from etot_cli.reconstruction.fit.rims import disagreement
 from etot_cli.reconstruction.fit.solver import minimize
 from etot_cli.reconstruction.objects import Solid
+
+OPEN = 1.0
+"""By so much more may the lower one disagree with what is seen of it, in squares of its
+standard deviations: one is as good as none. A covered can's rises by 0.001, that of a chest in
+sight by 27."""
 
 
 def stacked(solids: list[Solid]) -> list[Solid]:
     """The solids, with the last one fitted together with what it stands on.
 
-    Where another thing stands there already, the height is known from that one.
+    Where another thing stands there already, the height is known from that one; and where what is
+    seen of the lower one says otherwise, that is believed.
     """
     above = solids[-1]
     borne = [solid for solid in solids if solid.support == above.support]
@@ -54,4 +61,6 @@ def stacked(solids: list[Solid]) -> list[Solid]:
         one.name: replace(one, fit=judge(one.fit.family, one.observation, params))
         for one, params in zip(pair, parted(found.x), strict=True)
     }
+    if disagreement([settled[below.name]]) > disagreement([below]) + OPEN:
+        return solids
     return [settled.get(solid.name, solid) for solid in solids]

@@ -10,7 +10,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
-from etot_cli.world.pose import UP, turn_about
+from etot_cli.world.pose import UP, rotation_between, turn_about
 from etot_cli.world.relations import standing_axis
 
 HIGHEST_APPROACH = 0.1
@@ -43,13 +43,13 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
             tool = belief.tool().rotation[:, 2]
             level = tool * np.array([1.0, 1.0, 0.0])
             level = level if np.linalg.norm(level) > 0.3 else np.array([1.0, 0.0, 0.0])
-        return _align(axis, level / np.linalg.norm(level)) @ pose.rotation
+        return rotation_between(axis, level / np.linalg.norm(level)) @ pose.rotation
     if not entry.upright_matters:
         return _level_tool(belief) @ attached.in_tool.rotation
     columns = pose.rotation.T @ UP
     nearest = int(np.argmax(np.abs(columns)))
     up = pose.rotation[:, nearest] * np.sign(columns[nearest])
-    return _align(up, UP) @ pose.rotation
+    return rotation_between(up, UP) @ pose.rotation
 
 
 def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | None:
@@ -63,7 +63,7 @@ def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | N
     along = pose.rotation[:, longest]
     if abs(along[2]) > LYING or size[longest] <= 2 * float(support.half.max()):
         return None
-    ways = [_align(along, end * UP) @ pose.rotation for end in (1.0, -1.0)]
+    ways = [rotation_between(along, end * UP) @ pose.rotation for end in (1.0, -1.0)]
     heights = [float((way @ attached.in_tool.rotation.T)[2, 2]) for way in ways]
     lowest = int(np.argmin(np.round(heights, 6)))
     return ways[lowest] if heights[lowest] <= HIGHEST_APPROACH else None
@@ -73,7 +73,7 @@ def standing_rotation(belief: Belief, attached: Attached) -> Vector:
     """The rod upright, its point down."""
     pose = belief.object_pose(attached.name)
     axis = pose.rotation @ np.array(belief.world.entries[attached.name].axis)
-    return _align(axis, -UP) @ pose.rotation
+    return rotation_between(axis, -UP) @ pose.rotation
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def orientations(
     enters_level = support.from_front and axis[2] < LYING and _points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and (upright or enters_level):
-        found = _turned(belief, attached, support, _align(axis, UP) @ now, laid=False)
+        found = _turned(belief, attached, support, rotation_between(axis, UP) @ now, laid=False)
         if upright:
             return found
     if (
@@ -174,7 +174,7 @@ def _flat(rotation: Vector) -> Vector:
     """An orientation (3, 3) with the body axis that is nearest to the vertical made vertical."""
     nearest = int(np.argmax(np.abs(rotation[2])))
     up = rotation[:, nearest] * np.sign(rotation[2, nearest])
-    return _align(up, UP) @ rotation
+    return rotation_between(up, UP) @ rotation
 
 
 def discomfort(belief: Belief, attached: Attached, rotation: Vector, places: Vector) -> Vector:
@@ -222,22 +222,8 @@ def inward_rotations(attached: Attached, base: Vector, inward: Vector) -> list[V
 def _level_tool(belief: Belief) -> Vector:
     """The present tool orientation turned to point straight down or level, whichever is nearer."""
     rotation = belief.tool().rotation
-    return _align(rotation[:, 2], -UP) @ rotation if _points_down(belief) else rotation
+    return rotation_between(rotation[:, 2], -UP) @ rotation if _points_down(belief) else rotation
 
 
 def _points_down(belief: Belief) -> bool:
     return bool(belief.tool().rotation[2, 2] < -DOWN)
-
-
-def _align(source: Vector, target: Vector) -> Vector:
-    """The smallest rotation (3, 3) that turns one unit vector into another."""
-    cross = np.cross(source, target)
-    sine, cosine = float(np.linalg.norm(cross)), float(source @ target)
-    if sine < 1e-9:
-        if cosine > 0:
-            return np.eye(3)
-        other = np.cross(source, [1.0, 0.0, 0.0])
-        if np.linalg.norm(other) < 1e-6:
-            other = np.cross(source, [0.0, 1.0, 0.0])
-        return turn_about(other / np.linalg.norm(other), np.pi)
-    return turn_about(cross / sine, float(np.arctan2(sine, cosine)))
