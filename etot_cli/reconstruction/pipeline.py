@@ -21,7 +21,7 @@ from etot_cli.reconstruction.fit.rejoin import rejoin
 from etot_cli.reconstruction.fit.second_look import look_again
 from etot_cli.reconstruction.fit.supports import fit_all
 from etot_cli.reconstruction.free_form.completion import complete
-from etot_cli.reconstruction.known.given import given_shapes
+from etot_cli.reconstruction.known.given import given_shapes, read_given
 from etot_cli.reconstruction.known.library import without, words_of
 from etot_cli.reconstruction.leaving_out import (
     checked_names,
@@ -68,6 +68,7 @@ def reconstruct(options: Options) -> Twin:
     """
     timing: dict[str, float] = {}
     clock = _Clock(timing)
+    given = read_given(options)
     seen = _calibrated(options.capture, options)
     clock.lap("calibration")
     warnings = list(seen.warnings)
@@ -81,7 +82,7 @@ def reconstruct(options: Options) -> Twin:
     solids, lost = _shapes(seen, segments, options)
     warnings += [f"{name}: too little of it is seen; left out" for name in lost]
     clock.lap("shapes")
-    solids = given_shapes(seen, solids, options)
+    solids = given_shapes(seen, solids, options, given)
     clock.lap("meshes and poses")
     solids, joints = _joints(seen, solids, options)
     solids, beyond = _within_reach(solids)

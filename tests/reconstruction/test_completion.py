@@ -98,10 +98,9 @@ def test_noise(two: Picture, home: Path) -> None:
     assert np.linalg.norm(solid.center - true["position"]) < 2.5 * PLACE
 
 
-def test_the_twin_and_its_pieces(
-    two: Picture, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Pieces are counted and measured; a second run takes them from the cache."""
+@pytest.fixture(scope="module")
+def twins(two: Picture, home: Path) -> tuple[Path, list[int]]:
+    """A folder with the twin as the command makes it, twice; how often a mesh was split."""
     calls = []
 
     def counted(*words: Any, **options: Any) -> Any:
@@ -109,13 +108,20 @@ def test_the_twin_and_its_pieces(
         return original(*words, **options)
 
     original = pieces._decompose
-    monkeypatch.setattr(pieces, "_decompose", counted)
-    monkeypatch.setenv("ETOT_CACHE", str(tmp_path / "cache"))
-    reports = []
-    for out in ("one", "two"):
-        words = ["reconstruct", str(home / "two"), "--out", str(tmp_path / out), "-q"]
-        assert run([*words, "--instruction", "Pick up the toy."]) == 0
-        reports.append(json.loads((tmp_path / out / "report.json").read_text()))
+    folder = home / "twins"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pieces, "_decompose", counted)
+        patch.setenv("ETOT_CACHE", str(folder / "cache"))
+        for out in ("one", "two"):
+            words = ["reconstruct", str(home / "two"), "--out", str(folder / out), "-q"]
+            assert run([*words, "--instruction", "Pick up the toy."]) == 0
+    return folder, calls
+
+
+def test_the_twin_and_its_pieces(twins: tuple[Path, list[int]]) -> None:
+    """Pieces are counted and measured; a second run takes them from the cache."""
+    folder, calls = twins
+    reports = [json.loads((folder / out / "report.json").read_text()) for out in ("one", "two")]
     assert len(calls) == 2, "each of the two meshes is split once"
     first, second = (report["pieces"] for report in reports)
     assert first == second
@@ -125,21 +131,18 @@ def test_the_twin_and_its_pieces(
         assert abs(item["volume_error"]) < 0.15
     for item in reports[0]["objects"]:
         assert item["settle_m"] < 0.002 and item["settle_deg"] < 1.0
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "one" / "scene.xml"))
+    model = mujoco.MjModel.from_xml_path(str(folder / "one" / "scene.xml"))
     assert model.nbody == 1 + len(SHAPES)
     for suffix in ("obj", "glb"):
-        mesh = trimesh.load(tmp_path / "one" / "meshes" / f"toy.{suffix}", force="mesh")
+        mesh = trimesh.load(folder / "one" / "meshes" / f"toy.{suffix}", force="mesh")
         red, _, blue, _ = np.median(mesh.visual.vertex_colors, axis=0)
         assert len(mesh.visual.vertex_colors) == len(mesh.vertices)
         assert red > blue + 60, "an orange toy has orange vertices"
 
 
 @pytest.mark.slow
-def test_a_plan_moves_it(two: Picture, home: Path, tmp_path: Path) -> None:
-    done = run(["reconstruct", str(home / "two"), "--out", str(tmp_path / "twin"), "-q",
-                "--instruction", "Pick up the toy."])  # fmt: skip
-    assert done == 0
-    words = ["plan", str(tmp_path / "twin" / "task.yaml"), "--out", str(tmp_path / "plan"), "-q"]
+def test_a_plan_moves_it(twins: tuple[Path, list[int]], tmp_path: Path) -> None:
+    words = ["plan", str(twins[0] / "one" / "task.yaml"), "--out", str(tmp_path / "plan"), "-q"]
     assert run([*words, "--jobs", "1"]) == 0
     report = json.loads((tmp_path / "plan" / "report.json").read_text())
     assert report["status"] == "feasible"

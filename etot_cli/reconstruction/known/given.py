@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,11 +29,31 @@ OTHER_SIZE = 0.12
 """A fitted size that differs by more than this share from the known one is worth a warning."""
 
 
-def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> list[Solid]:
+@dataclass(frozen=True)
+class Given:
+    """What the options' files say of shapes: a library, and meshes by the object's name."""
+
+    library: Library
+    meshes: dict[str, MeshFile]
+
+
+def read_given(options: Options) -> Given:
+    """Reads the files that say how things are shaped.
+
+    Raises:
+        SpecError: a mesh or library file is unusable.
+    """
+    library = Library(()) if options.library is None else read_library(options.library)
+    return Given(library, {name: _read(path) for name, path in options.meshes.items()})
+
+
+def given_shapes(
+    seen: Calibrated, solids: list[Solid], options: Options, given: Given
+) -> list[Solid]:
     """Solids with shapes that the user, a library or a server gives, registered with the picture.
 
     Raises:
-        SpecError: a mesh or library file is unusable, or is for an object that is not there.
+        SpecError: a mesh is for an object that is not there.
         ServiceError: a server gives no usable answer.
     """
     unknown = set(options.meshes) - {solid.name for solid in solids}
@@ -42,14 +62,13 @@ def given_shapes(seen: Calibrated, solids: list[Solid], options: Options) -> lis
             f"a mesh is given for {sorted(unknown)[0]!r}, which is not found; objects are "
             f"{', '.join(solid.name for solid in solids)}"
         )
-    library = Library(()) if options.library is None else read_library(options.library)
-    found = []
+    library, found = given.library, []
     for solid in solids:
         others = [*(o.segment.mask for o in solids if o is not solid), *seen.aside]
         entry = library.named(solid.name) if solid.segment.named else None
         if solid.name in options.meshes:
-            path = options.meshes[solid.name]
-            found.append(_with_mesh(seen, solid, others, _read(path), str(path), options))
+            mesh, source = given.meshes[solid.name], str(options.meshes[solid.name])
+            found.append(_with_mesh(seen, solid, others, mesh, source, options))
         elif entry is not None:
             found.append(_from_library(seen, solid, others, entry, options))
         elif options.mesh_url is not None:
