@@ -131,7 +131,9 @@ def _check_run(goal: Goal) -> None:
             for index in step.what:
                 options = goal.referents[index].options
                 own = {(step.run, item) for item in (options[0] if len(options) == 1 else (index,))}
-                if own & gone:
+                # "The cups on the tray, one at the front": whichever it is goes to both.
+                every = {(step.run, thing) for option in options for thing in option}
+                if own & gone or every <= gone:
                     why = "it cannot go to two places at once; say 'then'"
                     raise ReferenceProblem(goal.referents[index].text, why, 4)
                 gone |= own

@@ -82,11 +82,15 @@ _SAY_NOTHING = re.compile(
     + r")\b"
 )
 
+_NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
+
 
 def unaccounted(words: Iterable[str], reading: tuple[Spoken, ...]) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
     plain = _SAY_NOTHING.sub(" ", " ".join(words))
     left = Counter(_traces(reading))
+    if _NOT_BOTH.search(plain) and any(isinstance(said.clause, AvoidClause) for said in reading):
+        return "both"  # one of them may go there
     for word in plain.split():
         kinds = _kinds(word)
         if not kinds:

@@ -107,17 +107,24 @@ def _respective(
     if len(things) != len(targets) or len(things) < 2:
         return None
     return tuple(
-        PutGroup(Things((thing,)), (Destination(toward, (_one(target),)),))
-        for thing, target in zip(map(_one, things), targets, strict=True)
+        PutGroup(Things((thing,)), (Destination(toward, (target,)),))
+        for thing, target in zip(_single(things), _single(targets), strict=True)
     )
 
 
-def _one(np: NounPhrase) -> NounPhrase:
-    """One of those that a plural noun stands for ("the left and right bowls")."""
-    if not np.words:
-        return np
-    words = (*np.words[:-1], singular(np.words[-1]))
-    return replace(np, determiner=np.determiner or "the", words=words, loose=False)
+def _single(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+    """Those that a plural noun stands for which they share ("the left and right bowls")."""
+    if not any(np.loose or _is_bare(np) for np in nps):
+        return nps
+    return tuple(
+        replace(
+            np,
+            determiner=np.determiner or "the",
+            words=(*np.words[:-1], *map(singular, np.words[-1:])),
+            loose=False,
+        )
+        for np in nps
+    )
 
 
 RESPECTIVE_GROUPS = sequence(

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, alternatives
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -146,7 +146,7 @@ FILL = quiet(
         noun_phrase,
         "with",
         THINGS,
-        build=lambda toward, np, things: put_to(things, (Destination(toward, (np,)),)),
+        build=lambda toward, np, things: put_to(things, (Destination(toward, (np,), FILLED),)),
     )
 )
 COVER = either(

@@ -101,17 +101,20 @@ class Entry:
         """Whether a word stands in its name before the noun and does not name it."""
         return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
 
+    def holds(self) -> bool:
+        """Whether it may be for something: a vessel, furniture, a holder or a tool."""
+        if self.info is None or self.info.container or self.info.parts or self.info.boards:
+            return True
+        return bool({*map(singular, self.heads)} & (HELPING_NOUNS | _VESSELS))
+
     def is_short_for(self, word: str) -> bool:
         """Whether the word before its noun is a usual short name for it ("the remote"): it is no
         vessel, holder or tool for that, and the word no adjective.
         """
-        if self.info is None or self.info.container or self.info.parts or self.info.boards:
-            return False
         heads = {*map(singular, self.heads)}
-        holds = heads & (HELPING_NOUNS | _VESSELS)
         # A key of a car is no car; a cube of sponge is a sponge.
         other = heads & (COMMON_NOUNS - SHAPES) and singular(word) in COMMON_NOUNS
-        return not holds and not other
+        return not self.holds() and not other
 
     def is_pack_of(self, before: str, word: str) -> bool:
         """Whether its label ends with two words and one for a pack of that ("soy sauce bottle")."""
@@ -130,6 +133,7 @@ class Entry:
         packs = (words for words in self.called if solid and singular(words[-1]) in PACKS)
         inner = {singular(words[-2]) for words in packs if len(words) > 1}
         heads = {*map(singular, (*self.heads, *self.content))}
+        heads |= {"_".join(words[-2:]) for words in self.called}
         boxed = self.info is not None and self.info.kind == "box"
         for words in self.called[:1] if boxed else ():
             if len(words) == 2 and not all(map(is_english, words)):
@@ -165,7 +169,7 @@ class Entry:
 
     def is_plural(self, noun: str) -> bool:
         """Whether a noun is the plural of one of its nouns."""
-        singulars = (*self.heads, *self.generic, *self.own)
+        singulars = (*self.heads, *self.generic, *self.own, *self.content)
         # The name "pills_1" of a pill bottle is the plural of its label's word.
         by_name = any(singular(noun) in words for words in self.called[:1])
         return (by_name or noun not in singulars) and is_plural_of(noun, singulars)

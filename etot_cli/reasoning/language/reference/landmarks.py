@@ -43,6 +43,7 @@ def related(
     prep = modifier.prep
     if prep is Prep.OF and all(map(is_one, modifier.phrases)):
         things = [thing for thing in things if _has_owner(thing, scene)]
+    bare = modifier.denied and prep is Prep.WITH  # a cup without a saucer is on none either
     by_robot = any(space.ROBOT in several for several in landmarks)
     if by_robot and not (prep is Prep.NEAR and len(things) > 1) and prep not in _DISTANCES:
         raise ReferenceProblem(modifier.phrases[0].text, "say beside which object", 2)
@@ -52,6 +53,7 @@ def related(
         if any(
             (thing not in marks and space.holds_at(prep, thing, marks, scene) is not False)
             or (prep is Prep.OF and space.holds_at(prep, thing, marks, scene))
+            or (bare and space.touches(thing, marks[0], scene))
             for marks in _tuples(landmarks)
         )
     ]

@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     ORDINALS,
     PACKS,
+    PAIRED,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -276,8 +277,8 @@ def _match_in(
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
         # Of several pairs of socks "the socks" are all.
-        packs = len(entries) > 1 and singular(head) != head
-        plural = any(e.is_plural(head) or (packs and head in e.content) for e in entries)
+        packs = len(entries) > 1 and singular(head) != head and head not in PAIRED
+        plural = packs or any(entry.is_plural(head) for entry in entries)
         # "The fruit", "the yarn" of several balls of it
         shapes = all({*map(singular, entry.heads)} & SHAPES for entry in entries)
         mass = (head in MASS_NOUNS or (best == CONTENT and shapes)) and len(entries) > 1

@@ -69,7 +69,7 @@ def matched(
     words = (*words[:-1], *extra, *sides, words[-1])
     if not phrase.joined:
         quantity = quantity_of(phrase.determiner)
-        plain = not phrase.modifiers and not phrase.without and not quantity.every
+        plain = not (phrase.modifiers or phrase.without or quantity.every or words[1:])
         return match_words(
             words,
             vocabulary,

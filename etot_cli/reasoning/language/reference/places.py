@@ -9,7 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.destinations import TOP
+from etot_cli.reasoning.language.grammar.destinations import FILLED, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
@@ -95,7 +95,10 @@ class Places:
                     for phrase in destination.targets
                     for place in self._targets(destination, phrase, themes)
                 ]
-                inside = any(place.relation is Relation.INSIDE for place in found)
+                within = [place for place in found if place.relation is Relation.INSIDE]
+                inside = bool(within)
+                if inside and destination.word == FILLED:
+                    found = within
                 if inside and destination.word == OVER:
                     text = destination.targets[0].text
                     raise ReferenceProblem(text, "it is no lid; say into or onto it", 3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
@@ -74,6 +76,10 @@ class Phrases(Meanings):
             if phrase.loose and len(phrase.words) == 1 and len(first.words) > 1:
                 alike = replace(phrase, words=(*first.words[:-1], *phrase.words))
                 self._check_alike(phrase, alike, role, " ".join(alike.words))
+            if phrase.loose and len(phrase.words) > 1 == len(first.words):
+                # "The apple and orange juice": the apple, or its juice?
+                alike = replace(first, words=(*first.words, singular(phrase.words[-1])))
+                self._check_alike(first, alike, role, " ".join(alike.words))
         shared = tuple(item for item in last.modifiers if item.prep not in _OF_ITS_OWN)
         if not shared:
             return
@@ -246,6 +252,10 @@ class Phrases(Meanings):
                     noun=noun if landmark.is_elliptic and noun else None,
                     pronoun=self.pronoun_things,
                 )
+                if prep in (Prep.NEXT_TO, Prep.NEAR) and len(told) == 1:
+                    gap = partial(space.gap, told[0][0], scene=self.scene)
+                    nearest = min(resolved.options, key=lambda option: gap(landmark=option[0]))
+                    resolved = replace(resolved, options=(nearest,))
                 if prep in (Prep.ON, Prep.IN, Prep.FROM) and len(told) == 1:
                     options = tuple(
                         option

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD, Entry
+from etot_cli.reasoning.language.reference.entries import CONTENT, EXACT, GENERIC, HEAD, Entry
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -113,9 +113,15 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
-    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
-        # What is called a thing for something else is not for this.
-        apt = [item for item in graded if not any(own in PURPOSES for own in item[0].own)]
+    elif word in PURPOSES or is_general_noun(word):
+        # What is called a thing for something else is not for this; nor are eggs for milk, where
+        # there is milk ("the milk, eggs").
+        named = any(entry.grade(word) in (EXACT, HEAD, CONTENT) for entry in vocabulary.objects)
+        apt = [
+            item
+            for item in graded
+            if not any(own in PURPOSES for own in item[0].own) and (not named or item[0].holds())
+        ]
         if not apt:
             sifted.unknown.append(word)
             return

@@ -94,7 +94,7 @@ class Vocabulary:
         """
         members = members_of(noun)
         return [
-            replace(entry, generic=(), content=(*entry.content, noun))
+            replace(entry, generic=(), content=(*entry.content, singular(noun)))
             for entry in self.objects
             if members and entry.counts_among(members)
         ]

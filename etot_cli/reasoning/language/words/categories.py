@@ -50,7 +50,8 @@ _OTHER_FOOD = word_set(
 _TOOLS = word_set(
     """
     hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
-    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel
+    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
+    secateurs rake shovel spade hoe pruner hand_fork
     """
 )
 _CUTLERY = word_set("fork knife spoon teaspoon tablespoon chopstick")
@@ -59,7 +60,10 @@ _COOKING = word_set(
 )
 _DISHES = word_set("plate bowl saucer cup mug glass platter dish")
 _WRITING = word_set("pen pencil marker crayon highlighter chalk sharpie biro")
-_STATIONERY = word_set("stapler ruler eraser notebook notepad envelope folder binder")
+_STATIONERY = word_set(
+    "stapler ruler eraser notebook notepad envelope folder binder scissors sharpener "
+    "glue glue_stick paperclip paper_clip tape sticky_notes"
+)
 _VEHICLES = word_set(
     "car truck train bus van taxi ambulance tractor bicycle bike motorcycle scooter plane airplane "
     "aeroplane helicopter boat ship rocket"
