@@ -113,14 +113,15 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.selectors.append(word)
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
-    elif word in PURPOSES or is_general_noun(word):
+    elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
         # What is called a thing for something else is not for this; nor are eggs for milk, where
-        # there is milk ("the milk, eggs").
+        # there is milk ("the milk eggs").
         named = any(entry.grade(word) in (EXACT, HEAD, CONTENT) for entry in vocabulary.objects)
+        used = named or (word not in PURPOSES and vocabulary.is_known(word))
         apt = [
             item
             for item in graded
-            if not any(own in PURPOSES for own in item[0].own) and (not named or item[0].holds())
+            if not any(own in PURPOSES for own in item[0].own) and (not used or item[0].holds())
         ]
         if not apt:
             sifted.unknown.append(word)
