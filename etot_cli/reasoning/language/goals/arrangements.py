@@ -17,7 +17,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     context.tell_others(clause.things, clause.base)
     themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which ones to stack")]
-    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    text = clause.things.text
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
     if len(things) > 1:
@@ -81,7 +81,7 @@ def swap(context: Context, clause: SwapClause) -> None:
     """Each of two things to the other's place; the first one waits on the desk."""
     themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
-    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    text = clause.things.text
     if len(things) != 2:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
     if any(index in context.discourse.put for index in themes):

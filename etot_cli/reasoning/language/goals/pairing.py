@@ -14,7 +14,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     NounPhrase,
     PutGroup,
-    Things,
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -94,8 +93,7 @@ def is_by_color(group: PutGroup) -> bool:
 
 def by_color(context: Context, group: PutGroup) -> None:
     """Adds a step for each thing, to the places of its colour."""
-    phrases = group.things.phrases
-    text = " and ".join(phrase.text for phrase in phrases)
+    phrases, text = group.things.phrases, group.things.text
     toward, targets = _places(context, group, text)
     if any(map(is_matching, phrases)):
         # "The matching lid on the pot": the pot is known, its lid is sought.
@@ -106,7 +104,7 @@ def by_color(context: Context, group: PutGroup) -> None:
             raise ReferenceProblem(text, "several match in colour", 2)
         things = [found[0] for found in themes]
     else:
-        indices = context.phrases.things(Things(phrases, group.things.either), Role.THEME)
+        indices = context.phrases.things(group.things, Role.THEME)
         things = [thing for index in indices for thing in context.only(index, "say which ones")]
     things = [thing for thing in dict.fromkeys(things) if thing not in targets]
     for thing in things:

@@ -65,7 +65,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     may be meant as well.
     """
     if clause.turns != Turns() and len(clause.groups) > 1:
-        text = " and ".join(phrase.text for phrase in clause.groups[-1].things.phrases)
+        text = clause.groups[-1].things.text
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
@@ -189,7 +189,7 @@ def again(context: Context, clause: AgainClause) -> None:
     if clause.things is None:
         _onward(context, clause, before)
         return
-    text = " and ".join(phrase.text for phrase in clause.things.phrases)
+    text = clause.things.text
     if not before:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]

@@ -25,7 +25,7 @@ def in_turns(
     if turns == Turns():
         return found
     things = [thing for index in found for thing in context.only(index, "say which ones")]
-    text = " and ".join(phrase.text for phrase in spoken.phrases)
+    text = spoken.text
     if turns.sweep:
         if len(spoken.phrases) > 1:
             why = "say in which order they go, or beside what each of them is to be"

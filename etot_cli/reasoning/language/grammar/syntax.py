@@ -62,6 +62,11 @@ class NounPhrase:
         """The phrase with another noun, such as what "one" stands for."""
         return replace(self, words=(*self.words[:-1], *noun))
 
+    def without_modifier(self, modifier: Modifier) -> NounPhrase:
+        """The phrase with less behind it."""
+        kept = tuple(item for item in self.modifiers if item is not modifier)
+        return replace(self, modifiers=kept)
+
     def told_by(self, *modifiers: Modifier) -> NounPhrase:
         """The phrase with more behind it."""
         return replace(self, modifiers=(*self.modifiers, *modifiers))
@@ -73,6 +78,11 @@ class Things:
 
     phrases: tuple[NounPhrase, ...]
     either: bool = False
+
+    @property
+    def text(self) -> str:
+        """As written."""
+        return (" or " if self.either else " and ").join(phrase.text for phrase in self.phrases)
 
     def taken_from(self, source: NounPhrase | None) -> Things:
         """The same, each of them from somewhere."""
@@ -338,22 +348,21 @@ class Spoken:
     """In place of what was taken away before, or is not to be done."""
 
 
-def pronouns(node: object) -> Iterator[str]:
+def nodes(tree: object) -> Iterator[object]:
+    """All that a tree is made of, from its root on."""
+    yield tree
+    fields = getattr(tree, "__dataclass_fields__", ())
+    for part in tree if isinstance(tree, tuple) else [getattr(tree, name) for name in fields]:
+        yield from nodes(part)
+
+
+def pronouns(tree: object) -> Iterator[str]:
     """The pronouns in a tree, those in determiners left out."""
-    if isinstance(node, NounPhrase) and node.pronoun:
-        yield node.pronoun
-    items = node if isinstance(node, tuple) else getattr(node, "__dataclass_fields__", ())
-    for item in items:
-        yield from pronouns(item if isinstance(node, tuple) else getattr(node, item))
+    return (node.pronoun for node in nodes(tree) if isinstance(node, NounPhrase) and node.pronoun)
 
 
-def reading_cost(node: object) -> int:
+def reading_cost(tree: object) -> int:
     """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
-    if isinstance(node, NounPhrase):
-        own = len(node.modifiers) + node.loose
-        return own + sum(reading_cost(item) for item in (*node.modifiers, node.owner))
-    if isinstance(node, tuple):
-        return sum(reading_cost(item) for item in node)
-    fields = getattr(node, "__dataclass_fields__", {})
-    cost: int = getattr(node, "far_fetched", 0)
-    return cost + sum(reading_cost(getattr(node, name)) for name in fields)
+    phrases = (node for node in nodes(tree) if isinstance(node, NounPhrase))
+    said: int = sum(getattr(node, "far_fetched", 0) for node in nodes(tree))
+    return said + sum(len(phrase.modifiers) + phrase.loose for phrase in phrases)

@@ -52,7 +52,7 @@ class Phrases(Meanings):
         resolved = [self.meaning(phrase, role) for phrase in phrases]
         options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
         either = Resolved(options, noun=resolved[-1].noun)
-        text = " or ".join(phrase.text for phrase in things.phrases)
+        text = things.text
         return [self.discourse.add(either, text, role)]
 
     def _check_apart(self, things: Things, found: Sequence[Sequence[int]]) -> None:

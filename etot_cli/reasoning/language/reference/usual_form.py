@@ -77,13 +77,10 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             inner.determiner or inner.modifiers or is_descriptive(inner.words[0])
         ):
             # "The packet of rice" is the rice packet.
-            words = (*phrase.words[:-1], *inner.words, last)
-            rest = tuple(item for item in phrase.modifiers if item is not of)
-            return usual_form(replace(phrase, words=words, modifiers=rest))
+            return usual_form(phrase.without_modifier(of).called(*inner.words, last))
         if singular(last) == "pair" and inner.words[-1] in PAIRED and not inner.determiner:
-            words = (*phrase.words[:-1], *inner.words)
-            rest = tuple(item for item in phrase.modifiers if item is not of)
-            return usual_form(replace(phrase, words=words, modifiers=(*inner.modifiers, *rest)))
+            pair = phrase.without_modifier(of).called(*inner.words)
+            return usual_form(replace(pair, modifiers=(*inner.modifiers, *pair.modifiers)))
     if phrase.determiner == "a pair of" and last in PAIRED:
         phrase = replace(phrase, determiner="a")
     first = phrase.words[0] if phrase.words else ""
@@ -101,7 +98,7 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         phrase = replace(phrase, owner=None, modifiers=(of, *phrase.modifiers))
     if not last or of is None:
         return phrase
-    rest = tuple(item for item in phrase.modifiers if item is not of)
+    rest = phrase.without_modifier(of).modifiers
     whole = of.phrases[0]
     if last == "contents":
         inside = Modifier(Prep.IN, (whole,))
