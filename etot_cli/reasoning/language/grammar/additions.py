@@ -55,7 +55,8 @@ EXTRA = sequence(
             either(PLAIN_MODIFIER, quality_alone),
             build=lambda several, modifier: ("that", (several, modifier)),
         ),
-        f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another)",
+        f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another), "
+        "in (any|whatever) order",
     ),
     build=lambda *found: found[0] if found else (),
 )

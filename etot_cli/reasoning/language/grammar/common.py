@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     word,
 )
 from etot_cli.reasoning.language.words import known, small_words
+from etot_cli.reasoning.language.words.categories import is_category
 
 COMMA = text.COMMA
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
@@ -27,7 +28,8 @@ LIST = either(small_words.AND, sequence(COMMA, optional(small_words.AND)))
 def _is_noun(given: Input, said: str) -> bool:
     if said in given.nouns:
         return said not in known.NEVER_NOUNS
-    return said[:1].isalnum() and said not in known.GRAMMAR_WORDS and not known.is_adverb(said)
+    other = said in known.GRAMMAR_WORDS and not (is_category(said) and said in known.OTHER_VERBS)
+    return said[:1].isalnum() and not other and not known.is_adverb(said)
 
 
 NOUN_WORD = word(_is_noun)

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
     singular,
 )
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 _SIDES: dict[tuple[str, ...], Nearby] = {("left",): Nearby.LEFT, ("right",): Nearby.RIGHT}
@@ -31,21 +32,26 @@ _REGIONS = {Nearby.LEFT: Nearby.AT_LEFT, Nearby.RIGHT: Nearby.AT_RIGHT}
 
 def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]]:
     """The groups as they stand, and with the last place's noun lent to those that leave theirs out
-    ("A in the top and B in the bottom drawer").
+    ("A in the top and B in the bottom drawer"); what that is part of is said for all.
     """
     groups = _other_sides(groups)
-    nouns = [np.words[-1] for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
-    if len(set(nouns)) != 1 or matches_any(nouns[0], THING_NOUNS):
+    last = [np for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
+    nouns = {np.words[-1] for np in last}
+    if len(nouns) != 1 or matches_any(last[0].words[-1], THING_NOUNS):
         return (groups,)
-    lent = (
-        *(
-            group.going_to(
-                lambda np: replace(np, words=(*np.words, nouns[0])) if _is_bare(np) else np
-            )
-            for group in groups[:-1]
-        ),
-        groups[-1],
-    )
+    noun, whole = last[0].words[-1], [item for item in last[0].modifiers if item.prep is Prep.OF]
+
+    def with_noun(np: NounPhrase) -> NounPhrase:
+        return replace(np, words=(*np.words, noun)) if _is_bare(np) else np
+
+    def with_whole(np: NounPhrase) -> NounPhrase:
+        told = np.words[-1:] == (noun,) and any(map(_tells, np.words)) and not np.modifiers
+        return replace(np, modifiers=tuple(whole)) if told else np
+
+    lent = (*(group.going_to(with_noun) for group in groups[:-1]), groups[-1])
+    shared = tuple(group.going_to(with_whole) for group in lent[:-1])
+    if whole and shared != lent[:-1]:
+        return ((*shared, groups[-1]),)
     bare = [item.relation for group in groups for where in group.destinations
             for item in where.beside if not item.phrases]  # fmt: skip
     if lent != groups and Nearby.AT_CENTRE in bare:
@@ -94,9 +100,13 @@ def _targets(group: PutGroup) -> list[NounPhrase]:
     return [np for item in group.destinations for np in item.targets]
 
 
+def _tells(word: str) -> bool:
+    return is_descriptive(word) or word in LEVELS
+
+
 def _is_bare(np: NounPhrase) -> bool:
     """Whether a phrase has an article and adjectives, and nothing else."""
-    adjectives = np.words and all(is_descriptive(word) or word in LEVELS for word in np.words)
+    adjectives = np.words and all(map(_tells, np.words))
     return bool(np.determiner and adjectives) and not np.modifiers
 
 

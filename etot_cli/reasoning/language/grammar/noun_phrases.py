@@ -57,7 +57,11 @@ _NUMBER = sequence(
 DETERMINER = either(
     phrase(nouns.DETERMINERS),
     _NUMBER,
-    sequence(phrase("the, these, those"), _NUMBER, build=lambda *words: " ".join(words)),
+    sequence(
+        phrase("the, these, those, all, all the, all of the"),
+        _NUMBER,
+        build=lambda *words: " ".join(words),
+    ),
 )
 PRONOUN = phrase("it, them, they, this, that, these, those, its")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     KIND_NOUNS,
     LEVELS,
+    MATERIALS,
     ORDINALS,
     PACKS,
     PAIRED,
@@ -283,7 +284,8 @@ def _match_in(
         shapes = all({*map(singular, entry.heads)} & SHAPES for entry in entries)
         mass = (head in MASS_NOUNS or (best == CONTENT and shapes)) and len(entries) > 1
         plural |= mass
-    if best == GENERIC and any(e.only_tells(head) and e.grade(head) is None for e in pool):
+    jars = [e for e in pool if e.only_tells(head) and e.grade(head) is None]
+    if best == GENERIC and jars and singular(head) in MATERIALS:
         return None  # where there is a glass jar "the glass" is no cup
     loose = best == CONTENT or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
