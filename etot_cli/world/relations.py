@@ -13,7 +13,6 @@ from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import Memory
 from etot_cli.world.state import (
-    CLOSED_AT,
     OPEN_AT,
     STAYS_OPEN_AT,
     ObjectState,
@@ -300,13 +299,3 @@ def _is_lost(world: World, position: NDArray[np.float64]) -> bool:
 def _quadruple(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
     w, x, y, z = (float(value) for value in values)
     return w, x, y, z
-
-
-__all__ = [
-    "CLOSED_AT",
-    "OPEN_AT",
-    "initial_memory",
-    "read_scene",
-    "to_region",
-    "touched_by_robot",
-]
