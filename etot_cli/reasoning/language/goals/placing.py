@@ -135,15 +135,15 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
     ]
     if len(things) < 2:
         raise ReferenceProblem(text, "say next to what", 3)
-    if any(p.relation is Relation.INSIDE or p.beside for _, places in things for p in places):
+    if any(p.relation is Relation.INSIDE for _, places in things for p in places):
         raise ReferenceProblem(text, "things are next to each other on something flat only", 3)
     before: int | None = None
     for thing, places in things:
         index = context.single(thing, thing.name)
         if before is not None:
-            near = (Near(Nearby.NEXT_TO, (before,)),)
-            places = tuple(replace(place, beside=near) for place in places)
-            add_put(context, (index,), places or (Place(Relation.ON, None, near),), Grouping.ANY)
+            near = Near(Nearby.NEXT_TO, (before,))
+            places = tuple(replace(place, beside=(*place.beside, near)) for place in places)
+            add_put(context, (index,), places or (Place(Relation.ON, None, (near,)),), Grouping.ANY)
         elif places:
             add_put(context, (index,), places, Grouping.ANY)
         before = index

@@ -135,6 +135,11 @@ destination = Rule(
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
         sequence(
             _ABREAST,
+            BESIDES,
+            build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
+        ),
+        sequence(
+            _ABREAST,
             either(ONTO, _to, INTO),
             build=lambda found, surface: replace(surface, beside=found),
         ),

@@ -52,6 +52,7 @@ def normalized(text: str) -> str:
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
     pieces = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
     text = re.sub(rf"\b{pieces} (?=(?:{'|'.join(CATEGORIES)})\b)", "", text)
+    text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)

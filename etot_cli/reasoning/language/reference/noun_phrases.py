@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     MATERIALS,
     REFUSE,
+    SAID_OF_BOARDS,
     THING_NOUNS,
     is_descriptive,
     matches_any,
@@ -142,7 +143,8 @@ class Resolver:
             noun,
             self._vocabulary,
             parts_first=parts,
-            upon=role is Role.SURFACE,
+            upon=role is Role.SURFACE
+            or (role is Role.PLACE and matches_any(words[-1], SAID_OF_BOARDS)),
             place=role is Role.CONTAINER,
         )
         bare = not phrase.determiner and singular(words[-1]) != words[-1]

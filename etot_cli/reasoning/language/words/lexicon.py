@@ -135,6 +135,8 @@ BOARD_NOUNS = (
     "board", "level", "shelf", "tier", "surface", "layer", "compartment", "rack", "tray",
 )  # fmt: skip
 """Nouns for one surface of a piece of furniture that has several."""
+SAID_OF_BOARDS = ("board", "level", "shelf", "tier")
+"""Those that mean a drawer only where nothing has boards."""
 OPEN_SURFACES = (
     "tray", "plate", "saucer", "platter", "dish", "pan", "shelf", "rack", "bookcase", "bookshelf",
     "bed", "crib", "cot", "armchair", "zone", "area", "region", "field", "spot", "square",
@@ -200,6 +202,7 @@ _COLOR_SYNONYMS = {
 _IRREGULAR = {
     "shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box",
     "canvases": "canvas", "canvas": "canvas", "lenses": "lens", "lens": "lens",
+    "cds": "cd", "tvs": "tv",
     **{f"{word}s": word for word in (
         "cookie", "brownie", "veggie", "smoothie", "hoodie", "beanie", "birdie", "genie",
     )},
