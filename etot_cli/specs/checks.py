@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 from etot_cli.specs.dimensions import dimension_problems
 from etot_cli.specs.document import Node
@@ -261,14 +262,16 @@ def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> 
     depth = 0.0
     if (level and planar) or _meet(here, there):
         depth = overlap(here.footprint, there.footprint)
-    for item, place, other in ((one, here, there), (two, there, here)):
-        for part in open_parts(item, place):
-            if other.footprint is not None and _meet(part, other):
-                depth = max(depth, overlap(part.footprint, other.footprint))
+    mine, theirs = open_parts(one, here), open_parts(two, there)
+    pairs: list[tuple[Solid, Placed | Solid]] = [(part, there) for part in mine]
+    pairs += product(theirs, (here, *mine))
+    for part, other in pairs:
+        if other.footprint is not None and _meet(part, other):
+            depth = max(depth, overlap(part.footprint, other.footprint))
     return depth
 
 
-def _meet(first: Placed | Solid, second: Placed) -> bool:
+def _meet(first: Placed | Solid, second: Placed | Solid) -> bool:
     """Whether two height ranges overlap by more than touching."""
     return min(first.top, second.top) - max(first.base, second.base) > TOUCHING
 

@@ -187,6 +187,19 @@ def test_what_held_a_drawer_until_the_fingers_slid_off(impulse: float, kind: Cau
     assert verdict.cause.objects == (("toy", "drawer") if impulse > 1.0 else ("drawer",))
 
 
+@pytest.mark.parametrize(
+    ("first", "then", "harmed"), [(0.0, 0.18, True), (0.05, 0.1, False), (0.9, 0.72, False)]
+)
+def test_a_closed_part_that_is_left_ajar_was_opened_unasked(
+    first: float, then: float, harmed: bool
+) -> None:
+    before = changed(scenes.toy_in_drawer(), drawer={"openness": {"top": first}})
+    picked = held(before, "toy")
+    after = changed(picked, drawer={"openness": {"top": then}})
+    verdict = judge("[PICK UP, toy]", record(before, after))
+    assert (verdict.outcome is not Outcome.SUCCESS) is harmed
+
+
 def test_contents_ride_along() -> None:
     before = scenes.toy_in_drawer()
     after = changed(before, drawer={"openness": {"top": 0.0}}, toy={"position": (0.518, 0.10, 0.2)})

@@ -78,6 +78,14 @@ def test_no_room_names_who_fills_it(
     assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
 
 
+def test_fastened_things_that_fill_a_place_together_are_named() -> None:
+    post = BLOCK | {"size": [0.05, 0.05, 0.1], "fixed": True}
+    posts = {"one": post | {"at": [0.42, -0.16, 0.18]}, "two": post | {"at": [0.42, -0.24, 0.18]}}
+    cause = refused("[PUT ON, desk] (between one and two)", **posts)
+    assert cause.kind is CauseKind.NO_ROOM
+    assert set(cause.objects) == {"one", "two", "held"}
+
+
 OPEN_OVEN = OVEN | {"size": [0.25, 0.28, 0.28], "at": [0.6, 0.0], "yaw_deg": 180,
                     "door": {"open_deg": 100}}  # fmt: skip
 SMALL_CUP = CUP | {"diameter": 0.07}

@@ -99,6 +99,14 @@ def test_open_drawers_and_doors_take_room(tmp_path: Path) -> None:
     )
 
 
+def test_an_open_door_and_an_open_drawer_overlap(tmp_path: Path) -> None:
+    oven, facing = OVEN.format(90, "right"), CHEST.replace("-90", "90")
+    apart = facing.replace("at: [0.45, 0.0]", "at: [0.55, -0.35]")
+    ok(tmp_path, oven=oven, chest=apart.format(0.0))
+    error = scene_error(tmp_path, objects(oven=oven, chest=apart.format(0.13)))
+    assert "objects.chest.at: overlaps 'oven'" in error
+
+
 def test_the_door_is_where_its_hinge_says() -> None:
     text = {
         "kind": "cabinet",

@@ -14,7 +14,7 @@ from etot_cli.reasoning.builtin.effects import acted_object, carried_along
 from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.carrying import carried_by
-from etot_cli.world.state import CauseKind, ObjectState, RolloutRecord, owner_of
+from etot_cli.world.state import CLOSED_AT, CauseKind, ObjectState, RolloutRecord, owner_of
 
 SHOVED = 0.03
 """An object that ends up further away than this has been disturbed [m]."""
@@ -24,6 +24,8 @@ FELL = 0.01
 """An object that rests on something else and moved further than this has fallen off [m]."""
 PART_MOVED = 0.25
 """A part moved by more than this share of its travel, unasked, has been disturbed."""
+AJAR = 2 * CLOSED_AT
+"""... and one that was closed by more than this: it is closed no longer, and perhaps is to be."""
 
 
 class HarmKind(IntEnum):
@@ -175,7 +177,7 @@ def _is_part_moved(name: str, action: Action, record: RolloutRecord) -> bool:
         return False
     before, after = record.before.states[name], record.after.states[name]
     return any(
-        abs(after.openness.get(part, value) - value) > PART_MOVED
+        abs(after.openness.get(part, value) - value) > (AJAR if value <= CLOSED_AT else PART_MOVED)
         for part, value in before.openness.items()
     )
 

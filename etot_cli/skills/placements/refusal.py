@@ -46,6 +46,9 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     if not guilty and len(suspects) > 1 and helps(suspects):
         guilty = _least(suspects, helps)
     guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
+    everybody = [*suspects, *fastened]
+    if not guilty and fastened and len(everybody) > 1 and helps(everybody):
+        guilty = _least(everybody, helps)
     if guilty:
         return failed(
             CauseKind.NO_ROOM,
