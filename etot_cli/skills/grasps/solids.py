@@ -79,22 +79,23 @@ class Solids:
         geoms = np.asarray(self._world.geoms_of(name), dtype=np.int64)
         turns = data.geom_xmat[geoms].reshape(-1, 3, 3)
         spans = self._crossings(geoms, data.geom_xpos[geoms], turns, origins, directions)
-        lines: list[list[Interval]] = []
-        table = spans.transpose(2, 0, 1)
+        with np.errstate(invalid="ignore"):
+            thick = spans[:, 1] - spans[:, 0] > 1e-4
+        geom, line = np.nonzero(thick)
+        pieces = spans.transpose(0, 2, 1)[geom, line]
+        order = np.lexsort((*pieces.T[::-1], line))
+        merged: list[list[list[float]]] = [[] for _ in origins]
         # Plain numbers: there are too few along one line for arrays to pay.
-        for along_line in table.tolist():
-            pieces = sorted(tuple(piece) for piece in along_line if piece[1] - piece[0] > 1e-4)
-            merged: list[tuple[float, float, float, float]] = []
-            for piece in pieces:
-                if merged and piece[0] <= merged[-1][1] + 0.001:
-                    start, end, entry_cosine, leave_cosine = merged.pop()
-                    if piece[1] > end:
-                        end, leave_cosine = piece[1], piece[3]
-                    merged.append((start, end, entry_cosine, leave_cosine))
-                else:
-                    merged.append(piece)
-            lines.append([Interval(start, end, min(ends)) for start, end, *ends in merged])
-        return lines
+        for number, piece in zip(line[order].tolist(), pieces[order].tolist(), strict=True):
+            found = merged[number]
+            if found and piece[0] <= found[-1][1] + 0.001:
+                if piece[1] > found[-1][1]:
+                    found[-1][1], found[-1][3] = piece[1], piece[3]
+            else:
+                found.append(piece)
+        return [
+            [Interval(start, end, min(ends)) for start, end, *ends in found] for found in merged
+        ]
 
     def radius(self, geom: int) -> float | None:
         """Of a geom that is a ball [m], which has no planes."""

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from etot_cli.skills.deadline import Deadline
-from etot_cli.world.arrays import Vector
+from etot_cli.world.arrays import Vector, consecutive
 from etot_cli.world.pose import Pose
 from etot_cli.world.robot import RobotSpec
 
@@ -63,7 +63,7 @@ class Arm:
         self._model = mujoco.MjModel.from_xml_path(str(spec.model_path))
         model = self._model
         joints = [model.joint(name) for name in spec.joints]
-        self._qpos = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._qpos = consecutive(np.array([int(joint.qposadr[0]) for joint in joints]))
         self._dof = np.array([int(joint.dofadr[0]) for joint in joints])
         self.lower, self.upper = np.array([joint.range for joint in joints], dtype=np.float64).T
         self.home = np.array(spec.home, dtype=np.float64)
@@ -82,6 +82,8 @@ class Arm:
             )
             for free in (False, True)
         }
+        self._weights = {free: np.square(task.cost)[:, None] for free, task in self._tasks.items()}
+        self._inner = self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN
 
     def comfortable_radius(self, height: float) -> float:
         """Distance from the base axis at which the arm works best [m]: the middle of where it
@@ -137,7 +139,7 @@ class Arm:
     def _descend(self, target: Pose, seed: Vector, free_spin: bool) -> IkResult:
         task = self._tasks[free_spin]
         task.set_target(mink.SE3(np.concatenate([target.quaternion, target.position])))
-        joints = _within(seed, self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN)
+        joints = _within(seed, *self._inner)
         best = np.inf
         stalled = 0
         for _ in range(MAX_ITERATIONS):
@@ -153,15 +155,15 @@ class Arm:
             best = min(best, total)
             if stalled >= 3:
                 break
-            step = self._newton_step(task, error)
+            step = self._newton_step(task, error, self._weights[free_spin])
             largest = max(map(abs, step.tolist()))
             joints = _within(
                 joints + step * min(1.0, MAX_STEP / max(largest, 1e-9)), self.lower, self.upper
             )
         return IkResult(False, joints, position_error)
 
-    def _newton_step(self, task: mink.FrameTask, error: Vector) -> Vector:
-        """One damped Gauss-Newton step of the arm's joints (n,) [rad].
+    def _newton_step(self, task: mink.FrameTask, error: Vector, weights: Vector) -> Vector:
+        """One damped Gauss-Newton step of the arm's joints (n,) [rad], errors weighed by (6, 1).
 
         mink's task gives error and Jacobian. Its quadratic program without active limits is a
         linear system with a positive matrix, which MuJoCo solves in a tenth of the time; limits are
@@ -169,7 +171,7 @@ class Arm:
         """
         mujoco.mj_comPos(self._model, self._configuration.data)
         jacobian = task.compute_jacobian(self._configuration)[:, self._dof]
-        weighted = jacobian * np.square(task.cost)[:, None]
+        weighted = jacobian * weights
         hessian = weighted.T @ jacobian + self._damping
         step: Vector = -(weighted.T @ error)
         mujoco.mju_cholFactor(hessian, 0.0)
