@@ -260,39 +260,32 @@ def object_entry(info: ObjectInfo) -> Entry:
 
 def part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
     """The words of an object's drawers and doors, ``owner`` being its own."""
-    entries = []
-    for part in info.parts:
-        words = [word for word in _words_of(part.name) if not word.isdigit()]
-        entries.append(
-            Entry(
-                thing=Thing(info.name, part.name),
-                own=tuple(words),
-                heads=tuple(words[-1:]),
-                generic=JOINT_NOUNS.get(part.joint_type, ()),
-                context=(*owner.own, *owner.generic),
-                numbers=tuple(word for word in _words_of(part.name) if word.isdigit()),
-                exact=(f"{info.name}.{part.name}".casefold(),),
-                color=info.color,
-                info=info,
-                owner=owner.own,
-            )
-        )
-    return entries
+    return [
+        _level_entry(info, owner, Thing(info.name, part.name), JOINT_NOUNS.get(part.joint_type, ()))
+        for part in info.parts
+    ]
 
 
 def board_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
     """The words of an object's boards, ``owner`` being its own."""
-    return [
-        Entry(
-            thing=Thing(info.name, board=board),
-            own=tuple(_words_of(board)),
-            heads=tuple(_words_of(board)[-1:]),
-            generic=(*BOARD_NOUNS, *owner.heads, *owner.generic),
-            context=(*owner.own, *owner.generic),
-            exact=(f"{info.name}.{board}".casefold(),),
-            color=info.color,
-            info=info,
-            owner=owner.own,
-        )
-        for board in info.boards
-    ]
+    nouns = (*BOARD_NOUNS, *owner.heads, *owner.generic)
+    return [_level_entry(info, owner, Thing(info.name, board=b), nouns) for b in info.boards]
+
+
+def _level_entry(info: ObjectInfo, owner: Entry, thing: Thing, nouns: tuple[str, ...]) -> Entry:
+    words = _words_of(thing.part or thing.board or "")
+    # A board is called by its number as by a noun.
+    numbers = tuple(word for word in words if word.isdigit() and thing.part)
+    own = tuple(word for word in words if word not in numbers)
+    return Entry(
+        thing=thing,
+        own=own,
+        heads=own[-1:],
+        generic=nouns,
+        context=(*owner.own, *owner.generic),
+        numbers=numbers,
+        exact=(thing.address.casefold(),),
+        color=info.color,
+        info=info,
+        owner=owner.own,
+    )
