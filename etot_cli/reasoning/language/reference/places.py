@@ -208,8 +208,8 @@ class Places:
         inner = [i for i, around in discourse.put_into.items() if around == index]
         closed = all(self._scene.infos[t.name].parts for t in discourse.things(index))
         upon = [i for i in inner if closed and bears(discourse.things(i), laid, self._scene)]
-        if upon:
-            return upon[-1]
+        if len(upon) == 1:
+            return upon[0]
         sinks = not any(lies_on(laid, thing, self._scene) for thing in discourse.things(index))
         role = Role.PLACE if closed else Role.SURFACE
         rivals = [
