@@ -26,8 +26,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     RemoveClause,
     Spoken,
-    reading_cost,
 )
+from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver

@@ -9,7 +9,7 @@ from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.spelling import Correction, corrected, exchanged
-from etot_cli.reasoning.language.grammar.syntax import Spoken, reading_cost
+from etot_cli.reasoning.language.grammar.syntax import Spoken
 from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
     MAX_SENTENCES,
@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.text import (
     spaced,
     words_in,
 )
+from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import is_in_lexicon, singular

@@ -46,9 +46,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     ReorientClause,
     Spoken,
     State,
-    pronouns,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
+from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -346,23 +346,3 @@ class Spoken:
     order: Order = Order.SAID
     instead: bool = False
     """In place of what was taken away before, or is not to be done."""
-
-
-def nodes(tree: object) -> Iterator[object]:
-    """All that a tree is made of, from its root on."""
-    yield tree
-    fields = getattr(tree, "__dataclass_fields__", ())
-    for part in tree if isinstance(tree, tuple) else [getattr(tree, name) for name in fields]:
-        yield from nodes(part)
-
-
-def pronouns(tree: object) -> Iterator[str]:
-    """The pronouns in a tree, those in determiners left out."""
-    return (node.pronoun for node in nodes(tree) if isinstance(node, NounPhrase) and node.pronoun)
-
-
-def reading_cost(tree: object) -> int:
-    """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
-    phrases = (node for node in nodes(tree) if isinstance(node, NounPhrase))
-    said: int = sum(getattr(node, "far_fetched", 0) for node in nodes(tree))
-    return said + sum(len(phrase.modifiers) + phrase.loose for phrase in phrases)

@@ -1,0 +1,27 @@
+"""What can be asked of a syntax tree as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+
+
+def nodes(tree: object) -> Iterator[object]:
+    """All that a tree is made of, from its root on."""
+    yield tree
+    fields = getattr(tree, "__dataclass_fields__", ())
+    for part in tree if isinstance(tree, tuple) else [getattr(tree, name) for name in fields]:
+        yield from nodes(part)
+
+
+def pronouns(tree: object) -> Iterator[str]:
+    """The pronouns in a tree, those in determiners left out."""
+    return (node.pronoun for node in nodes(tree) if isinstance(node, NounPhrase) and node.pronoun)
+
+
+def reading_cost(tree: object) -> int:
+    """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
+    phrases = (node for node in nodes(tree) if isinstance(node, NounPhrase))
+    said: int = sum(getattr(node, "far_fetched", 0) for node in nodes(tree))
+    return said + sum(len(phrase.modifiers) + phrase.loose for phrase in phrases)
