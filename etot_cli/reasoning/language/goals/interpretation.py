@@ -19,14 +19,8 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.plausibility import guesses
 from etot_cli.reasoning.language.goals.turns import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.syntax import (
-    AvoidClause,
-    Clause,
-    Order,
-    PutClause,
-    RemoveClause,
-    Spoken,
-)
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.syntax import AvoidClause, Clause, PutClause, RemoveClause
 from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse

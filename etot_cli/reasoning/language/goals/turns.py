@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from etot_cli.reasoning.builtin.goal import Put, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Order, Things, Turns
+from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things, Turns
 from etot_cli.reasoning.language.reference.selection import in_line
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 

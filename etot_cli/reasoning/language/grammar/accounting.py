@@ -14,6 +14,7 @@ from dataclasses import fields, is_dataclass
 from enum import Enum
 
 from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -22,11 +23,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     MoveClause,
     NounPhrase,
-    Order,
     PickClause,
     PutClause,
     RemoveClause,
-    Spoken,
     State,
     SwapClause,
     Things,

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT, PUT_GROUP
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -41,12 +42,10 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     MoveClause,
     NounPhrase,
-    Order,
     PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
-    Spoken,
     Things,
     TowerClause,
     put_to,

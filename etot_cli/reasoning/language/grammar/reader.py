@@ -9,7 +9,7 @@ from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.spelling import Correction, corrected, exchanged
-from etot_cli.reasoning.language.grammar.syntax import Spoken
+from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
     MAX_SENTENCES,

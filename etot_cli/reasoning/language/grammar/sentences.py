@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -41,10 +42,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     MoveClause,
     NounPhrase,
-    Order,
     PutClause,
     ReorientClause,
-    Spoken,
     State,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION

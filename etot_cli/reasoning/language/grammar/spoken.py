@@ -1,0 +1,30 @@
+"""A clause where it is said, and when it is to be done."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from etot_cli.reasoning.language.grammar.syntax import Clause
+
+
+class Order(StrEnum):
+    """When a clause is to be done, where that is not its place in the text."""
+
+    SAID = "said"
+    THEN = "then"
+    """After what was said before, in so many words."""
+    FIRST = "first"
+    BEFORE_THAT = "before that"
+    LAST = "last"
+
+
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """A clause, where it begins in the text, and when it is to be done."""
+
+    clause: Clause
+    position: int
+    order: Order = Order.SAID
+    instead: bool = False
+    """In place of what was taken away before, or is not to be done."""
