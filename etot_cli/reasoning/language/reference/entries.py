@@ -133,7 +133,7 @@ class Entry:
         packs = (words for words in self.called if solid and singular(words[-1]) in PACKS)
         inner = {singular(words[-2]) for words in packs if len(words) > 1}
         heads = {*map(singular, (*self.heads, *self.content))}
-        heads |= {"_".join(words[-2:]) for words in self.called}
+        heads |= {"_".join(words[-2:]) for words in self.called if len(words) > 1}
         boxed = self.info is not None and self.info.kind == "box"
         for words in self.called[:1] if boxed else ():
             if len(words) == 2 and not all(map(is_english, words)):

@@ -71,6 +71,11 @@ def related(
         return (
             (things, []) if modifier.denied else ([], [])
         )  # it says where something goes, not which fridge
+    landmark_things = [mark for several in landmarks for mark in several]
+    supports = [thing for thing in things if space.is_support(thing, scene)]
+    borne = any(space.rests_on(m, thing, scene) for m in landmark_things for thing in supports)
+    if prep in space.RELATIONS and borne and not (plainly or modifier.denied):
+        return [], []  # "the table next to the phone" on a table says where on that
     fitting = plainly or fitting
     if modifier.denied:
         return [thing for thing in things if thing not in fitting], []

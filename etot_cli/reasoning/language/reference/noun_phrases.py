@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     LEVELS,
     MATERIALS,
+    ORDINALS,
     REFUSE,
     SAID_OF_BOARDS,
     THING_NOUNS,
@@ -133,6 +134,9 @@ class Resolver:
                 phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
                 word=quantity.unclear,
             )  # fmt: skip
+        counted = next((word for word in words[:-1] if word in ORDINALS), "")
+        if counted and phrase.determiner in ("every", "each"):
+            raise ReferenceProblem(phrase.text, "say which ones", 3, word=counted)
         if quantity.same:
             why = "'same': nothing was spoken of before that it could be"
             raise ReferenceProblem(phrase.text, why, 1, word="same")
@@ -216,14 +220,14 @@ class Resolver:
         if shape or (unclear and count == 1):
             raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
         mass = words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1]
-        counted = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)
+        so_many = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)
         lone = (
             role is Role.THEME
             and not (phrase.modifiers or phrase.without or matches_any(words[-1], THING_NOUNS))
             and len(words) == len(match.entries) == 1
             and is_object(match.entries[0])
         )
-        unsaid = not (counted or mass) and (match.loose or lone)
+        unsaid = not (so_many or mass) and (match.loose or lone)
         if match.plural and unsaid and len(things) == 1:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])

@@ -205,7 +205,8 @@ class Places:
         """
         discourse = self.discourse
         laid = discourse.things(*themes)
-        inner = [i for i, around in discourse.put_into.items() if around == index]
+        put_there = (i for i, around in discourse.put_into.items() if around == index)
+        inner = [i for i in put_there if i not in themes]
         closed = all(self._scene.infos[t.name].parts for t in discourse.things(index))
         upon = [i for i in inner if closed and bears(discourse.things(i), laid, self._scene)]
         if len(upon) == 1:
@@ -221,8 +222,8 @@ class Places:
             below = {place.where for place in discourse.last_places if not place.beside}
             rivals += [i for i in below if i is not None and not discourse.is_desk(i)]
         if (sinks or closed) and rivals:
-            names = " or ".join(discourse.referents[i].text for i in (*rivals, index))
-            raise ReferenceProblem(text, f"say whether on {names}", 4)
+            named = [discourse.referents[i].text for i in (*rivals, index)]
+            raise AmbiguousReference(text, named, "say whether on")
         return index
 
     def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:

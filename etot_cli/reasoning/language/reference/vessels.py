@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
@@ -11,6 +12,14 @@ from etot_cli.world.state import DESK, SceneState
 
 LID = 0.95
 """What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
+
+COVER = 1.5
+"""What is wider than so many times a vessel is no cover of it: a plate on a mug."""
+
+
+def _width(thing: Thing, scene: SceneState) -> float:
+    """The larger extent of a thing from above [m]."""
+    return math.inf if thing.name == DESK else max(scene.infos[thing.name].size[:2])
 
 
 def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
@@ -30,7 +39,12 @@ def bears(below: Sequence[Thing], laid: Sequence[Thing], scene: SceneState) -> b
     """Whether things have a tray under them, or cover a vessel."""
     infos = scene.infos
     return all(
-        is_flat(infos[thing.name]) or (infos[thing.name].container and lies_on(laid, thing, scene))
+        is_flat(infos[thing.name])
+        or (
+            infos[thing.name].container
+            and lies_on(laid, thing, scene)
+            and all(_width(one, scene) <= COVER * _width(thing, scene) for one in laid)
+        )
         for thing in below
     )
 
