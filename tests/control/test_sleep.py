@@ -11,6 +11,7 @@ import pytest
 from etot_cli.control.physics_world import PhysicsWorld
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.errors import WorldError
 from etot_cli.world.snapshot import restore, save
 from tests.world.helpers import BALL, CUP, PEN, UNIT, make_scene
 
@@ -87,3 +88,9 @@ def test_what_begins_to_topple_is_not_caught_by_sleep(beyond_deg: float, falls: 
     SimulatedRobot(world.world, world.data).wait(2.0, Guards())
     upright = world.data.body("crate").xmat[8]
     assert (abs(upright) < 0.1) if falls else (upright > 0.99)
+
+
+def test_a_simulation_that_diverged_is_told(asleep: PhysicsWorld) -> None:
+    asleep.data.qvel[asleep.world.model.joint("ball").dofadr[0]] = math.nan
+    with pytest.raises(WorldError, match="diverged"):
+        SimulatedRobot(asleep.world, asleep.data).wait(0.3, Guards())

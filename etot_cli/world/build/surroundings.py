@@ -30,6 +30,8 @@ def set_options(mj: mujoco.MjSpec) -> None:
     mj.option.impratio = 10.0
     mj.option.iterations = 50
     mj.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    # A state that is no number stays so and is seen; else it becomes the model's first one.
+    mj.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     mj.visual.global_.offwidth = 1920
     mj.visual.global_.offheight = 1440
     mj.visual.quality.shadowsize = 2048
