@@ -143,7 +143,7 @@ def test_physics_settings() -> None:
     # A restored state continues bit-identically only with sleeping off.
     assert not option.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP
     assert option.gravity == pytest.approx([0, 0, -9.81])
-    assert option.disableflags == 0
+    assert option.disableflags == mujoco.mjtDisableBit.mjDSBL_AUTORESET
 
 
 # -- no cheating -----------------------------------------------------------------------------------
