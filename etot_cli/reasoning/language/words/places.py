@@ -110,8 +110,8 @@ ITS_SIDE: dict[Nearby, str] = {
 }
 _AT = "on|at|to|in|onto|towards|near|along"
 _SIDES = {
-    Nearby.AT_LEFT: ("left", "(on|at) the [far] left"),
-    Nearby.AT_RIGHT: ("right", "(on|at) the [far] right"),
+    Nearby.AT_LEFT: ("[far] left", "(on|at) the [far] left"),
+    Nearby.AT_RIGHT: ("[far] right", "(on|at) the [far] right"),
     Nearby.AT_FRONT: ("(front|near)", f"({_AT}) the front"),
     Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear)"),
 }
@@ -136,7 +136,7 @@ REGION_OF_IT = {
 """Behind "the desk's"."""
 REGIONS: dict[tuple[Nearby, ...], str] = {
     **{
-        (side, *edge): f"({_AT}) the [far] {said} ({named})" + ("" if edge else f", {alone}")
+        (side, *edge): f"({_AT}) the {said} ({named})" + ("" if edge else f", {alone}")
         for side, (said, alone) in _SIDES.items()
         for edge, named in _ENDS.items()
     },
