@@ -1117,9 +1117,12 @@ def craft_table() -> SceneState:
 
 
 def sideboard() -> SceneState:
-    """Two drawers beside each other, the right one open, a coaster and a torch."""
+    """Two drawers beside each other, the right one open, a coaster, a torch, three mats."""
     return scene(
         drawers("sideboard", (0.62, 0.10), {"left": 0.0, "right": 0.9}, color="brown"),
         item("torch", "cylinder", (0.35, 0.20), size=(0.04, 0.04, 0.12), color="black"),
         item("coaster", "box", (0.30, -0.25), size=(0.10, 0.10, 0.01), color="green"),
+        item("mat", "box", (0.42, 0.30), size=FLAT, label="blue mat", color="blue"),
+        item("mat_2", "box", (0.42, -0.10), size=FLAT, label="red mat", color="red"),
+        item("mat_3", "box", (0.42, -0.35), size=FLAT, label="gray mat", color="gray"),
     )

@@ -118,8 +118,13 @@ def tell_apart(
         first, *more = group.things.phrases
         if more and index in discourse.undecided and first.words[-1:] == ("one",):
             raise AmbiguousReference(first.text, [referent.text, "another one"])
+        ways = [discourse.referents[theme].options for theme in shared]
+        gone = {thing for options in ways if len(options) == 1 for thing in options[0]}
+        left = tuple(option for option in referent.options if not gone & {*option})
         apart = tuple(dict.fromkeys((*referent.distinct_from, *shared)))
-        discourse.referents[index] = replace(referent, distinct_from=apart)
+        discourse.referents[index] = replace(
+            referent, options=left or referent.options, distinct_from=apart
+        )
 
 
 def without_riders(context: Context, themes: list[int]) -> list[int]:

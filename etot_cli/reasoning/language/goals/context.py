@@ -111,15 +111,15 @@ class Context:
 
     def source(self, themes: Sequence[int]) -> tuple[Place, ...]:
         """The one place that things are at before they are moved, for "there"; else none."""
-        things = set(self.discourse.things(*themes))
-        places = set()
+        things = dict.fromkeys(self.discourse.things(*themes))
+        places: list[Place] = []
         with suppress(ReferenceProblem):
-            places = {self.home(thing) for thing in things}
-        at = {
+            places = [self.home(thing) for thing in things]
+        at = dict.fromkeys(
             (place, self.discourse.things(place.where))
             for place in places
             if place.where is not None
-        }
+        )
         outer = [(place, on[0]) for place, on in at if on[0] not in things]
         if len(outer) != 1 or self.discourse.put & {*themes}:
             return ()

@@ -6,7 +6,17 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Grouping, Open, Pick, Place, Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Grouping,
+    Open,
+    Pick,
+    Place,
+    Put,
+    Relation,
+    Step,
+    Thing,
+)
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
@@ -172,6 +182,8 @@ def cover(context: Context, clause: CoverClause) -> None:
         for index in _covered(context, phrase, themes)
         for place in context.places.relations_to(Toward.ON, index, themes)
     )
+    if any(place.relation is Relation.INSIDE for place in places):
+        raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)
     add_put(context, themes, places, Grouping.ANY)
 
 

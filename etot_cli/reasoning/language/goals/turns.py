@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 from etot_cli.reasoning.builtin.goal import Put, Step, Thing
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -42,6 +44,11 @@ def in_turns(
             names = " and ".join(thing.name for thing in between)
             raise ReferenceProblem(text, f"say when it is the turn of {names}", 2)
         ordered = [*ahead, *between, *behind]
+        for below, upon in combinations(ordered, 2):
+            if {below, upon} <= {*between} or below.name not in carriers(context.scene, upon.name):
+                continue
+            why = f"{upon.name} would come along with {below.name}; say {upon.name} first"
+            raise ReferenceProblem(text, why, 4)
     return [context.single(thing, text) for thing in ordered]
 
 

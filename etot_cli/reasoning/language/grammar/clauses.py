@@ -119,7 +119,7 @@ LEFT_OUT = either(
 def _of_the_things(clause: Clause, said: Modifier) -> Clause | None:
     """What stands behind a place is said of what goes there only if it cannot be of the place."""
     found = excluding(clause, said)
-    return replace(found, far_fetched=1) if isinstance(found, PutClause) else None
+    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else None
 
 
 def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
@@ -142,7 +142,12 @@ CLAUSE = located(
         either(
             _ASKED,
             sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
-            sequence(PUT, OPTIONAL_COMMA, either(CONTRASTED, APPOSED), build=_of_the_things),
+            sequence(
+                either(PUT, ENSURE),
+                OPTIONAL_COMMA,
+                either(CONTRASTED, APPOSED),
+                build=_of_the_things,
+            ),
             sequence(PUT, OPTIONAL_COMMA, "but", PUT_GROUP, build=_but_some),
         ),
         EMPTY_WORDS,

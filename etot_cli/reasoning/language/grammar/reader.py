@@ -8,7 +8,12 @@ from dataclasses import dataclass
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
-from etot_cli.reasoning.language.grammar.spelling import Correction, corrected, exchanged
+from etot_cli.reasoning.language.grammar.spelling import (
+    Correction,
+    corrected,
+    exchanged,
+    pet_form,
+)
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
@@ -108,7 +113,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in _BEFORE_NOUNS
             known_one = verb or _is_known(word, vocabulary)
-            meant = None if known_one else corrected(word, spelled)
+            meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
             if common and meant is None and not known_one:
                 meant = exchanged(word, known.ALL_WORDS) or corrected(word, known.ALL_WORDS)
             if meant is not None:

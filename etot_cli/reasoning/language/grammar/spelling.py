@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
@@ -47,6 +49,18 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     close = [item for item, count in near.items() if count == least]
     only = close[0] if len(close) == 1 and least <= allowed else ""
     return only if len(only) >= 4 and not is_english(word) else None
+
+
+def pet_form(word: str, known: Iterable[str]) -> str | None:
+    """The animal that a child's word for it is of ("ducky", "doggies"); None when it is none.
+
+    Of other things such words are of their own ("penny", "bunny").
+    """
+    animals = members_of("animals").intersection(known)
+    if not (said := re.fullmatch(r"(.*?(.)\2?)(?:y|ie|ies)", word)):
+        return None
+    stem = next((stem for stem in (said[1], said[1][:-1]) if stem in animals), None)
+    return f"{stem}s" if stem and word.endswith("s") else stem
 
 
 def exchanged(word: str, known: Iterable[str]) -> str | None:

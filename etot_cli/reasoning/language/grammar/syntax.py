@@ -231,6 +231,7 @@ class EnsureClause:
     states: tuple[State, ...]
     waits: bool = False
     """It is said with "until", which is about time."""
+    far_fetched: int = 0
 
 
 @dataclass(frozen=True, slots=True)

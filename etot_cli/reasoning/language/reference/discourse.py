@@ -133,13 +133,15 @@ class Discourse:
         """Whether a definite phrase speaks of an earlier referent.
 
         It does when it means the same, and when it means, among others, what was spoken of by the
-        same noun: "the red plum … the plum".
+        same noun ("the red plum … the plum"), or what something was just taken out of ("that pot").
         """
         earlier, now = set(self.referents[referent].options), set(resolved.options)
         if earlier == now:
             return True
         nouns = {mention.noun for mention in self.mentions if mention.referent == referent}
-        return earlier < now and any(same_noun(noun, resolved.noun) for noun in nouns)
+        again = any(same_noun(noun, resolved.noun) for noun in nouns)
+        source = not nouns and any(place.where == referent for place in self.last_places)
+        return earlier < now and (again or source)
 
     def mention_again(self, referent: int, role: Role) -> None:
         """Notes that a pronoun spoke of a referent."""

@@ -89,7 +89,8 @@ def called_exactly(
     exact = [
         entry.thing for entry in match.entries if entry.thing in things and entry.is_called(words)
     ]
-    return exact if len(exact) == 1 else things
+    alike = any(words[-1] in e.numbered() for e in match.entries if e.thing not in exact)
+    return exact if len(exact) == 1 and not alike else things
 
 
 def _check_named(

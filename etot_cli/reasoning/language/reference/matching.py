@@ -100,8 +100,10 @@ def match_words(
         ReferenceProblem: nothing fits, or a word is not understood.
     """
     everything = (*vocabulary.objects, *vocabulary.parts, *vocabulary.boards, vocabulary.desk)
-    # Two things with one label are called alike, whatever their names are.
+    # Two things with one label are called alike, whatever their names are; so are two of which one
+    # has the other's name and a number.
     by_name &= sum(entry.is_called(words[-1:]) for entry in vocabulary.objects) < 2
+    by_name &= not any(words[-1] in entry.numbered() for entry in vocabulary.objects)
     for entry in everything:
         if len(words) == 1 and words[0] in entry.exact and (by_name or not words[0].isalpha()):
             if entry.info is None or not entry.only_tells(words[0]):
@@ -252,7 +254,7 @@ def _match_in(
     by_name: bool = True,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
-    sifted = Sifted(graded_by(pool, head))
+    sifted = Sifted(graded_by(pool, head), head)
     called = (*adjectives, head, *((number,) if number else ()))
     exactly = [item for item in sifted.graded if item[0].is_called(called)]
     if len(exactly) == 1 and len(called) > 1:

@@ -30,8 +30,12 @@ def _tells_parts(modifier: Modifier) -> bool:
 
 
 def names_part(modifier: Modifier, vocabulary: Vocabulary) -> list[str]:
-    """The side that drawers are called by ("the drawer on the left" is "the left drawer")."""
-    at = {*modifier.words} & SIDES.keys() - LEVELS.keys() if modifier.prep is Prep.SIDE else ()
+    """The side that drawers are called by ("the drawer on the left" is "the left drawer"), but none
+    that is counted from.
+    """
+    if modifier.prep is not Prep.SIDE or modifier.words[0] == "from":
+        return []
+    at = [word for word in modifier.words if word in SIDES and word not in LEVELS]
     return [word for word in at if any(part.has_word(word) for part in vocabulary.parts)]
 
 

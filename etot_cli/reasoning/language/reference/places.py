@@ -99,7 +99,8 @@ class Places:
                 inside = bool(within)
                 if inside and destination.word == FILLED:
                     found = within
-                if inside and destination.word == OVER:
+                again = any(np.pronoun for np in destination.targets)
+                if inside and (destination.word == OVER or (destination.word == TOP and again)):
                     text = destination.targets[0].text
                     raise ReferenceProblem(text, "it is no lid; say into or onto it", 3)
                 if destination.word in (TOP, *AT_END):

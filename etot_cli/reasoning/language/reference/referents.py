@@ -19,7 +19,12 @@ from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
+from etot_cli.reasoning.language.reference.usual_form import (
+    chooses,
+    is_robot,
+    leaves_noun_out,
+    usual_form,
+)
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -34,6 +39,7 @@ class Phrases(Meanings):
         """Referents of coordinated phrases; alternatives become one referent. No pronoun means any
         of ``excluded``.
         """
+        things = self._listed(things, role)
         self._check_shared(things, role)
         for phrase in things.phrases[1:]:
             if phrase.determiner == "both" and not phrase.words:
@@ -54,6 +60,32 @@ class Phrases(Meanings):
         either = Resolved(options, noun=resolved[-1].noun)
         text = things.text
         return [self.discourse.add(either, text, role)]
+
+    def _listed(self, things: Things, role: Role) -> Things:
+        """What "two blocks, C and D," and "a mug, the red or the green," list is all they mean."""
+        (whole, *parts) = things.phrases
+        number = 1 if things.either else len(parts)
+        if len(parts) < 2 or quantity_of(whole.determiner).count != number or not whole.words:
+            return things
+        noun = singular(whole.head)
+        elliptic = [np.is_elliptic or leaves_noun_out(np) for np in parts]
+        named = tuple(
+            np.called(noun)
+            if np.is_elliptic
+            else replace(np, words=(*np.words, noun))
+            if out
+            else np
+            for np, out in zip(parts, elliptic, strict=True)
+        )
+        try:
+            every = self.meaning(replace(whole, determiner="all"), role).options
+            meant = [self.meaning(np, role).options for np in named]
+        except ReferenceProblem:
+            if any(elliptic):
+                raise
+            return things
+        of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
+        return replace(things, phrases=named) if of_them else things
 
     def _check_apart(self, things: Things, found: Sequence[Sequence[int]]) -> None:
         """Whether "both drawers, the lower" names one of them twice, which says something else."""

@@ -78,6 +78,7 @@ class Sifted:
     """Entries that are left, and what the words so far were taken for."""
 
     graded: list[tuple[Entry, int]]
+    noun: str
     selectors: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -121,7 +122,8 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         apt = [
             item
             for item in graded
-            if not any(own in PURPOSES for own in item[0].own) and (not used or item[0].holds())
+            if not any(own in PURPOSES for own in item[0].own)
+            and (not used or (item[0].holds() and not matches_any(sifted.noun, item[0].content)))
         ]
         if not apt:
             sifted.unknown.append(word)

@@ -108,18 +108,19 @@ class Vocabulary:
         """Normalized text in which names and labels that no noun phrase could be ("mug a", "carton
         of milk", "yellow and white mug") stand as one word each, in either number.
         """
-        for before in {word for entry in self.objects for word in entry.numbered()}:
+        for before in dict.fromkeys(w for entry in self.objects for w in entry.numbered()):
             # "Box two" where boxes have numbers; "the box one by one" is none of them.
             number = rf"\b({re.escape(before)}) ({'|'.join(NUMBERS)})\b"
             no_count = r"(?! (?:by|at|after|of|per|(?:in )?each)\b)"
             text = re.sub(number + no_count, lambda said: f"{said[1]} {NUMBERS[said[2]]}", text)
-        for head in {head for entry in self.objects for head in entry.heads if "_" not in head}:
+        for head in dict.fromkeys(h for entry in self.objects for h in entry.heads if "_" not in h):
             # "Cup board" for what is called a cupboard
             for cut in range(_SHORTEST, len(head) - _SHORTEST + 1):
                 if f"{head[:cut]} {head[cut:]}" in text:
                     text = re.sub(rf"\b({head[:cut]}) ({head[cut:]}(?:e?s)?)\b", r"\1_\2", text)
-        odd = {words for entry in self.objects for words in entry.called if is_odd(words)}
-        for words in sorted(odd, key=lambda words: (-len(words), words)):
+        called = {words for entry in self.objects for words in entry.called if is_odd(words)}
+        odd = sorted(called, key=lambda words: (-len(words), words))
+        for words in odd:
             cut = cut_of(words) or len(words)
             plural = "(?:es|s)?" if cut < len(words) else ""
             spelled = [re.escape(word) + plural * (i == cut - 1) for i, word in enumerate(words)]
@@ -156,7 +157,7 @@ def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
     """
     for words in names:
         text = re.sub(rf"\b{' '.join(words[:-1])}e?s {words[-1]}\b", "_".join(words), text)
-    for letter in {words[-1] for words in names}:
+    for letter in dict.fromkeys(words[-1] for words in names):
         called = [words for words in names if words[-1] == letter]
         spoken = [
             words
@@ -165,7 +166,8 @@ def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
         ] or called
         if len(spoken) == 1:
             end = (
-                r"(?=,|[.;]|$| (?:and|or|in|into|on|onto|to|at|with|then|behind|beside|from|off)\b)"
+                r"(?=,|[.;]|$| (?:and|or|in|into|on|onto|to|at|with|then|behind|beside|from|off)\b"
+                r"| (?:first|last)(?:[,.;]|$))"
                 if letter in "adist"
                 else ""
             )
