@@ -1112,7 +1112,7 @@ def craft_table() -> SceneState:
         item("pencil", "pen", (0.30, -0.22), size=(0.15, 0.01, 0.01), color="yellow"),
         item("pencil_box", "bowl", (0.48, -0.25), size=(0.20, 0.10, 0.06)),
         item("shoe_box", "bowl", (0.48, -0.42), size=(0.24, 0.14, 0.10)),
-        item("comb", "box", (0.30, -0.32), size=(0.14, 0.03, 0.01)),
+        item("comb", "box", (0.30, -0.32), size=(0.14, 0.03, 0.01), label="barber's comb"),
     )  # fmt: skip
 
 

@@ -70,7 +70,7 @@ def test_refused(name: str, text: str, wanted: str) -> None:
     ("name", "text", "instead"),
     [
         ("breakfast", "Quickly put the apple on the plate.", "Put the apple on the plate."),
-        ("breakfast", "Throw the apple into the bowl.", "Put the apple into the bowl."),
+        ("breakfast", "Kick the apple into the bowl.", "Put the apple into the bowl."),
         ("breakfast", "Peel the banana.", "Pick up the banana."),
         ("breakfast", "Put the banana where the apple is.", "Put the banana next to the apple."),
         ("breakfast", "Put the apple in the fridge.", "Put the apple in the red cup."),

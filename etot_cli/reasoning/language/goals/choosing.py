@@ -98,6 +98,20 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
 
 
+def leave_among(context: Context, themes: Sequence[int]) -> None:
+    """What is left somewhere is none of those that the clause before puts elsewhere ("put the
+    vegetables in the fridge, but leave the potato in the pot").
+    """
+    referents = context.discourse.referents
+    options = [referents[index].options for index in themes]
+    left = {thing for ways in options if len(ways) == 1 for thing in ways[0]}
+    for index in (i for step in context.done if isinstance(step, Put) for i in step.what):
+        (every, *others) = referents[index].options
+        kept = tuple(thing for thing in every if thing not in left)
+        if kept and not others:
+            referents[index] = replace(referents[index], options=(kept,))
+
+
 def tell_apart(
     context: Context, group: PutGroup, before: Sequence[int], themes: Sequence[int]
 ) -> None:

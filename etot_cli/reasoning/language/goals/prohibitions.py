@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Relation, Thing
 from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import Avoid, AvoidClause, Destination
+from etot_cli.reasoning.language.grammar.syntax import (
+    Avoid,
+    AvoidClause,
+    Destination,
+    Things,
+)
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import addresses
 from etot_cli.world.state import DESK
 
@@ -34,7 +41,8 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
     if role is Role.ANY and any(phrase.is_elliptic for phrase in clause.things.phrases):
-        role = Role.THEME  # "leave the red one" speaks of what was moved, not of where to
+        # "Leave the red one" speaks of what was moved rather than of where to.
+        role = Role.PART if _moves_anyway(context, clause.things) else Role.THEME
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
         _rule_out_things(context, clause)
@@ -57,7 +65,28 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
     context.discourse.step_back(before)
+    # A drawer moves by being opened or closed, not with its chest.
+    parts = [p for t in things if t.part for p in parts_of(context.scene, t)]
+    ways = [
+        is_open(context.scene, p) or (is_closed(context.scene, p) and Keep.CLOSED) for p in parts
+    ]
+    if clause.avoid is Avoid.MOVE and len(parts) == len(things) and all(ways):
+        for part, way in zip(parts, ways, strict=True):
+            keep = Keep.OPEN if way is True else Keep.CLOSED
+            context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
+        return
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _moves_anyway(context: Context, things: Things) -> bool:
+    """Whether "the right one" cannot be one of the things that are put somewhere: it is moved."""
+    if any(quantity_of(np.determiner).other for np in things.phrases):
+        return False
+    moved = context.discourse.things(*context.discourse.put)
+    with suppress(ReferenceProblem):
+        found = [context.phrases.meaning(np, Role.THEME).options for np in things.phrases]
+        return all({*option} <= {*moved} for options in found for option in options)
+    return False
 
 
 def _rule_out_things(context: Context, clause: AvoidClause) -> None:

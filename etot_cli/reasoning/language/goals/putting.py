@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
+    leave_among,
     tell_apart,
     without_riders,
 )
@@ -97,6 +98,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if placed & own or things_of(context, themes) <= placed:
             group = set_closer(context, group, clause.groups[0], themes, chosen)
         placed |= own
+        if clause.stays:
+            leave_among(context, themes)
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, clause.ruled_out)
             continue

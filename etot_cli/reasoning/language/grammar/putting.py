@@ -50,13 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import BINS, singular
-
-
-def _into_a_bin(things: Things, where: tuple[Destination, ...]) -> PutGroup | None:
-    words = [[part for word in np.words for part in word.split("_")] for np in where[0].targets]
-    bins = all(any(singular(word) in BINS for word in said) for said in words)
-    return PutGroup(things, where) if bins else None
+from etot_cli.reasoning.language.words.lexicon import singular
 
 
 def _away(text: str, things: Things) -> PutClause:
@@ -73,14 +67,13 @@ THROWN = quiet(
                     THINGS,
                     optional("away, out"),
                     sequence(INTO, build=lambda place: (place,)),
-                    build=_into_a_bin,
+                    build=PutGroup,
                 ),
                 LIST,
                 most=3,
             ),
             build=PutClause,
         ),
-        sequence(verbs.DISCARD, THINGS, sequence(INTO, build=lambda place: (place,)), build=put_to),
         sequence(phrase(verbs.THROW_AWAY), THINGS, build=_away),
         sequence(
             verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
@@ -130,13 +123,22 @@ _WITH_WHAT_IT_HOLDS = sequence(
     build=lambda things, held, where: replace(put_to(things, where), conditions=(held,)),
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
+
+
+def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause:
+    """A place and what goes there; "next to the tape" is no "next, to the tape"."""
+    vague = any(item.toward is Toward.TO for item in where)
+    return replace(put_to(Things(nps), where), far_fetched=int(vague))
+
+
 _FRONTED = quiet(
     sequence(
         either(
-            sequence(verbs.PUT, DESTINATIONS), sequence(DESTINATIONS, OPTIONAL_COMMA, verbs.PUT)
+            sequence(verbs.PUT, DESTINATIONS),
+            sequence(DESTINATIONS, OPTIONAL_COMMA, either(verbs.PUT, "go[es], belong[s]")),
         ),
-        noun_phrase,
-        build=lambda where, np: put_to(Things((np,)), where),
+        NP_LIST,
+        build=_fronted,
     )
 )
 """The place before the thing."""

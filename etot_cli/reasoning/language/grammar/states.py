@@ -135,7 +135,17 @@ IF_NOT_SO = quiet(
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
 _TO_BE = optional("to (be|end up|go|stand|sit|lie)")
-_EACH = optional("each, both, all")
+
+
+def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> EnsureClause | None:
+    """What is to be so of all of them, as a word between noun and verb says."""
+    determiner = "both" if said == "both" else "all the"
+    (first, *more) = nps
+    if said and not more and first.determiner in nouns.THE_WORDS:
+        nps = (replace(first, determiner=determiner),)
+    return _ensured(state_of(nps, predicate))
+
+
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
     sequence(
@@ -160,9 +170,19 @@ ENSURE = either(
         DESTINATIONS,
         build=lambda nps, where: EnsureClause((State(nps, where),)),
     ),
+    quiet(
+        sequence(
+            NP_LIST,
+            "should, must, shall",
+            phrase("each, both, all"),
+            "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
+            PREDICATE,
+            build=_all_should,
+        )
+    ),
+    sequence(NP_LIST, phrase("each, both, all"), verbs.MODAL, PREDICATE, build=_all_should),
     sequence(
         NP_LIST,
-        _EACH,
         verbs.MODAL,
         PREDICATE,
         # "…, the ball in the cup": the verb is left out.

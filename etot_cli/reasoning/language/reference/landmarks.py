@@ -22,6 +22,8 @@ RANKED = frozenset(
 HOLDING = frozenset({Prep.WITH, Prep.CONTAINING, Prep.BEARING})
 """What tells a thing by what is in or on it."""
 _DISTANCES = frozenset({Prep.NEAREST, Prep.FARTHEST})
+ROUGHLY = ", though only roughly"
+"""How a note ends about what stands to a landmark as is said, but not by the definition."""
 EQUAL = 1e-6
 """Distances that differ by no more, which is rounding, leave the choice open [m]."""
 
@@ -116,7 +118,7 @@ def related(
         beside = " and ".join(mark.name for several in landmarks for mark in several)
         names = " and ".join(thing.name for thing in chosen)
         names += f" rather than {' or '.join(thing.name for thing in others)}" if others else ""
-        roughly = "" if plainly else ", though only roughly"
+        roughly = "" if plainly else ROUGHLY
         notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
     return chosen, others if plainly else []
 

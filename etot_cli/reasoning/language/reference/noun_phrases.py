@@ -22,10 +22,19 @@ from etot_cli.reasoning.language.reference.instances import called_exactly, opti
 from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.matching import is_object
 from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
-from etot_cli.reasoning.language.reference.nouns import matched, names_part, parts_of
+from etot_cli.reasoning.language.reference.nouns import (
+    all_among,
+    matched,
+    names_part,
+    parts_of,
+)
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
-from etot_cli.reasoning.language.reference.usual_form import is_robot, usual_form
+from etot_cli.reasoning.language.reference.usual_form import (
+    is_robot,
+    one_like,
+    usual_form,
+)
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -66,6 +75,7 @@ class Resolver:
     def __init__(self, scene: SceneState, vocabulary: Vocabulary) -> None:
         self._scene = scene
         self._vocabulary = vocabulary
+        self.as_labelled = vocabulary.as_labelled
 
     def colors_of(self, thing: Thing) -> frozenset[str]:
         """The basic colours that a thing is called by, or the one that it has."""
@@ -124,7 +134,7 @@ class Resolver:
         Raises:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
-        phrase = usual_form(phrase)
+        phrase = usual_form(self.as_labelled(phrase))
         if not phrase.words and (noun is None or phrase.determiner in _INCOMPLETE):
             raise ReferenceProblem(phrase.text, UNCLEAR)
         words = phrase.words or (noun or "object",)
@@ -196,7 +206,10 @@ class Resolver:
         places = role in (Role.CONTAINER, Role.SURFACE, Role.PART)
         if places and any(not can_be(thing, role, self._scene) for thing in unmeant):
             raise ReferenceProblem(phrase.text, "what is not meant is nothing like it", 1)
-        if (among := phrase.among or quantity.among) not in (0, len(things)):
+        among = phrase.among or quantity.among
+        if among and among != len(
+            all_among(things, match, phrase, role, self._vocabulary, self._scene)
+        ):
             raise ReferenceProblem(
                 phrase.text, f"not {among}, but {names_of_things(things)} fit", 2
             )
@@ -281,7 +294,7 @@ class Resolver:
             return [[[both[0]], [both[1]]]]
         each = [
             self._landmarks(pronoun, item, (phrase.head or None) if item.head == "one" else None)
-            for item in modifier.phrases
+            for item in (one_like(item, phrase) for item in modifier.phrases)
         ]
         if modifier.prep is Prep.ON and modifier.words:
             each = [[space.top_of(thing, self._scene) for thing in things] for things in each]

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.instances import usable_ones
 from etot_cli.reasoning.language.reference.matching import Match, match_words
 from etot_cli.reasoning.language.reference.selection import select, state_holds
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
@@ -146,3 +147,25 @@ def with_quality(
     if word in SIDES or word in SIZES:
         return set(select((word,), (), list(things), 1, scene, phrase.text))
     raise ReferenceProblem(phrase.text, f"{word!r} is not understood", 3, word=word)
+
+
+def all_among(
+    things: list[Thing],
+    match: Match,
+    phrase: NounPhrase,
+    role: Role,
+    vocabulary: Vocabulary,
+    scene: SceneState,
+) -> list[Thing]:
+    """All that "the small one of the two open drawers" tells one of: what is open; the small one
+    may be called so.
+    """
+    for word in match.selectors:
+        if word in STATES:
+            things = [thing for thing in things if state_holds(word, thing, scene)]
+    if phrase.among == len(things) or len(phrase.words) < 2:
+        return things
+    alone = replace(phrase, words=phrase.words[-1:], modifiers=())
+    found = matched(alone, alone.words, None, vocabulary)
+    every = usable_ones([entry.thing for entry in found.entries], role, alone, scene)
+    return every if {*things} <= {*every} else things

@@ -144,7 +144,7 @@ class Phrases(Meanings):
         """The referents of a phrase, none of ``excluded``; a plural pronoun may have several.
         ``topmost``: as for :func:`antecedents`.
         """
-        phrase = self.told_by_themes(phrase)
+        phrase = self.told_by_themes(self.resolver.as_labelled(phrase))
         plain_pronoun = phrase.pronoun and not phrase.modifiers
         if plain_pronoun and not chooses(phrase.determiner):
             found = antecedents(

@@ -62,7 +62,7 @@ def nothing_fits(
         )  # fmt: skip
     known = REASONS.get(head)
     if known:
-        return ReferenceProblem(phrase, f"{head!r}: {known}", 3, word=head)
+        return ReferenceProblem(phrase, f"{head!r}: {known}", 3)
     near = vocabulary.nearest(head)
     return ReferenceProblem(
         phrase,

@@ -104,15 +104,19 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         inside = Modifier(Prep.IN, (whole,))
         words = (*phrase.words[:-1], "objects")
         return replace(phrase, determiner="all", words=words, modifiers=(inside, *rest))
-    if whole.words and (last in SIZES or last in SIDES or last in ORDINALS):
+    told = phrase.words[:-1] if phrase.is_elliptic and phrase.words[1:] else phrase.words
+    one = told[-1]
+    if whole.words and any(one in table for table in (SIZES, SIDES, ORDINALS, LEVELS)):
         several = singular(whole.words[-1]) != whole.words[-1]
         if not several:
             raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
         noun = (*whole.words[:-1], singular(whole.words[-1]))
         among = quantity_of(whole.determiner).count or 0
-        return replace(
-            phrase, words=(*phrase.words, *noun), modifiers=(*whole.modifiers, *rest), among=among
-        )
+        modifiers = (*whole.modifiers, *rest)
+        if one in LEVELS:
+            # Of two open drawers the lower one may be the middle one of three.
+            told, modifiers = told[:-1], (Modifier(Prep.SIDE, words=(LEVELS[one],)), *modifiers)
+        return replace(phrase, words=(*told, *noun), modifiers=modifiers, among=among)
     return phrase
 
 
@@ -140,3 +144,11 @@ def leaves_noun_out(phrase: NounPhrase) -> bool:
 def chooses(determiner: str) -> bool:
     """Whether a determiner before a pronoun picks some of them ("one of them")."""
     return bool(determiner) and determiner.split()[0] not in ("all", "both", "each", "every")
+
+
+def one_like(landmark: NounPhrase, phrase: NounPhrase) -> NounPhrase:
+    """Of "the crate on the other crate" the other is any crate but that."""
+    same = landmark.words in ((), ("one",), (phrase.head,)) and not landmark.modifiers
+    if phrase.words and same and quantity_of(landmark.determiner).other:
+        return replace(landmark, determiner="a", words=(phrase.head,))
+    return landmark

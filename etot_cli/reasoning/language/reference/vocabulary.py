@@ -9,7 +9,10 @@ from difflib import get_close_matches
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.entries import (
+    EXACT,
+    HEAD,
     Entry,
     board_entries,
     cut_of,
@@ -29,8 +32,10 @@ from etot_cli.reasoning.language.words.lexicon import (
     TWINS,
     is_descriptive,
     is_general_noun,
+    matches_any,
     singular,
 )
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
 _SHORTEST = 3
@@ -56,6 +61,34 @@ class Vocabulary:
         return {
             entry.thing: entry for entry in (*self.objects, *self.parts, *self.boards, self.desk)
         }
+
+    def as_labelled(self, phrase: NounPhrase) -> NounPhrase:
+        """A phrase with its words as in a label: "the teacher's desk" where no teacher is in the
+        scene, "the tube of paint", "the bin for paper".
+        """
+        words, rest = phrase.words, phrase
+        before: tuple[str, ...] = ()
+        of, more = next(iter(phrase.modifiers), None), phrase.modifiers[1:]
+        if phrase.owner is not None:
+            before, rest = phrase.owner.words, replace(phrase, owner=None)
+        elif "for" in words[1:-1]:
+            at = words.index("for")
+            words, before = words[:at], words[at + 1 :]
+        elif of is not None and of.prep is Prep.OF and len(of.phrases) == 1:
+            (inner,) = of.phrases
+            if not (inner.determiner or inner.pronoun or inner.owner or inner.modifiers):
+                before, rest = inner.words, replace(phrase, modifiers=more)
+        everything = (*self.objects, *self.parts, *self.boards)
+        told = any(
+            entry.grade(words[-1]) is not None
+            and all(matches_any(word, (*entry.own, *entry.owner)) for word in before)
+            for entry in everything
+            if words and before
+        )
+        there = phrase.owner is not None and any(
+            entry.grade(before[-1]) in (EXACT, HEAD) for entry in everything if before
+        )
+        return replace(rest, words=(*before, *words)) if told and not there else phrase
 
     def short_names(self, noun: str, *, place: bool, before: str = "") -> list[Entry]:
         """Entries of one label that a noun is short for, with it as a noun of theirs.

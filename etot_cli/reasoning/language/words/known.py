@@ -106,6 +106,9 @@ REASONS = {
         ("under", "underneath", "below", "beneath", "above", "through", "around"),
         "things can be put on, into and beside others, no other way",
     ),
+    **dict.fromkeys(
+        ("side", "sides"), "say whether to the left or to the right of what"
+    ),
     "rather": "say only what is to be done",
     "instead": "say only what is to be done",
     "upside": "how a thing is to lie cannot be asked for",
