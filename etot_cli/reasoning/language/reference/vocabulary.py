@@ -78,14 +78,20 @@ class Vocabulary:
             (inner,) = of.phrases
             if not (inner.determiner or inner.pronoun or inner.owner or inner.modifiers):
                 before, rest = inner.words, replace(phrase, modifiers=more)
-        everything = (*self.objects, *self.parts, *self.boards)
+        # "The levels of shelf B" are told by what has them.
+        whose = phrase.owner is not None
+        everything = (
+            *self.objects,
+            *(self.parts if whose else ()),
+            *(self.boards if whose else ()),
+        )
         told = any(
             entry.grade(words[-1]) is not None
             and all(matches_any(word, (*entry.own, *entry.owner)) for word in before)
             for entry in everything
             if words and before
         )
-        there = phrase.owner is not None and any(
+        there = whose and any(
             entry.grade(before[-1]) in (EXACT, HEAD) for entry in everything if before
         )
         return replace(rest, words=(*before, *words)) if told and not there else phrase
