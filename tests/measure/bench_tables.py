@@ -1,7 +1,7 @@
 """Runs a benchmark suite, all methods, and writes its tables into docs/results.md.
 
-``make bench-paper`` and ``make bench-random`` go on where they were interrupted; ``--fresh`` begins
-anew.
+``make bench-paper`` and ``make bench-random`` go on where they were interrupted; with other code, or
+``--fresh``, they begin anew.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 
 from etot_cli.commands.bench_compare import load_report
 from etot_cli.reporting.bench_report import AverageModel, BenchReport
+from tests.measure.journal import code_digest
 from tests.measure.markdown import replace_section, table
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,7 +60,7 @@ def main() -> int:
     parser.add_argument("--no-write", action="store_true")
     options = parser.parse_args()
     whole, spent_s = False, 0.0
-    folder = options.as_it_is or RESULTS / options.suite
+    folder = options.as_it_is or RESULTS / f"{options.suite}-{code_digest()[:12]}"
     if options.as_it_is is None:
         if options.fresh:
             shutil.rmtree(folder, ignore_errors=True)
