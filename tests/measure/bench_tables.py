@@ -1,7 +1,7 @@
 """Runs a benchmark suite, all methods, and writes its tables into docs/results.md.
 
-``make bench-paper`` and ``make bench-random`` go on where they were interrupted; with other code, or
-``--fresh``, they begin anew.
+``make bench-paper`` and ``make bench-random`` go on where they were interrupted; with other code,
+or ``--fresh``, they begin anew.
 """
 
 from __future__ import annotations
