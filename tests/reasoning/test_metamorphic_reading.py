@@ -6,7 +6,7 @@ import random
 import re
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pytest
@@ -99,11 +99,17 @@ def stretched(
     return replace(scene, states=states, desk_bounds=(min(xs), max(xs), min(ys), max(ys)))
 
 
+def names_in(scene: SceneState) -> Iterator[str]:
+    """Of everything, drawers, doors and boards among it."""
+    for name, info in scene.infos.items():
+        yield from (name, *(part.name for part in info.parts), *info.boards)
+
+
 SIDED = [
     (name, text)
     for name, text in READ
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
-    and not any(re.match("left|right", item) for item in SCENES[name].infos)  # names stay
+    and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(r"(?i)right (next|away|behind)|(is|be) left\b", text)
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
 ]

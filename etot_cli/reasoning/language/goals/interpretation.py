@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
@@ -193,6 +194,7 @@ class _State:
             _check_instead(spoken, self._last)
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
             self._last = spoken.clause
+        check_opposites(self.context.discourse.notes)
         for spoken in reading:
             done = tuple(steps[id(spoken)])
             self.timed.append(Timed(done, spoken.order, self.sentence))

@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.opposites import ONLY_ONE
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
@@ -78,7 +79,7 @@ def select(
     by_size = [word for word in words if word in SIZES]
     told = [word for word in (*words, *sides) if word in SIDES or word in SIZES]
     if told and len(things) == 1 and notes is not None:
-        notes.append(f"{told[0]!r} or not, only {things[0].name} is called so")
+        notes.append(f"{told[0]!r}{ONLY_ONE.format(things[0].name)}")
     plain = not any(sides) and not any(word in SIDES for word in words)
     if len(ordinals) == len(by_size) == 1 and plain and by_size[0].endswith("est"):
         return [_nth_by_size(ordinals[0], by_size[0], things, scene, phrase)]

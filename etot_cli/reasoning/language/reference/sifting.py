@@ -142,10 +142,13 @@ def _of_owner(word: str, graded: list[tuple[Entry, int]]) -> list[tuple[Entry, i
     return own or [item for item in graded if matches_any(word, item[0].context)]
 
 
+_BRITISH = {"gray": "grey"}
+
+
 def _of_color(sifted: Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
     """Entries of a colour. A name beats a look, and a look beats a neighbouring colour."""
     graded = sifted.graded
-    if word == color:
+    if word in (color, _BRITISH.get(color)):
         plain = [item for item in graded if item[0].is_plainly(color)]
     else:
         plain = [item for item in graded if item[0].has_word(word)]

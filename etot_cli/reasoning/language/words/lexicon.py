@@ -240,6 +240,8 @@ def singular(word: str) -> str:
         return word[:-3] + "y"
     if len(word) > 4 and word.endswith(("shes", "ches", "xes", "sses", "zes")):
         return word[:-2]
+    if word.endswith(("atoes", "goes", "inoes")) and len(word) > 5:
+        return word[:-2]  # tomatoes, mangoes, dominoes; shoes and canoes are regular
     if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
         return word[:-1]
     return word
