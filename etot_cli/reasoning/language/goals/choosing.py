@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, things_in
-from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
@@ -154,20 +154,26 @@ def without_riders(context: Context, themes: list[int]) -> list[int]:
     return [index for index in themes if index not in riders]
 
 
-def choose_from_somewhere(context: Context, theme: int) -> None:
+def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False) -> None:
     """Of several things that may be meant those are taken out or off that are in or on something,
-    rather in or on what was spoken of.
+    rather in or on what was spoken of; or (``stacked``) that stand upon what can be moved.
     """
-    discourse = context.discourse
+    discourse, scene = context.discourse, context.scene
     referent = discourse.referents[theme]
+    if stacked:
+        above = (tuple(t for t in o if carriers(scene, t.name)) for o in referent.options)
+        options = tuple(option for option in above if option)
+        if not options:
+            raise ReferenceProblem(referent.text, "it stands on nothing that can be moved", 3)
+        discourse.referents[theme] = replace(referent, options=options)
+        return
     if theme in discourse.put or len(referent.options) < 2:
         return
     spoken = {
         thing.name for item in discourse.mentions for thing in discourse.things(item.referent)
     }
     under = {
-        option: [bearers(context.scene, thing.name) for thing in option]
-        for option in referent.options
+        option: [bearers(scene, thing.name) for thing in option] for option in referent.options
     }
     held = tuple(option for option, names in under.items() if all(names))
     named = tuple(option for option in held if all({*names} & spoken for names in under[option]))

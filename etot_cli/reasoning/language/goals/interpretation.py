@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import islice
 
 from etot_cli.errors import InstructionError
-from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
@@ -16,7 +14,13 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.plausibility import guesses
+from etot_cli.reasoning.language.goals.plausibility import (
+    Moves,
+    does_as_well,
+    guesses,
+    holds_roughly,
+    plans_of,
+)
 from etot_cli.reasoning.language.goals.turns import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
@@ -29,12 +33,9 @@ from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
-from etot_cli.skills.action import Action, Verb
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import SceneState
 
-MAX_BRANCHES = 16
-"""Branches by which goals are compared; those that differ do so from the first."""
 MAX_COMPARED = 6
 """Different goals of one sentence that are compared; more are too many to name."""
 
@@ -263,35 +264,24 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
 
 
 def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _State]) -> _State:
-    plans: dict[tuple[object, ...], _State] = {}
+    plans: dict[tuple[Moves, ...], _State] = {}
+    scene = state.context.discourse.scene
     for attempt in found.values():
-        goal = attempt.goal()
         with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
-            scene = state.context.discourse.scene
-            branches = list(islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES))
-            if branches:
-                ordered = any(item.order is not Order.SAID for item in attempt.timed)
-                key = tuple(_moves(branch.actions, ordered=ordered) for branch in branches)
-                plans.setdefault(key, attempt)
+            ordered = any(item.order is not Order.SAID for item in attempt.timed)
+            plan = plans_of(attempt.goal(), scene, ordered=ordered)
+            if plan or holds_roughly(attempt.goal()):
+                plans.setdefault(plan, attempt)
+    for key in [*plans]:
+        if any(does_as_well(other, key) for other in plans if other != key):
+            del plans[key]
     if len(plans) > 1:
         goals = (formal(attempt.goal()) for attempt in plans.values())
         ways = [f"{number}) {goal}" for number, goal in enumerate(goals, 1)]
         raise ReferenceProblem(
             sentence.text, f"it can be read in {len(plans)} ways: {'; '.join(ways)}", 4
         )
-    for attempt in plans.values():
-        return attempt
-    return next(iter(found.values()))
-
-
-def _moves(actions: Sequence[Action], *, ordered: bool) -> tuple[object, ...]:
-    """What a branch moves where; in the order of the text only where a word asks for an order."""
-    moves: list[tuple[Action, ...]] = [()]
-    for action in actions:
-        moves[-1] += (action,)
-        if action.verb is not Verb.PICK_UP:
-            moves.append(())
-    return tuple(moves if ordered else sorted(moves, key=str))
+    return next(iter((plans or found).values()))
 
 
 def _meaning(goal: Goal) -> Goal:

@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 
-from etot_cli.reasoning.builtin.goal import Put, Relation
+from etot_cli.reasoning.builtin.branching import branches_of
+from etot_cli.reasoning.builtin.goal import Goal, Put, Relation
+from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.turns import Timed
 from etot_cli.reasoning.language.reference.landmarks import ROUGHLY
 from etot_cli.reasoning.language.reference.sifting import TAKEN_FOR
 from etot_cli.reasoning.language.reference.vessels import goes_in
+from etot_cli.skills.action import Action, Verb
+from etot_cli.world.state import SceneState
+
+Moves = tuple[tuple[Action, ...], ...]
+"""What is done with one thing after the other."""
+MAX_BRANCHES = 16
+"""Branches by which goals are compared; those that differ do so from the first."""
 
 
 def guesses(context: Context, said: Sequence[Timed]) -> int:
@@ -40,3 +50,49 @@ def guesses(context: Context, said: Sequence[Timed]) -> int:
     rough = [note.removesuffix(ROUGHLY).split(": ")[-1] for note in notes if note.endswith(ROUGHLY)]
     roughly = sum(bool(moved & {*names.split()}) for names in rough)
     return cramped + roughly + sum(note.startswith(TAKEN_FOR) for note in notes)
+
+
+def plans_of(goal: Goal, scene: SceneState, *, ordered: bool) -> tuple[Moves, ...]:
+    """What the branches of a goal do, none where it holds already.
+
+    Raises:
+        InstructionError, ReferenceProblem, ReasonerStopped: there is no plan for it.
+    """
+    branches = islice(branches_of((settled(goal, scene),), scene), MAX_BRANCHES)
+    return tuple(_moves(branch.actions, ordered=ordered) for branch in branches)
+
+
+def _moves(actions: Sequence[Action], *, ordered: bool) -> Moves:
+    """What a branch moves where; in the order of the text only where a word asks for an order."""
+    moves: list[tuple[Action, ...]] = [()]
+    for action in actions:
+        moves[-1] += (action,)
+        if action.verb is not Verb.PICK_UP:
+            moves.append(())
+    return tuple(moves if ordered else sorted(moves, key=str))
+
+
+def holds_roughly(goal: Goal) -> bool:
+    """Whether what holds already is that things are beside others, which may be meant nearer."""
+    places = (p for step in goal.steps if isinstance(step, Put) for p in step.places)
+    return any(near.landmarks for place in places for near in place.beside)
+
+
+def does_as_well(plans: Sequence[Moves], others: Sequence[Moves]) -> bool:
+    """Whether whatever is done of some plans does one of the others, too: what is put on the stove
+    next to the pot is on the stove.
+    """
+
+    def does(action: Action, other: Action) -> bool:
+        there = action.target == other.target or action.target.startswith(f"{other.target}.")
+        same = (action.verb, action.pose) == (other.verb, other.pose)
+        return there and same and {*other.where} <= {*action.where}
+
+    def follows(moves: Moves, others: Moves) -> bool:
+        pairs = zip(moves, others, strict=False)
+        return len(moves) == len(others) and all(
+            len(one) == len(other) and all(map(does, one, other)) for one, other in pairs
+        )
+
+    all_known = 0 < len(plans) < MAX_BRANCHES
+    return all_known and all(any(follows(one, other) for other in others) for one in plans)

@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Relation,
     Step,
     Thing,
+    things_in,
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
@@ -67,6 +68,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.world.state import DESK
 
@@ -246,6 +248,12 @@ def _like_a_place(context: Context, step: Put, theme: int) -> bool:
 
 def remove(context: Context, clause: RemoveClause) -> None:
     """Adds the steps that take things from where they are to the desk."""
+    if clause.without and clause.source is not None:
+        above = context.phrases.meaning(clause.source, Role.THEME).options
+        below = [context.phrases.meaning(np, Role.ANY) for np in clause.things.phrases]
+        under = [thing for item in below for thing in things_in(item.options)]
+        if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
+            return  # the cake is put away without the plate that it stands on
     things = clause.things.taken_from(clause.source)
     # What stands on the desk is taken out of nothing: "put the key in the box, then take it out".
     discourse, states = context.discourse, context.scene.states
@@ -256,7 +264,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     ]
     themes = context.phrases.things(things, Role.THEME, around)
     for index in themes if clause.source is None else ():
-        choose_from_somewhere(context, index)
+        choose_from_somewhere(context, index, stacked=clause.stacked)
     context.discourse.last_places = context.source(themes)
     for place in context.discourse.last_places:
         context.mention_part(place)

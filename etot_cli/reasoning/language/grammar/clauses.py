@@ -64,6 +64,7 @@ from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 WANTED = either(
     sequence(verbs.WANT, ALL_THINGS, verbs.DONE, DESTINATIONS, build=put_to),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
+    sequence(ALL_THINGS, verbs.MODAL, SOURCE, build=RemoveClause),
     sequence(
         sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=Things.taken_from),
         "and",
@@ -260,6 +261,12 @@ _GONE = either(
         build=MoveClause,
     ),
     sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        "taken, removed, moved, cleared",
+        ALL_THINGS,
+        either(SOURCE, phrase("out, off, away", "")),
+        build=lambda things, source: RemoveClause(things, source or None),
+    ),
     sequence(
         either(phrase("opened", True), phrase("closed", False)),
         THINGS,

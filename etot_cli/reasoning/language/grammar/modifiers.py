@@ -65,7 +65,10 @@ BETWEEN = sequence(
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
-        EXACTLY, places.ON_TOP_OF, noun_phrase, build=lambda np: Modifier(Prep.ON, (np,), ("top",))
+        EXACTLY,
+        f"{places.ON_TOP_OF}, (from|off [of]) the top of",
+        noun_phrase,
+        build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
     valued(BETWEEN, lambda pair: Modifier(Prep.BETWEEN, pair)),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),

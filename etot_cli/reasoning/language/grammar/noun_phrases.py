@@ -302,4 +302,14 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 ALL_THINGS = valued(NP_LIST, Things)
 """Several things, and no choice between them."""
-THINGS = Rule(either(ALL_THINGS, sequence(alternatives(noun_phrase, 5), build=_one_of)))
+THINGS = Rule(
+    either(
+        ALL_THINGS,
+        sequence(alternatives(noun_phrase, 5), build=_one_of),
+        sequence(
+            alternatives(noun_phrase, 1),
+            "~comma but not both ~comma",
+            build=lambda nps: _one_of(nps) if nps[1:] else None,
+        ),
+    )
+)

@@ -87,7 +87,7 @@ _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONA
 
 
 _PARTICLE = """
-    down, up, away, back, over, inside, somewhere, anywhere, some place,
+    down, up, away, back, over, out, inside, somewhere, anywhere, some place,
     one (by one|at a time|after the other|after another)
 """
 PUT_GROUP = sequence(

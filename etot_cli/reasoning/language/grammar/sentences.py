@@ -212,16 +212,24 @@ SENTENCE = either(
         plain(sequence(THINGS, build=AgainClause), Order.THEN),
     ),
     sequence(
-        UNORDERED, plain(WITHOUT), COMMA, CHAIN, build=lambda avoided, rest: (*avoided, *rest)
+        UNORDERED,
+        plain(WITHOUT),
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=lambda avoided, rest: (*avoided, *rest),
     ),
     sequence(
-        UNORDERED, EARLIER, COMMA, CHAIN, build=lambda earlier, rest: (*earlier, *_then(rest))
+        UNORDERED,
+        EARLIER,
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=lambda earlier, rest: (*earlier, *_then(rest)),
     ),
     sequence(
         UNORDERED,
         small_words.BEFORE,
         LED_CLAUSE,
-        COMMA,
+        OPTIONAL_COMMA,
         CHAIN,
         build=lambda later, rest: (*rest, *_then(later)),
     ),

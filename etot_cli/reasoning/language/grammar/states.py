@@ -7,8 +7,10 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     Rule,
     either,
     optional,
@@ -20,11 +22,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
     EnsureClause,
     MoveClause,
     NounPhrase,
     State,
     Things,
+    Toward,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, verbs
@@ -70,7 +74,21 @@ _STAYS = sequence(
         None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
     ),
 )
-STATE = either(sequence(NP_LIST, verbs.BE, PREDICATE, build=state_of), _STAYS)
+
+
+def _holding(np: NounPhrase, held: tuple[NounPhrase, ...]) -> State | None:
+    """What is to be in a vessel; "only the ball" would have the rest out of it."""
+    only = any(nouns.is_only(item.determiner) for item in held)
+    return None if only else State(held, (Destination(Toward.INSIDE, (np,)),))
+
+
+def _contains(verb: str) -> Parser:
+    return sequence(noun_phrase, verb, NP_LIST, optional("in it, inside"), build=_holding)
+
+
+STATE = either(
+    sequence(NP_LIST, verbs.BE, PREDICATE, build=state_of), _STAYS, _contains("contains, holds")
+)
 states = Rule(separated(STATE, LIST, most=6))
 
 
@@ -163,7 +181,7 @@ ENSURE = either(
             build=lambda nps, word: _ensured(opposite(nps, word)),
         )
     ),
-    valued(_STAYS, lambda state: EnsureClause((state,))),
+    valued(either(_STAYS, _contains(verbs.CONTAIN)), lambda state: EnsureClause((state,))),
     sequence(
         "there (should|must|has to|have to|needs to|need to|shall) be",
         NP_LIST,

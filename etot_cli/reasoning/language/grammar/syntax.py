@@ -211,6 +211,8 @@ class RemoveClause:
     source: NounPhrase | None = None
     without: bool = False
     """It is not to come along with that ("the mug without the pen")."""
+    stacked: bool = False
+    """It is what stands upon something else that can be moved."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,6 +98,8 @@ def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
 _AWAY = "out, off, away, down"
 REMOVE = either(
     sequence(verbs.REMOVE, THINGS, optional(SOURCE, None), build=RemoveClause),
+    sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
+    sequence(verbs.UNSTACK, THINGS, SOURCE, build=RemoveClause),
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),

@@ -35,13 +35,14 @@ DISTRIBUTE = """
 """
 PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
-TAKE = "tak(e|ing), lift[ing], pull[ing], mov(e|ing), bring[ing], transfer[ring]"
+TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
-    remov(e|ing), unstack[ing], clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
+    remov(e|ing), clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
     get[ting] (out|down|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
+UNSTACK = "unstack[ing]"
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
 LOAD = "load[ing] [up]"
@@ -76,6 +77,8 @@ WANT = """
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
 """
+CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
+"""Between a vessel and what is to be in it."""
 STAY = """
     (stay|stays|remain|remains),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
