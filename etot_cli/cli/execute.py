@@ -19,7 +19,7 @@ from etot_cli.cli.options import (
     TrialJobs,
     Verbose,
 )
-from etot_cli.cli.session import Session
+from etot_cli.cli.session import Session, read_task
 from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Limits
 from etot_cli.specs.bounds import MAX_TRIALS
@@ -96,6 +96,7 @@ def execute(
     """
     if dry_run and video:
         raise typer.BadParameter("--video shows what is moved, and --dry-run moves nothing")
+    given = read_task(task)
     session = Session(
         "execute", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
@@ -119,7 +120,7 @@ def execute(
         limits=Limits(max_nodes=max_nodes),
     )
     with session.execution_observer() as observer:
-        execution = run_execute(options, observer)
+        execution = run_execute(options, observer, given=given)
     report = execution.report
     path = session.save(report)
     if execution.trials and not report.interrupted:

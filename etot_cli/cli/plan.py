@@ -36,7 +36,7 @@ from etot_cli.cli.options import (
     WhenToLook,
     model_settings,
 )
-from etot_cli.cli.session import Session
+from etot_cli.cli.session import Session, read_task
 from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 from etot_cli.specs.bounds import MAX_WORLDS
@@ -153,6 +153,7 @@ def plan(
 
         for file in export:
             check_place(file)
+    given = read_task(task)
     session = Session("plan", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force)
     from etot_cli.commands.plan import PlanOptions, plan_task
 
@@ -172,7 +173,7 @@ def plan(
         vlm=vlm,
     )
     with session.search_observer() as observer:
-        planning = plan_task(options, observer)
+        planning = plan_task(options, observer, given=given)
     report = planning.report
     from etot_cli.commands.trajectories import write_trajectories
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from etot_cli.reporting.models import Report
     from etot_cli.reporting.printer import Printer
     from etot_cli.reporting.reconstruct_report import ReconstructReport
+    from etot_cli.specs.task import Task
 
     AnyReport = Report | ReconstructReport | BenchReport
 
@@ -31,6 +32,17 @@ Progress = Callable[[int, int], None]
 """Told how many of how many pieces are done."""
 POSITIVE = frozenset({"feasible", "success"})
 """Statuses that mean yes."""
+
+
+def read_task(file: Path) -> Task:
+    """The task, read before anything else is loaded, so that what is wrong with it is told at once.
+
+    Raises:
+        SpecError: the task is unusable.
+    """
+    from etot_cli import rooms
+
+    return rooms.default_rooms().load_task(file)
 
 
 class Session:

@@ -23,7 +23,7 @@ from etot_cli.cli.options import (
     WhenToLook,
     refuse_beside,
 )
-from etot_cli.cli.session import Session
+from etot_cli.cli.session import Session, read_task
 from etot_cli.specs.look import Look
 
 if TYPE_CHECKING:
@@ -107,6 +107,7 @@ def simulate(
 
         viewer = viewer_here()  # before the work: without any viewer it would be for nothing
     start_error = None if error is None else _start_error(error)
+    given = read_task(task)
     session = Session(
         "simulate", task, out=out, json=json, quiet=quiet, verbose=verbose, force=force
     )
@@ -126,7 +127,7 @@ def simulate(
         error=start_error,
         record=video or frames or view or html,
     )
-    simulation = run_simulate(options, session.log())
+    simulation = run_simulate(options, session.log(), given=given)
     report = simulation.report
     # Saved before rendering: what happened is on record even where OpenGL is missing.
     path = session.save(report)

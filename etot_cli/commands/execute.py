@@ -83,7 +83,12 @@ class Execution:
         return any(trial.status == "lost" for trial in self.trials)
 
 
-def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = None) -> Execution:
+def run_execute(
+    options: ExecuteOptions,
+    observer: ExecutionObserver | None = None,
+    *,
+    given: Task | None = None,
+) -> Execution:
     """Carries a task out.
 
     Ctrl-C (KeyboardInterrupt) does not escape: the robot is stopped and the report says
@@ -92,6 +97,7 @@ def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = No
     Args:
         options: the task, the robot and how often.
         observer: told of everything.
+        given: the task, where it has been read.
 
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
@@ -107,7 +113,7 @@ def run_execute(options: ExecuteOptions, observer: ExecutionObserver | None = No
                 f"--jobs {options.jobs}: there is one robot {options.robot.partition(':')[0]}"
             )
         with watch.phase("load"):
-            task = load_task(options.task)
+            task = given or load_task(options.task)
         with watch.phase("execute"):
             for trial in _trials(options, task, observer):
                 trials.append(trial)

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from etot_cli.commands import rooms as doors
+from etot_cli import rooms as doors
 from etot_cli.commands.timed import TimedReasoner
 from etot_cli.control.simulated import Step
 from etot_cli.planning.options import Ablation, Limits
@@ -84,6 +84,8 @@ def plan_task(
     options: PlanOptions,
     observer: SearchObserver | None = None,
     rooms: doors.Rooms | None = None,
+    *,
+    given: Task | None = None,
 ) -> Planning:
     """Plans a task.
 
@@ -93,6 +95,7 @@ def plan_task(
         options: the task and how to plan it.
         observer: told of every step of the search.
         rooms: the rooms below; this package's own when None.
+        given: the task, where it has been read.
 
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
@@ -110,7 +113,7 @@ def plan_task(
     try:
         rooms = rooms or doors.default_rooms()
         with watch.phase("load"):
-            task = rooms.load_task(options.task)
+            task = given or rooms.load_task(options.task)
             scene = rooms.vary(task.scene, options.seed) if options.vary else task.scene
         with watch.phase("world"):
             if options.reasoner == MODEL:

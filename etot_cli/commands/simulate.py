@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Protocol
 
-from etot_cli.commands import rooms as doors
+from etot_cli import rooms as doors
 from etot_cli.commands.given_plan import read_plan, report_of
 from etot_cli.commands.plan import task_model
 from etot_cli.control.simulated import Simulator
@@ -96,6 +96,8 @@ def run_simulate(
     options: SimulateOptions,
     observer: StepObserver | None = None,
     rooms: doors.Rooms | None = None,
+    *,
+    given: Task | None = None,
 ) -> Simulation:
     """Simulates a plan from the task's start, up to the first action that does not succeed.
 
@@ -105,6 +107,7 @@ def run_simulate(
         options: the task and the plan.
         observer: told of every action.
         rooms: the rooms below; this package's own when None.
+        given: the task, where it has been read.
 
     Raises:
         EtotError: the input is unusable or something that is needed is missing.
@@ -114,7 +117,7 @@ def run_simulate(
     try:
         rooms = rooms or doors.default_rooms()
         with watch.phase("load"):
-            run.task = rooms.load_task(options.task)
+            run.task = given or rooms.load_task(options.task)
             # Text that is no plan is refused before the world is built; names need the world.
             if options.open_loop:
                 run.recorded = recorded_plan(report_of(options.plan))

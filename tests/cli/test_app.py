@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from etot_cli import rooms
 from etot_cli.cli import interrupts
 from etot_cli.cli.app import run
-from etot_cli.commands import rooms
 from etot_cli.errors import ServiceError, SpecError
 from etot_cli.planning.options import Ablation
 from etot_cli.specs.task import Condition

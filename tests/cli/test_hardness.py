@@ -119,7 +119,7 @@ def test_a_report_folder_that_becomes_something_else(tmp_path: Path) -> None:
     (tmp_path / "temporary").mkdir()
     script = (
         "import pathlib, shutil, toy_etot\n"
-        "from etot_cli.commands import rooms\n"
+        "from etot_cli import rooms\n"
         "class Saboteur(toy_etot.ToyReasoner):\n"
         "    def judge(self, *given):\n"
         "        shutil.rmtree('x'); pathlib.Path('x').touch()\n"

@@ -43,13 +43,18 @@ def test_help_is_quick(tmp_path: Path) -> None:
     assert min(times) < HELP_LIMIT_S
 
 
-@pytest.mark.parametrize("arguments", ["--help", "plan --help", "--version"])
-def test_help_imports_nothing_heavy(tmp_path: Path, arguments: str) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [("--help", 0), ("plan --help", 0), ("--version", 0), ("plan odd.yaml", 2)],
+)
+def test_what_needs_no_simulator_loads_none(tmp_path: Path, arguments: str, code: int) -> None:
+    (tmp_path / "odd.yaml").write_text("instruktion: put it down\n")
     # Typer itself loads pydantic, where it is installed, to describe a command's parameters.
-    heavy = HEAVY - {"pydantic"} if arguments == "plan --help" else HEAVY
+    light = {"pydantic", "yaml"} if code else {"pydantic"} if "plan" in arguments else set()
+    heavy = HEAVY - light
     script = (
         "import sys\nfrom etot_cli.cli.app import run\n"
-        f"assert run({arguments.split()!r}) == 0\n"
+        f"assert run({arguments.split()!r}) == {code}\n"
         f"found = {heavy!r} & set(sys.modules)\nassert not found, found\n"
     )
     done = call([sys.executable, "-c", script], tmp_path)

@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 import time
 
+from etot_cli import rooms
 from etot_cli.cli import app
-from etot_cli.commands import rooms
 from etot_cli.skills.action import Action
 from etot_cli.world.state import Cause
 from tests.planning.fakes import ToyReasoner, ToySimulator, cause

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from etot_cli.commands.plan import PlanOptions, plan_task
-from etot_cli.commands.rooms import default_rooms
 from etot_cli.planning.options import Limits
 from etot_cli.reporting.tree_report import NodeModel
+from etot_cli.rooms import default_rooms
 from etot_cli.skills.action import parse_plan
 from etot_cli.skills.deadline import Deadline, OutOfTimeError
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from concurrent.futures import Future
 from pathlib import Path
 
-from etot_cli.commands.rooms import Rooms
 from etot_cli.control.simulated import Simulated, Simulator, StateToken, Trials
 from etot_cli.errors import SpecError
+from etot_cli.rooms import Rooms
 from etot_cli.skills.action import Action
 from etot_cli.skills.deadline import NEVER
 from etot_cli.specs.look import Look

@@ -16,8 +16,8 @@ from typing import Any
 import jsonschema
 import pytest
 
+from etot_cli import rooms
 from etot_cli.cli.app import run
-from etot_cli.commands import rooms
 from etot_cli.reasoning.vlm.fake_server import FakeServer, Script
 from etot_cli.reasoning.vlm.player import Player, Received, Reply
 from etot_cli.reasoning.vlm.probe import probe_picture

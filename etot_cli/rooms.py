@@ -1,15 +1,17 @@
 """The doors to the rooms below: loading, the simulator, the reasoner.
 
-Commands get them as one value, imported when a command runs and not before, so that ``--help``
-stays quick and tests can put other rooms in their place.
+Commands get them as one value, so that tests can put other rooms in their place. A room is imported
+when it is first entered, so that ``--help`` stays quick, and what is wrong with a task is told
+before the simulator's libraries are loaded, which takes three times as long as reading it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from etot_cli.specs.look import Look
 
@@ -68,18 +70,21 @@ class Rooms:
 
 def default_rooms() -> Rooms:
     """The rooms of this package."""
-    from etot_cli.control.simulator import known_targets, open_simulator
-    from etot_cli.control.trial_worlds import open_trials
-    from etot_cli.reasoning.builtin import BuiltinReasoner
-    from etot_cli.specs.load import load_task
-    from etot_cli.specs.vary import vary, vary_truth
-
     return Rooms(
-        load_task,
-        vary,
-        vary_truth,
-        open_simulator,
-        open_trials,
-        known_targets,
-        {"builtin": BuiltinReasoner},
+        _of("specs.load", "load_task"),
+        _of("specs.vary", "vary"),
+        _of("specs.vary", "vary_truth"),
+        _of("control.simulator", "open_simulator"),
+        _of("control.trial_worlds", "open_trials"),
+        _of("control.simulator", "known_targets"),
+        {"builtin": _of("reasoning.builtin", "BuiltinReasoner")},
     )
+
+
+def _of(module: str, name: str) -> Callable[..., Any]:
+    """What a module of this package has under a name, imported when it is called."""
+
+    def call(*given: Any, **named: Any) -> Any:
+        return getattr(import_module(f"etot_cli.{module}"), name)(*given, **named)
+
+    return call
