@@ -20,7 +20,7 @@ from etot_cli.reasoning.protocol import (
     Verdict,
 )
 from etot_cli.reasoning.vlm.asking import Asker
-from etot_cli.reasoning.vlm.baselines import plan_at_once, plan_by_steps
+from etot_cli.reasoning.vlm.baselines import OneShot
 from etot_cli.reasoning.vlm.client import ChatClient
 from etot_cli.reasoning.vlm.fake_server import FakeServer
 from etot_cli.reasoning.vlm.notes import Notebook, NoteKind
@@ -329,11 +329,8 @@ def scene_without(name: str, scene: SceneState) -> SceneState:
     return replace(scene, states={**scene.states, name: gone})
 
 
-Planner = Callable[..., Branch | None]
-
-
-@pytest.mark.parametrize("planner", [plan_at_once, plan_by_steps])
-def test_baselines(make_settings: Make, planner: Planner) -> None:
+@pytest.mark.parametrize("planner", [OneShot.at_once, OneShot.by_steps])
+def test_baselines(make_settings: Make, planner: Callable[[OneShot], Branch | None]) -> None:
     asked = Assignment(
         "Take the red cup. Mark 1 means horizontal grasping, mark 2 means vertical grasping."
     )
@@ -348,7 +345,7 @@ def test_baselines(make_settings: Make, planner: Planner) -> None:
     with FakeServer(Player(rules)) as server:
         client = ChatClient(make_settings(server.url))
         asker = Asker(client, Prompts(), notes, seed=0)
-        branch = planner(asker, Marked(), asked, SCENE)
+        branch = planner(OneShot(asker, Marked(), asked, SCENE))
         client.close()
     assert branch is not None
     assert branch.actions == (
@@ -356,7 +353,7 @@ def test_baselines(make_settings: Make, planner: Planner) -> None:
         Action(Verb.PUT_ON, "chest"),
     )
     assert "1 = red_cup" in server.requests[-1].text
-    if planner is plan_by_steps:
+    if planner is OneShot.by_steps:
         assert [r.role for r in server.requests] == ["cot_scene", "cot_attention", "cot_plan"]
         assert "the chest's edge" in server.requests[-1].text
 
@@ -365,6 +362,6 @@ def test_a_baseline_without_a_plan(make_settings: Make) -> None:
     with FakeServer(lambda _: Reply("pick vertically")) as server:
         client = ChatClient(make_settings(server.url))
         asker = Asker(client, Prompts(), Notebook(), seed=0)
-        assert plan_at_once(asker, None, ASSIGNMENT, SCENE) is None
+        assert OneShot(asker, None, ASSIGNMENT, SCENE).at_once() is None
         client.close()
     assert len(server.requests) == 4

@@ -15,11 +15,15 @@ class ModelThinking(VlmSession):
 
     checked = True
 
+    def at_once(self, assignment: Assignment, scene: SceneState) -> Branch | None:
+        """The model's plan from one look."""
+        return self.one_shot(assignment, scene).at_once()
+
     def by_steps(
         self, assignment: Assignment, scene: SceneState, static: StaticScene | None = None
     ) -> Branch | None:
         """The model's plan after a description and points of attention of its own."""
-        return super().by_steps(assignment, scene)
+        return self.one_shot(assignment, scene).by_steps()
 
     def costs(self) -> Mapping[str, float]:
         """What has been asked so far."""

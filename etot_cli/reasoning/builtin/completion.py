@@ -12,10 +12,10 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import is_at
-from etot_cli.reasoning.builtin.rules import check_plan, left_open
+from etot_cli.reasoning.builtin.rules import PUTS, check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import Action
 from etot_cli.world.state import SceneState
 
 
@@ -43,16 +43,8 @@ def completed(revised: Branch, failed: FailedStep, goals: Iterable[Goal]) -> Bra
 
 def _taken_away(actions: Sequence[Action]) -> list[str]:
     """Objects whose last put in a branch is to a safe place."""
-    held: str | None = None
-    safe: dict[str, bool] = {}
-    for action in actions:
-        if action.verb is Verb.PICK_UP:
-            held = action.target
-        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
-            if held is not None:
-                safe[held] = action.safe
-            held = None
-    return [name for name, is_safe in safe.items() if is_safe]
+    puts = {held: action for held, action, _ in in_hand(actions, None) if action.verb in PUTS}
+    return [name for name, put in puts.items() if name is not None and put.safe]
 
 
 def _wanted_from_start(

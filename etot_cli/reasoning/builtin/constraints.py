@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
 from etot_cli.reasoning.builtin.harm import CHANGED, displacement
 from etot_cli.reasoning.builtin.relations import is_at, is_closed, is_open
+from etot_cli.reasoning.builtin.rules import in_hand
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import Cause, CauseKind, RolloutRecord, SceneState, owner_of
 
@@ -19,14 +20,9 @@ def broken_constraint(
 ) -> str | None:
     """What a plan would do that it must not, as a sentence; None for nothing."""
     for constraint in constraints:
-        held = scene.holding
-        for index, action in enumerate(actions, 1):
+        for index, (held, action, _) in enumerate(in_hand(actions, scene.holding), 1):
             if _does(action, held, constraint, scene):
                 return f"step {index}, {action}: {_wish(constraint)}"
-            if action.verb is Verb.PICK_UP:
-                held = action.target
-            elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
-                held = None
     return None
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import is_closed, is_open
-from etot_cli.reasoning.builtin.rules import left_open
+from etot_cli.reasoning.builtin.rules import PUTS, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.spatial import Whereabouts
@@ -49,23 +49,18 @@ class Purpose:
 
 def purpose(actions: Sequence[Action], scene: SceneState) -> Purpose:
     """What a branch is for; relocations to a safe place are means and no part of it."""
-    held = scene.holding
+    end = scene.holding
     places: dict[str, tuple[Verb, str, tuple[Whereabouts, ...]]] = {}
     parts: dict[str, Verb] = {}
-    for action in actions:
-        match action.verb:
-            case Verb.PICK_UP:
-                held = action.target
-            case Verb.PUT_ON | Verb.PUT_INTO:
-                if held is not None and not action.safe:
-                    places[held] = (action.verb, action.target, action.where)
-                held = None
-            case Verb.OPEN | Verb.CLOSE:
-                parts[action.target] = action.verb
+    for held, action, end in in_hand(actions, scene.holding):  # noqa: B007
+        if action.verb in (Verb.OPEN, Verb.CLOSE):
+            parts[action.target] = action.verb
+        elif action.verb in PUTS and held is not None and not action.safe:
+            places[held] = (action.verb, action.target, action.where)
     return Purpose(
         frozenset((name, *place) for name, place in places.items()),
         frozenset(item for item in parts.items() if not _as_at_first(*item, scene)),
-        held,
+        end,
     )
 
 
@@ -221,15 +216,8 @@ def _written_anew(actions: Actions, scene: SceneState) -> Actions:
 
 def hand_free_at(actions: Sequence[Action], index: int, scene: SceneState) -> int | None:
     """The latest place at or before ``index`` where the hand is empty; None when there is none."""
-    free = [scene.holding is None]
-    for action in actions[:index]:
-        if action.verb is Verb.PICK_UP:
-            free.append(False)
-        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
-            free.append(True)
-        else:
-            free.append(free[-1])
-    return next((place for place in range(index, -1, -1) if free[place]), None)
+    held = [scene.holding, *(after for _, _, after in in_hand(actions[:index], scene.holding))]
+    return next((place for place in range(index, -1, -1) if held[place] is None), None)
 
 
 def opened_before(actions: Sequence[Action], index: int) -> list[int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.relations import container_address
@@ -44,6 +44,23 @@ def check_plan(
     if len(actions) > MAX_PLAN_ACTIONS:
         return [Violation(MAX_PLAN_ACTIONS, 1, f"more than {MAX_PLAN_ACTIONS} actions")]
     return _Checker(scene, left_open).check(actions)
+
+
+PUTS = (Verb.PUT_ON, Verb.PUT_INTO)
+"""What empties the hand."""
+
+
+def in_hand(
+    actions: Iterable[Action], held: str | None
+) -> Iterator[tuple[str | None, Action, str | None]]:
+    """Each action of a plan, between what the hand holds before and after it."""
+    for action in actions:
+        before = held
+        if action.verb is Verb.PICK_UP:
+            held = action.target
+        elif action.verb in PUTS:
+            held = None
+        yield before, action, held
 
 
 def left_open(actions: Sequence[Action], scene: SceneState) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
 from etot_cli.reasoning.protocol import ReasonerStopped, StopReason
 from etot_cli.reasoning.vlm.chat import Usage
@@ -27,6 +27,11 @@ class RoleAccount:
     """Requests whose tokens the server did not state and that were estimated."""
     cost: float | None = 0.0
     """US dollars; None when no price is known."""
+
+    def __add__(self, other: RoleAccount) -> RoleAccount:
+        cost = None if self.cost is None or other.cost is None else self.cost + other.cost
+        names = (item.name for item in fields(self) if item.name != "cost")
+        return replace(self, **{n: getattr(self, n) + getattr(other, n) for n in names}, cost=cost)
 
 
 @dataclass(slots=True)
@@ -62,20 +67,17 @@ class Accounts:
                     StopReason.MAX_COST,
                     f"stopped by --max-cost {self.max_cost:g}: {total.cost or 0.0:.4f} spent",
                 )
-            account = self._of(role)
-            self._roles[role] = replace(account, requests=account.requests + 1)
+            self._book(role, RoleAccount(requests=1))
 
     def failed(self, role: str) -> None:
         """The request brought no usable response."""
         with self._lock:
-            account = self._of(role)
-            self._roles[role] = replace(account, failed=account.failed + 1)
+            self._book(role, RoleAccount(failed=1))
 
     def cached(self, role: str) -> None:
         """A question was answered from a cassette or the cache."""
         with self._lock:
-            account = self._of(role)
-            self._roles[role] = replace(account, cached=account.cached + 1)
+            self._book(role, RoleAccount(cached=1))
 
     def add(self, role: str, usage: Usage) -> None:
         """Books a response."""
@@ -85,13 +87,14 @@ class Accounts:
                 usage.input_tokens * self.prices[0] + usage.output_tokens * self.prices[1]
             ) / MILLION
         with self._lock:
-            account = self._of(role)
-            self._roles[role] = replace(
-                account,
-                input_tokens=account.input_tokens + usage.input_tokens,
-                output_tokens=account.output_tokens + usage.output_tokens,
-                estimated=account.estimated + (not usage.stated),
-                cost=None if cost is None or account.cost is None else account.cost + cost,
+            self._book(
+                role,
+                RoleAccount(
+                    input_tokens=usage.input_tokens,
+                    output_tokens=usage.output_tokens,
+                    estimated=int(not usage.stated),
+                    cost=cost,
+                ),
             )
 
     @property
@@ -106,25 +109,11 @@ class Accounts:
         with self._lock:
             return self._total()
 
-    def _of(self, role: str) -> RoleAccount:
-        return self._roles.get(role, RoleAccount())
+    def _book(self, role: str, more: RoleAccount) -> None:
+        self._roles[role] = self._roles.get(role, RoleAccount()) + more
 
     def _total(self) -> RoleAccount:
-        total = RoleAccount()
-        for account in self._roles.values():
-            cost = None
-            if total.cost is not None and account.cost is not None:
-                cost = total.cost + account.cost
-            total = RoleAccount(
-                total.requests + account.requests,
-                total.failed + account.failed,
-                total.cached + account.cached,
-                total.input_tokens + account.input_tokens,
-                total.output_tokens + account.output_tokens,
-                total.estimated + account.estimated,
-                cost,
-            )
-        return total
+        return sum(self._roles.values(), start=RoleAccount())
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """One-shot planning with a model, without any simulation: what the benchmark compares with.
 
-``plan_at_once`` asks for a plan from a picture with numbered marks; ``plan_by_steps`` lets the
-model first describe the scene, then name what needs attention, then plan (chain of thought).
+Either it is asked for a plan from a picture with numbered marks, or it first describes the scene,
+then names what needs attention, then plans (chain of thought).
 """
 
 from __future__ import annotations
@@ -25,35 +25,12 @@ from etot_cli.world.state import SceneState
 NOTHING = "(nothing was said)"
 
 
-def plan_at_once(
-    asker: Asker, frames: FrameSource | None, assignment: Assignment, scene: SceneState
-) -> Branch | None:
-    """One plan from one look; None when no usable one came.
+class OneShot:
+    """One task in front of the model.
 
-    Raises:
-        ReasonerStopped: a limit was reached, or the service is not there.
+    Its plans are None where no usable one came; a limit that was reached, or a service that is not
+    there, raises ``ReasonerStopped``.
     """
-    planner = _Planner(asker, frames, assignment, scene)
-    return planner.plan("oneshot", {})
-
-
-def plan_by_steps(
-    asker: Asker, frames: FrameSource | None, assignment: Assignment, scene: SceneState
-) -> Branch | None:
-    """One plan after a description and points of attention; None when no usable one came.
-
-    Raises:
-        ReasonerStopped: a limit was reached, or the service is not there.
-    """
-    planner = _Planner(asker, frames, assignment, scene)
-    analysis = planner.say("cot_scene", {})
-    attention = planner.say("cot_attention", {"analysis": analysis})
-    planner.note_labels(analysis)
-    return planner.plan("cot_plan", {"analysis": analysis, "attention": attention})
-
-
-class _Planner:
-    """One task in front of the model."""
 
     def __init__(
         self, asker: Asker, frames: FrameSource | None, assignment: Assignment, scene: SceneState
@@ -73,18 +50,29 @@ class _Planner:
             "marks": describe.marks_line(marks),
         }
 
-    def say(self, role: str, more: dict[str, str]) -> str:
+    def at_once(self) -> Branch | None:
+        """One plan from one look."""
+        return self._plan("oneshot", {})
+
+    def by_steps(self) -> Branch | None:
+        """One plan after a description and points of attention."""
+        analysis = self._say("cot_scene", {})
+        attention = self._say("cot_attention", {"analysis": analysis})
+        self._note_labels(analysis)
+        return self._plan("cot_plan", {"analysis": analysis, "attention": attention})
+
+    def _say(self, role: str, more: dict[str, str]) -> str:
         """Free text in a role."""
         return self._asker.free_text(role, {**self._values, **more}, self._pictures) or NOTHING
 
-    def note_labels(self, analysis: str) -> None:
+    def _note_labels(self, analysis: str) -> None:
         """Marks that the model takes for ways to hold; the instruction's own word comes first."""
         for number, meaning in read_scene(analysis, self._names).labels.items():
             pose = read_pose(meaning)
             if pose is not None:
                 self._poses.setdefault(f"label {number}", pose)
 
-    def plan(self, role: str, more: dict[str, str]) -> Branch | None:
+    def _plan(self, role: str, more: dict[str, str]) -> Branch | None:
         """The plan in a role's answer."""
 
         def read(reply: str) -> Reading[tuple[Action, ...]]:

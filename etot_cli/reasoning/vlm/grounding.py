@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.builtin.rules import check_plan
+from etot_cli.reasoning.builtin.rules import PUTS, check_plan, in_hand
 from etot_cli.reasoning.vlm.reading.names import Names, Unresolved
 from etot_cli.reasoning.vlm.reading.plans import ReadPlan
 from etot_cli.reasoning.vlm.reading.steps import RawStep
@@ -106,7 +106,7 @@ class _Ends:
     placed: dict[str, Action]
     moved: frozenset[str]
     articulated: dict[str, Verb]
-    held: Action | None
+    held: str | None
 
 
 def purpose_reasons(original: Sequence[Action], revised: Sequence[Action]) -> list[str]:
@@ -133,12 +133,11 @@ def purpose_reasons(original: Sequence[Action], revised: Sequence[Action]) -> li
     for part, verb in before.articulated.items():
         if after.articulated.get(part) is not verb:
             reasons.append(f"it leaves out that {part} ends with [{verb.value}, {part}]")
-    if before.held is not None and (after.held is None or after.held.target != before.held.target):
-        reasons.append(f"it does not end with {before.held.target} in the hand")
+    if before.held is not None and after.held != before.held:
+        reasons.append(f"it does not end with {before.held} in the hand")
     elif before.held is None and after.held is not None:
-        reasons.append(f"it ends with {after.held.target} still in the hand")
-    reasons += _prop_reasons(before, after)
-    return reasons
+        reasons.append(f"it ends with {after.held} still in the hand")
+    return reasons + _prop_reasons(before, after)
 
 
 def relocated(original: Sequence[Action], revised: Sequence[Action]) -> frozenset[str]:
@@ -163,16 +162,13 @@ def _prop_reasons(before: _Ends, after: _Ends) -> list[str]:
 
 def _ends(actions: Sequence[Action]) -> _Ends:
     placed: dict[str, Action] = {}
-    articulated: dict[str, Verb] = {}
-    moved: set[str] = set()
-    held: Action | None = None
-    for action in actions:
-        if action.verb is Verb.PICK_UP:
-            held = action
-            moved.add(action.target)
-        elif action.verb in (Verb.OPEN, Verb.CLOSE):
-            articulated[action.target] = action.verb
-        elif held is not None:
-            placed[held.target] = action
-            held = None
-    return _Ends(placed, frozenset(moved), articulated, held)
+    end: str | None = None
+    for held, action, end in in_hand(actions, None):  # noqa: B007
+        if action.verb in PUTS and held is not None:
+            placed[held] = action
+    return _Ends(
+        placed,
+        frozenset(action.target for action in actions if action.verb is Verb.PICK_UP),
+        {a.target: a.verb for a in actions if a.verb in (Verb.OPEN, Verb.CLOSE)},
+        end,
+    )

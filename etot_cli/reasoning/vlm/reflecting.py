@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.rules import in_hand
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.reasoning.vlm import describe, schemas
 from etot_cli.reasoning.vlm.asking import Asker, Reading
@@ -190,13 +191,9 @@ def _with_keepout(actions: tuple[Action, ...], failed: FailedStep) -> tuple[Acti
     """What is moved out of the way goes where the failed rollout shows that nothing hits it."""
     extras = relocated(failed.branch.actions, actions)
     result: list[Action] = []
-    held = ""
-    for action in actions:
-        if action.verb is Verb.PICK_UP:
-            held = action.target
-        elif action.verb is Verb.PUT_ON and (action.safe or held in extras):
-            known = held in failed.record.before.states
-            discs = keepouts_of(failed, held) if known and action.target == DESK else ()
+    for held, action, _ in in_hand(actions, None):
+        if action.verb is Verb.PUT_ON and (action.safe or held in extras):
+            discs = keepouts_of(failed, held) if held is not None and action.target == DESK else ()
             action = replace(action, safe=True, keepout=discs)
         result.append(action)
     return tuple(result)

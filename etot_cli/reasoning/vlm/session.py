@@ -7,10 +7,10 @@ from typing import Any
 
 from etot_cli.control.simulated import Simulator
 from etot_cli.errors import EtotError
-from etot_cli.reasoning.protocol import Assignment, Branch, Reasoner
+from etot_cli.reasoning.protocol import Assignment, Reasoner
 from etot_cli.reasoning.vlm.accounts import VlmAccount
 from etot_cli.reasoning.vlm.asking import Asker
-from etot_cli.reasoning.vlm.baselines import plan_at_once, plan_by_steps
+from etot_cli.reasoning.vlm.baselines import OneShot
 from etot_cli.reasoning.vlm.client import ChatClient
 from etot_cli.reasoning.vlm.frames import FrameSource
 from etot_cli.reasoning.vlm.notes import Notebook
@@ -78,21 +78,9 @@ class VlmSession:
         """The simulator to search with: what it does can be looked at."""
         return Watched(simulator, self._outcomes)
 
-    def at_once(self, assignment: Assignment, scene: SceneState) -> Branch | None:
-        """One plan from one look at a scene, without any simulation.
-
-        Raises:
-            ReasonerStopped: a limit was reached, or the service is not there.
-        """
-        return plan_at_once(self._asker, self._frames, assignment, scene)
-
-    def by_steps(self, assignment: Assignment, scene: SceneState) -> Branch | None:
-        """The same after a description of the scene and points of attention.
-
-        Raises:
-            ReasonerStopped: a limit was reached, or the service is not there.
-        """
-        return plan_by_steps(self._asker, self._frames, assignment, scene)
+    def one_shot(self, assignment: Assignment, scene: SceneState) -> OneShot:
+        """A plan from looking at a scene, without any simulation."""
+        return OneShot(self._asker, self._frames, assignment, scene)
 
     @property
     def rendering_s(self) -> float:

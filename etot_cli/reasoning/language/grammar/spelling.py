@@ -38,9 +38,11 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     """
     if len(word) < 4 or not word.isalpha():
         return None
+    from rapidfuzz.distance import OSA  # needed where a word is strange, and not before (20 ms)
+
     allowed = 2 if len(word) >= 8 else 1
     near = {
-        item: slips(word, item)
+        item: OSA.distance(word, item)
         for item in known
         if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
         if word.endswith("s") or singular(item) == item
@@ -68,21 +70,6 @@ def exchanged(word: str, known: Iterable[str]) -> str | None:
     letters = sorted(word)
     found = [item for item in known if len(word) > 2 and sorted(item) == letters]
     return found[0] if len(found) == 1 and not is_english(word) else None
-
-
-def slips(first: str, second: str) -> int:
-    """Slips of the pen between two words (optimal string alignment distance)."""
-    before: list[int] = []
-    last = list(range(len(second) + 1))
-    for i, left in enumerate(first, 1):
-        row = [i]
-        for j, right in enumerate(second, 1):
-            cost = min(last[j] + 1, row[j - 1] + 1, last[j - 1] + (left != right))
-            if i > 1 and j > 1 and left == second[j - 2] and first[i - 2] == right:
-                cost = min(cost, before[j - 2] + 1)
-            row.append(cost)
-        before, last = last, row
-    return last[-1]
 
 
 @lru_cache(maxsize=1)
