@@ -77,7 +77,7 @@ def test_refused(name: str, text: str, wanted: str) -> None:
         ("black_bowls", "Put the red bowl on the plate.", "Put bowl 1 on the plate."),
         ("drawers_and_desk", "Close the blue drawer.", "Close the chest."),
         ("numbered", "Put cube 5 in bin 1.", "Put cube 1 in bin 1."),
-        ("kitchen", "Fry the egg in the pan.", "Put the egg in the frying pan."),
+        ("kitchen", "Fry the egg in the pan.", "Put the egg in the pan."),
         ("stationery", "Sharpen the pencil.", "Pick up the pencil."),
         ("cupboard", "Put the can in the cabinet like the jar.", "Put the can in the cabinet."),
     ],

@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Goal, Open, Pick
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.languages import other_language
@@ -70,6 +72,7 @@ def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene:
     language = other_language(instruction, scene)
     foreign = f"it seems to be in {language}; only English is read" if language else ""
     if isinstance(error, UnreadableError):
+        error = blamed(error, partial(_fits, scene=scene, vocabulary=Vocabulary(scene)))
         why = foreign or error.why
         head = f"cannot read the instruction at {error.words!r}" + (f": {why}" if why else "")
         second = f"  understood up to there: {error.understood or 'nothing'}"
@@ -91,6 +94,15 @@ def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene:
         "with --reasoner vlm"
     )
     return "\n".join(lines)
+
+
+def _fits(text: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
+    """Whether normalized text is read."""
+    try:
+        interpret(read(text, vocabulary.words()).sentences, scene, vocabulary)
+    except (UnreadableError, ReferenceProblem):
+        return False
+    return True
 
 
 def _reads(instruction: str, scene: SceneState) -> bool:

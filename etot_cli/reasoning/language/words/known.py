@@ -51,6 +51,18 @@ OTHER_VERBS = word_set(
     """
 )
 """What no skill does."""
+LINKS = word_set(
+    """
+    the a an my your this that these those its their of to and or nor but into in inside on onto
+    from off out at by next beside near behind between with without before after than as if for
+    is are be then when while until where which who under above below
+    """
+)
+"""Words that are nothing without what stands behind them."""
+BEFORE_NOUNS = [(word,) for word in ("the", "a", "an", "my", "this", "that", "both", "all")]
+"""Before what a verb is about; a noun has none of them behind it."""
+PUSHING = words_of((verbs.PULL,))
+"""Words for what is only done to open and to close, and to blame where more is asked for."""
 NEVER_NOUNS = frozenset({"the", "a", "an", "and", "or", "in", "on", "of", "not", "~comma", "to"})
 GRAMMAR_WORDS = frozenset(_FUNCTION.split()) | VERB_WORDS | OTHER_VERBS | {"~comma"}
 
@@ -118,10 +130,6 @@ REASONS = {
     "never": "say first what is to be done",
 }  # fmt: skip
 """Why words are not understood, wherever they stand."""
-BLAMED = frozenset(
-    {"where", "push", "pull", "slide", "swing", "under", "underneath", "below", "beneath", "above"}
-)
-"""Words that are understood in some places only, and where they are not are what is wrong."""
 
 
 def _patterns(module: ModuleType) -> list[str]:

@@ -1,0 +1,184 @@
+"""Which words of a sentence are to blame where none of its readings covers all of them: the fewest
+without which the rest is read in this scene, or in whose place a plain one is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from etot_cli.reasoning.language.grammar.parsing import Input
+from etot_cli.reasoning.language.grammar.reader import (
+    SHOWN_WORDS,
+    UnreadableError,
+    is_known,
+    shown,
+)
+from etot_cli.reasoning.language.grammar.text import COMMA, QUESTION, spaced
+from etot_cli.reasoning.language.words import known
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.world.state import DESK
+
+MAX_TRIES = 32
+"""Ways to mend a sentence that are tried: a third of a second at a usual sentence's time each."""
+_PLACE = ("on", "the", DESK)
+"""Where anything can go in every scene."""
+_PLACE_COSTS = 2.5
+"""Words that may rather be left out than a place be put in: two are most often a phrase."""
+_NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
+_MISSING = "something is missing, such as into or onto what"
+
+
+def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableError:
+    """An error with the words to blame and a reason, where it has neither.
+
+    Args:
+        error: of an instruction that is not read.
+        fits: whether a text is read in the scene.
+    """
+    if error.unread is None:
+        return error
+    unread, before = error.unread, error.understood
+    words = unread.words
+    if words[-1] == QUESTION:
+        words = words[:-1]
+        if unread.reached >= len(words):
+            return UnreadableError(shown(words), before, known.REASONS["what"])
+    for start, end, place in _ways(words, unread):
+        mended = (*words[:start], *place, *words[end:])
+        if fits(_joined(before, " ".join(mended).replace(f" {COMMA}", ",").strip(" ,"))):
+            without = "" if place else spaced(mended).strip(" ,")
+            text, why = _reason(unread, words, start, end, replaced=bool(place))
+            return UnreadableError(text, _joined(before, spaced(words[:start])), why, without)
+    return _unmended(unread, words, before)
+
+
+def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tuple[str, ...]]]:
+    """Which words to leave out, from where to where, or to put a place for: the fewest first, and
+    of equally many those near the word up to which the sentence was read. No word that things are
+    called by is left out alone.
+    """
+    many, reached = len(words), unread.reached
+    joints = [at for at in range(many) if _joins(words[at])]
+    names = {at for at in range(many) if words[at] in unread.nouns or is_descriptive(words[at])}
+    spans = {(at, at + 1) for at in range(many) if at not in names}
+    spans |= {(start, end) for start in (0, *joints) for end in (*joints, many) if start < end}
+    ways = [
+        (float(_count(words[start:end])), abs(reached - end), start, end, ())
+        for start, end in spans
+        if _is_whole(words, start, end)
+    ]
+    places = [
+        (_PLACE_COSTS + _count(words[at:]), 0, at, many, _PLACE)
+        for at in range(2, many + 1)
+        if at == many or (words[at] not in unread.nouns and _ends_phrase(words[at - 1]))
+    ]
+    for _, _, start, end, place in sorted([*ways, *places])[:MAX_TRIES]:
+        yield start, end, place
+
+
+def _joins(word: str) -> bool:
+    """Whether a phrase may begin with a word: "of" it goes on, at "the" it has begun."""
+    inner = word in THE_WORDS or word in ("a", "an", "of", "it", "them")
+    return word in (COMMA, "one") or (word in known.GRAMMAR_WORDS and not inner)
+
+
+def _ends_phrase(word: str) -> bool:
+    return word not in known.LINKS and not _joins(word)
+
+
+def _is_whole(words: tuple[str, ...], start: int, end: int) -> bool:
+    """Whether what is left out has what its last word needs behind it, and something is left."""
+    if end - start == len(words):
+        return False
+    following = words[end] if end < len(words) else COMMA
+    last = words[end - 1]
+    led = start == 0 and following in ("and", "but", "or")
+    return not led and (
+        start == 0 if last == COMMA else last not in known.LINKS or following == COMMA
+    )
+
+
+def _count(words: tuple[str, ...]) -> int:
+    return sum(word != COMMA for word in words)
+
+
+def _reason(
+    unread: Input, words: tuple[str, ...], start: int, end: int, *, replaced: bool
+) -> tuple[str, str]:
+    """The words to blame, and why: of those left out the first that no sentence has so."""
+    if replaced and all(word in known.LINKS for word in words[start:end]):
+        return _last(words), _MISSING
+    for index in range(start, end):
+        if why := _cause(unread, words, index):
+            return shown(words[index:end]), why
+    if replaced:
+        plain = "it is not understood as a place; say into, onto or beside what"
+    else:
+        plain = "the rest is understood without it"
+    return shown(words[start:end]), plain
+
+
+def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableError:
+    """The first word for which there is a reason, else what is read last."""
+    stop = unread.reached
+    for index, word in enumerate(words):
+        why = _cause(unread, words, index)
+        odd = not index and word not in known.OPENING_WORDS
+        odd |= word not in known.ALL_WORDS and (known.is_adverb(word) or word in known.REASONS)
+        if why and (index >= stop - 1 or odd or word in known.PUSHING):
+            without = spaced((*words[:index], *words[index + 1 :]))
+            understood = _joined(before, spaced(words[:index]))
+            return UnreadableError(shown(words[index:]), understood, why, without)
+    understood = _joined(before, spaced(words[:stop]))
+    if stop >= len(words):
+        return UnreadableError(_last(words), understood, _MISSING)
+    small = words[stop] in known.GRAMMAR_WORDS  # it joins others, which need it
+    without = "" if small else spaced((*words[:stop], *words[stop + 1 :]))
+    stop = stop or (words[0] in known.VERB_WORDS)
+    before_it = spaced(words[:stop]).rstrip(",").split()[-1:]
+    why = f"it is not understood after {before_it[0]!r}" if before_it else ""
+    return UnreadableError(shown(words[stop:]), understood, why, without)
+
+
+def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
+    """Why a word is none that could be understood here; empty for what may have a place."""
+    word, before, following = words[index], words[:index], words[index + 1 : index + 2]
+    named = before[-1:] in known.BEFORE_NOUNS
+    if not index and following in known.BEFORE_NOUNS and word in unread.nouns:
+        return _NO_SKILL
+    if word in unread.nouns:
+        return ""
+    if word in ("is", "are") and any(item in known.VERB_WORDS for item in before):
+        return ""  # it tells something apart, and states nothing
+    if word in ("is", "are") and not index:
+        return known.REASONS["what"]
+    if word in ("do", "does", "did") and following in (("not",), ("nothing",)):
+        return known.REASONS["nothing"]
+    if word == "as" and following in (("soon",), ("long",)):
+        return known.REASONS["while"]
+    if word in known.REASONS:
+        return known.REASONS[word]
+    switched = word in ("turn", "switch") and following in (("on",), ("off",))
+    if (switched or word in known.OTHER_VERBS) and not named:
+        return _NO_SKILL
+    if known.is_adverb(word):
+        return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
+    if word in known.OTHER_VERBS:
+        return f"nothing in the scene is called {word!r}"
+    if not index:
+        return "" if word in known.OPENING_WORDS else f"{word!r} is no verb that is known"
+    listed = is_known(word, unread.nouns) or is_category(word) or is_in_lexicon(word)
+    if not word.isalpha() or listed:
+        return ""
+    unknown = f"nothing in the scene is called {word!r}"
+    return unknown if named else f"{unknown}, nor is it another word that is known"
+
+
+def _last(words: tuple[str, ...]) -> str:
+    return ("… " if len(words) > SHOWN_WORDS else "") + spaced(words[-SHOWN_WORDS:])
+
+
+def _joined(before: str, text: str) -> str:
+    return ". ".join(part for part in (before, text.strip(" ,")) if part)
