@@ -159,12 +159,12 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if not clause.upright or not _can_stand(context, index):
             context.turned.append(index)
             continue
-        (thing,) = context.only(index, "say which one")
-        if context.scene.states[thing.name].toppled:
-            place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
-            context.steps.append(Put((index,), (place,)))
-        else:
-            context.discourse.notes.append(f"{thing.name} stands upright as it is")
+        for thing in context.only(index, "say which one"):
+            if context.scene.states[thing.name].toppled:
+                place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
+                context.steps.append(Put((context.single(thing, thing.name),), (place,)))
+            else:
+                context.discourse.notes.append(f"{thing.name} stands upright as it is")
 
 
 def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) -> tuple[Place, ...]:

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
-from etot_cli.reasoning.language.words import places, small_words
+from etot_cli.reasoning.language.words import nouns, places, small_words
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
@@ -45,7 +45,8 @@ def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination | 
 
     def build(targets: tuple[NounPhrase, ...]) -> Destination | None:
         home = any(f"{said} {np.text}" in _HOMES for np in targets for said in ("to", "in"))
-        return None if home else Destination(toward, targets)
+        upon = any(np.head in spellings(nouns.STACK) for np in targets)
+        return None if home else Destination(Toward.ON if upon else toward, targets)
 
     return build
 

@@ -181,12 +181,12 @@ def _one_of_them(np: NounPhrase) -> NounPhrase:
     return replace(np, words=(*np.words, "one")) if bare else np
 
 
-def _other_than(np: NounPhrase) -> Modifier | None:
-    """What it is not: "not the big cup", "not the biggest" of them."""
-    np = _one_of_them(np)
-    if not np.words or _is_adjective(np.words[-1]):
+def _other_than(found: tuple[NounPhrase, ...]) -> Modifier | None:
+    """What it is not: "not the big cup", "not the biggest" of them, "neither a cup nor a can"."""
+    nps = tuple(map(_one_of_them, found))
+    if any(not np.words or _is_adjective(np.words[-1]) for np in nps):
         return None
-    return Modifier(Prep.EXCEPT, (np,))
+    return Modifier(Prep.EXCEPT, nps)
 
 
 def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | None:
@@ -220,9 +220,11 @@ MODIFIERS = some(MODIFIER, most=4)
 CONTRASTED = quiet(
     sequence(
         nouns.CONTRAST,
-        noun_phrase,
-        build=lambda np: (
-            Modifier(Prep.CONTRAST, (_one_of_them(np),)) if np.determiner and np.words else None
+        separated(noun_phrase, "or, nor", most=3),
+        build=lambda nps: (
+            Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps)))
+            if all(np.determiner and np.words for np in nps)
+            else None
         ),
     )
 )
@@ -254,18 +256,19 @@ _modifier = either(
         either(_described, _none_of),
         build=lambda modifier: replace(modifier, denied=True),
     ),
-    sequence(nouns.RELATIVE_NOT, noun_phrase, build=_other_than),
     sequence(
-        nouns.RELATIVE_NEITHER,
-        valued(
-            separated(ADJECTIVE, "nor, or", most=3),
-            lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
-        ),
+        f"{nouns.RELATIVE_NOT}, {nouns.RELATIVE_NEITHER}",
+        separated(noun_phrase, "or, nor, and not", most=3),
+        build=_other_than,
     ),
     sequence(
-        nouns.NOT_PLACED,
-        PLAIN_MODIFIER,
-        # "The right not of the cup" is no English.
+        nouns.RELATIVE_NEITHER,
+        separated(ADJECTIVE, "nor, or", most=3),
+        build=lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
+    ),
+    sequence(
+        # "That is not in a cup and not red"
+        either(sequence("[and] not, nor", PLAIN_MODIFIER), sequence("and not, nor", QUALITY)),
         build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),

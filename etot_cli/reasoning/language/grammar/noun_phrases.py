@@ -166,6 +166,14 @@ noun_phrase.define(
                 "of (its|their) own",
                 build=lambda words: NounPhrase("a", ("different", *words)),
             ),
+            sequence(
+                phrase("the, that, this"),
+                phrase(nouns.STACK),
+                optional(sequence("of", noun_phrase), None),
+                build=lambda det, noun, of: NounPhrase(
+                    det, (noun,), () if of is None else (Modifier(Prep.OF, (of,)),)
+                ),
+            ),
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
             sequence("the, these, those", WORDS, MODIFIERS, _OF_THEM, build=_all_of_them),
@@ -287,7 +295,8 @@ _COLORED_ONES = sequence(
     word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS),
     build=lambda color: (NounPhrase("all", (color, "ones"), text=color),),
 )
-exceptions.define(either(_COORDINATION, _COLORED_ONES))
+_NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
+exceptions.define(either(_COORDINATION, _COLORED_ONES, _NEITHER))
 NP_LIST = Rule(either(_PARTS, sequence(optional(phrase("both"), None), _COORDINATION, build=_both)))
 
 

@@ -226,6 +226,11 @@ def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
         several = len(found) > 1 or any(
             len(option) > 1 for index in found for option in discourse.referents[index].options
         )
+        emptied = _emptied(discourse, clause, role) if found else ()
+        if emptied:
+            # "Empty the bins and put them on the rack": what was in them, or these.
+            named = [discourse.referents[index].text for index in (*found, *emptied)]
+            raise AmbiguousReference(text, named)
         if several:
             return found
     found = _acted_on(discourse, discourse.mentions, role)
@@ -236,6 +241,20 @@ def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
     if single and not plural and not any(item.several or item.whatever for item in said):
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
     return found
+
+
+def _emptied(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
+    """What a clause took everything out of or off, where it is several things."""
+    said = [mention for mention in discourse.mentions if mention.clause == clause]
+    texts = [discourse.referents[m.referent].text for m in said if m.role is Role.THEME]
+    return tuple(
+        mention.referent
+        for mention in said
+        if mention.role is Role.ANY
+        and all(text.startswith("everything in ") for text in texts)
+        and len(discourse.things(mention.referent)) > 1
+        and _fits(discourse, mention.referent, role)
+    )
 
 
 def _acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> tuple[int, ...]:

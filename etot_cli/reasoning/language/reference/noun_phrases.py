@@ -7,7 +7,8 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -30,6 +31,7 @@ from etot_cli.reasoning.language.reference.nouns import (
 )
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
+from etot_cli.reasoning.language.reference.stacks import meant_by_stack, of_stack, stack_of
 from etot_cli.reasoning.language.reference.usual_form import (
     is_robot,
     one_like,
@@ -40,15 +42,15 @@ from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
     LEVELS,
-    MATERIALS,
     ORDINALS,
     REFUSE,
     SAID_OF_BOARDS,
     THING_NOUNS,
-    is_descriptive,
     matches_any,
     singular,
 )
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
@@ -76,6 +78,7 @@ class Resolver:
         self._scene = scene
         self._vocabulary = vocabulary
         self.as_labelled = vocabulary.as_labelled
+        self.called_after = vocabulary.called_after
 
     def colors_of(self, thing: Thing) -> frozenset[str]:
         """The basic colours that a thing is called by, or the one that it has."""
@@ -90,26 +93,6 @@ class Resolver:
     def names(self, noun: str) -> bool:
         """Whether anything can be called by a noun, be it for its kind."""
         return any(entry.grade(noun) is not None for entry in self._vocabulary.entries().values())
-
-    def called_after(
-        self, things: Sequence[Thing], owners: Collection[Thing], said: Sequence[str]
-    ) -> str | None:
-        """The name of the one thing that is called after its owners, or else of the only thing,
-        where no word tells whose it is.
-        """
-        entries = self._vocabulary.entries()
-        own = {singular(word) for thing in owners for word in entries[thing].own}
-        named: dict[str, bool] = {}
-        for thing in things:
-            entry = entries[thing]
-            heads = {*map(singular, (*entry.heads, *said)), *MATERIALS}
-            words = {*map(singular, entry.own)} - heads
-            told = {word for word in words if not is_descriptive(word)}
-            if entry.info is not None and not (thing.part or thing.board) and told <= own:
-                named[thing.name] = bool(told)
-        after = [name for name, told in named.items() if told]
-        found = after or ([*named] if len(things) == 1 else [])
-        return found[0] if len(found) == 1 else None
 
     def resolve(
         self,
@@ -137,6 +120,8 @@ class Resolver:
         phrase = usual_form(self.as_labelled(phrase))
         if not phrase.words and (noun is None or phrase.determiner in _INCOMPLETE):
             raise ReferenceProblem(phrase.text, UNCLEAR)
+        if self._names_stack(phrase):
+            return meant_by_stack(self._stack(Modifier(Prep.OF, (phrase,))), role, phrase.head)
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
         if quantity.unclear:
@@ -174,11 +159,12 @@ class Resolver:
             match = parts_of(match, words, phrase, self._vocabulary)
         unnamed = noun is None or matches_any(noun, THING_NOUNS)
         nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
-        if nameless and match.selectors:
+        vague = nameless or matches_any(words[-1], THING_NOUNS)
+        mere = [m for m in phrase.modifiers if m.prep is Prep.WITH and not (m.denied or m.words)]
+        if (nameless and match.selectors) or (vague and mere):  # "the thing with the letter"
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         things = [entry.thing for entry in match.entries]
-        first = phrase.determiner.split()[:1]
-        if first == ["some"]:
+        if phrase.determiner.split()[:1] == ["some"]:
             why = "'some' is not supported: say how many"
             raise ReferenceProblem(phrase.text, why, 3, word="some")
         if match.plural and phrase.determiner == "any":
@@ -191,11 +177,10 @@ class Resolver:
                 raise ReferenceProblem(phrase.text, "there is no other one", 2)
         things = usable_ones(things, role, phrase, self._scene)
         modifiers = tuple(m for m in phrase.modifiers if not names_part(m, self._vocabulary))
+        things, modifiers = of_stack(things, modifiers, self._stack)
         if phrase.owner is not None:
             modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
-        count = quantity.count or (None if match.plural else 1)
-        if quantity.every:
-            count = quantity.count
+        count = quantity.count or (None if match.plural or quantity.every else 1)
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
         things, others = modified(
@@ -270,6 +255,19 @@ class Resolver:
             options, quantity.definite, quantity.other, head, every, tuple(notes),
             adjectives=words[:-1], left_out=tuple(unmeant), others=others,
         )  # fmt: skip
+
+    def _names_stack(self, phrase: NounPhrase) -> bool:
+        return phrase.head in spellings(STACK) and not self.names(phrase.head)
+
+    def _stack(self, modifier: Modifier) -> list[Thing]:
+        """The stack that a modifier names, empty where it names none."""
+        phrase = next(iter(modifier.phrases), NounPhrase())
+        if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self._names_stack(phrase):
+            return []
+        (inner, *_) = (*(np for m in phrase.modifiers for np in m.phrases), NounPhrase())
+        every = replace(inner, determiner="all", words=inner.words or ("objects",))
+        things = things_in(self.resolve(replace(every, text=phrase.text), Role.ANY).options)
+        return stack_of(things, self._scene, phrase.text)
 
     def _landmark_sets(
         self, phrase: NounPhrase, pronoun: Pronoun, quantity: Quantity, modifier: Modifier

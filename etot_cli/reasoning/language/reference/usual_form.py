@@ -19,6 +19,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     singular,
 )
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
@@ -108,6 +110,8 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
     one = told[-1]
     if whole.words and any(one in table for table in (SIZES, SIDES, ORDINALS, LEVELS)):
         several = singular(whole.words[-1]) != whole.words[-1]
+        if whole.head in spellings(STACK):
+            return replace(phrase, words=(*told, "object"))
         if not several:
             raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
         noun = (*whole.words[:-1], singular(whole.words[-1]))

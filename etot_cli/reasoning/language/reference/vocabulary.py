@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import partial
@@ -137,6 +137,26 @@ class Vocabulary:
             for entry in self.objects
             if members and entry.counts_among(members)
         ]
+
+    def called_after(
+        self, things: Sequence[Thing], owners: Collection[Thing], said: Sequence[str]
+    ) -> str | None:
+        """The name of the one thing that is called after its owners, or else of the only thing,
+        where no word tells whose it is.
+        """
+        entries = self.entries()
+        own = {singular(word) for thing in owners for word in entries[thing].own}
+        named: dict[str, bool] = {}
+        for thing in things:
+            entry = entries[thing]
+            heads = {*map(singular, (*entry.heads, *said)), *MATERIALS}
+            words = {*map(singular, entry.own)} - heads
+            told = {word for word in words if not is_descriptive(word)}
+            if entry.info is not None and not (thing.part or thing.board) and told <= own:
+                named[thing.name] = bool(told)
+        after = [name for name, told in named.items() if told]
+        found = after or ([*named] if len(things) == 1 else [])
+        return found[0] if len(found) == 1 else None
 
     def words(self) -> frozenset[str]:
         """Every word of the scene's names and labels."""

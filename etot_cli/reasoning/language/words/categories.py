@@ -14,7 +14,7 @@ _FRUIT = word_set(
     apple orange banana lemon lime peach pear plum cherry grape berry strawberry blueberry
     raspberry blackberry cranberry melon watermelon cantaloupe mango papaya pineapple kiwi apricot
     nectarine grapefruit mandarin tangerine clementine satsuma pomegranate fig date coconut
-    persimmon lychee guava quince currant
+    persimmon lychee guava quince currant avocado passionfruit
     """
 )
 _VEGETABLES = word_set(
@@ -22,6 +22,7 @@ _VEGETABLES = word_set(
     potato onion carrot cucumber eggplant aubergine corn garlic mushroom cabbage lettuce broccoli
     cauliflower spinach zucchini courgette pumpkin squash radish turnip beet beetroot celery leek
     asparagus artichoke pea bean tomato pepper chili kale parsnip ginger shallot scallion yam
+    avocado okra fennel
     """
 )
 _PASTRIES = word_set(
@@ -29,10 +30,11 @@ _PASTRIES = word_set(
     "bagel roll pretzel baguette danish waffle cracker"
 )
 _SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
-_SNACKS = word_set("chip crisp nut peanut almond popcorn granola raisin cracker")
+_SNACKS = word_set("chip crisp nut peanut almond popcorn granola raisin cracker pringle dorito")
 _DRINKS = word_set(
     "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
-    "pepsi fanta kombucha redbull gatorade gin vodka rum whisky whiskey tequila"
+    "pepsi fanta kombucha redbull gatorade gin vodka rum whisky whiskey tequila 7up drpepper "
+    "espresso latte cappuccino ale lager champagne prosecco liqueur seltzer milkshake"
 )
 _SPICES = word_set(
     "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron"
@@ -44,7 +46,8 @@ _OTHER_FOOD = word_set(
     chicken turkey soup cereal granola oatmeal rice pasta noodle spaghetti jam honey yogurt
     sandwich burger hamburger hotdog taco burrito sushi salad pancake fries chip cracker nut
     peanut almond tofu spam pudding patty nigiri maki kebab omelette lasagna
-    dumpling falafel popcorn
+    dumpling falafel popcorn sugar flour jello jelly muesli ravioli lentil quinoa hummus tortilla
+    marmalade nutella pickle olive margarine cream oil porridge yoghurt salami mozzarella broth
     """
 )
 _TOOLS = word_set(
@@ -75,7 +78,10 @@ _ANIMALS = word_set(
     whale dolphin unicorn dragon octopus camel deer hippo rhino kangaroo koala crocodile
     """
 )
-_PLAYTHINGS = word_set("ball doll teddy puppet yoyo kite puzzle figurine block robot lego rattle")
+_PLAYTHINGS = word_set(
+    "ball doll teddy puppet yoyo kite puzzle figurine block robot lego rattle drum jigsaw marble "
+    "xylophone frisbee tambourine"
+)
 _CLOTHES = word_set(
     "shirt tshirt sweater pullover hoodie coat jacket sock hat cap beanie scarf glove mitten pants "
     "trouser jean short skirt dress blouse belt tie pajama pyjama"
@@ -136,7 +142,7 @@ PACKS = _OF_A_PIECE | word_set("can tin carton bottle jar packet pack bag box tu
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
-    stationery clothes clothing laundry footwear electronics jewelry jewellery literature
+    stationery money cash clothes clothing laundry footwear electronics jewelry jewellery literature
     """
 )
 """Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""

@@ -67,8 +67,9 @@ MATCHING = """
 MATCHING_ADJECTIVES = (
     "matching, corresponding, same color, same colour, same colored, same coloured"
 )
+STACK = "stack, tower, pile"
+"""Several things that lie upon each other."""
 RELATIVE_NEITHER = "(that|which) (is|are) neither"
-NOT_PLACED = "not"
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
     (that|which) (contains|holds|has|contain|hold|have)

@@ -75,7 +75,7 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.RIGHT: NEARBY[Nearby.RIGHT],
     Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond",
     Prep.FRONT: NEARBY[Nearby.FRONT],
-    Prep.UNDER: "underneath, under, below, beneath",
+    Prep.UNDER: "[from] (underneath|under|below|beneath)",
     Prep.ABOVE: "above, over",
     Prep.NEAREST: "(closest|nearest|closer|nearer) [to]",
     Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from",
