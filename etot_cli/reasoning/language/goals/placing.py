@@ -106,7 +106,7 @@ def _check_left(
     names = {thing.name for thing in things_in(options)}
     gone = set(context.discourse.things(*context.discourse.put))
     for thing in (item for item in out if item.name in context.scene.states and item not in gone):
-        for below in names.intersection(carriers(context.scene, thing.name)):
+        for below in sorted(names & carriers(context.scene, thing.name)):
             why = f"{below} would take {thing.name} along; say first where that is to go"
             raise ReferenceProblem(text, why, 4)
 
