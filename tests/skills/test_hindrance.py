@@ -73,11 +73,6 @@ def test_hand_alone_meets_what_the_arm_with_it_meets() -> None:
         assert set(hand_hits()) == whole - {"robot"}
         with checker.without(["box"]):
             assert set(hand_hits()) == whole - {"robot", "box"}
-        of_palm = set(hand_hits(part=HandPart.PALM))
-        assert of_palm <= set(hand_hits())
-        checker.set_fingers(0.01)
-        assert set(hand_hits(part=HandPart.PALM)) == of_palm
-        checker.freeze(belief.data)
         seen += bool(whole)
     assert seen > 20
 

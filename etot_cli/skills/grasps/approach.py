@@ -65,20 +65,16 @@ def prepare_grasp(
     met: list[str] = []
     for opening in openings:
         checker.set_fingers(opening)
-        hits, of_palm = (
-            [
-                address
-                for address in checker.hand_hits(grasp.tool, clearance=SURELY_MET, part=part)
-                if owner_of(address) not in allow
-            ]
-            for part in (HandPart.ALL, HandPart.PALM)
-        )
+        hits = [
+            address
+            for address in checker.hand_hits(
+                grasp.tool, clearance=SURELY_MET, part=HandPart.ALL
+            )
+            if owner_of(address) not in allow
+        ]
         met = met or hits
         if not hits:
             break
-        if of_palm:  # which no opening changes
-            blockers.add(met)
-            return False
     else:
         blockers.add(met)
         return False

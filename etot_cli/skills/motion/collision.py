@@ -26,13 +26,10 @@ milliradians late must not get stuck on itself."""
 
 
 class HandPart(Enum):
-    """What of the hand is looked at: all, the fingers, which are much the same from all sides, or
-    what stays where it is when they open and close.
-    """
+    """What of the hand is looked at: all, or the fingers, which are much the same from all sides."""
 
     ALL = "all"
     FINGERS = "fingers"
-    PALM = "palm"
 
 
 @dataclass(frozen=True)
@@ -65,10 +62,6 @@ class CollisionChecker(FrozenScene):
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
-        # What the gripper's joints do not move.
-        weld = world.model.body_weldid
-        rigid = weld[world.model.site_bodyid[self._tool]] == weld[self._model.geom_bodyid]
-        self._palm = rigid & (self._owner == -2)
         self._hands: dict[bytes, tuple[Vector, Vector]] = {}
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
@@ -299,8 +292,6 @@ class CollisionChecker(FrozenScene):
             found[HandPart.ALL][address] = None
             if self._finger[own]:
                 found[HandPart.FINGERS][address] = None
-            if self._palm[own]:
-                found[HandPart.PALM][address] = None
         return found
 
     def _hand_frames(self) -> tuple[Vector, Vector]:
