@@ -131,26 +131,28 @@ def build_world(
     return World(scene, model, index, entries, _addresses(model, entries, index))
 
 
-def scene_spec(scene: specs.Scene) -> mujoco.MjSpec:
-    """A scene's model before it is compiled, masses not yet scaled.
+def scene_spec(scene: specs.Scene, *, robot: bool = True) -> mujoco.MjSpec:
+    """A scene's model before it is compiled, masses not yet scaled; with its robot or without.
 
     Raises:
         WorldError: a file or the combination of objects cannot be compiled.
         SpecError: the robot description is unusable.
     """
-    return _drafted(scene, load_robot(scene.robot, scene.directory))[0]
+    return _drafted(scene, load_robot(scene.robot, scene.directory) if robot else None)[0]
 
 
 def _drafted(
-    scene: specs.Scene, robot: RobotSpec
+    scene: specs.Scene, robot: RobotSpec | None
 ) -> tuple[mujoco.MjSpec, dict[str, tuple[ObjectEntry, Any]]]:
     mj = mujoco.MjSpec()
     set_options(mj)
     add_surroundings(mj, scene)
-    add_robot(mj, robot)
+    if robot is not None:
+        add_robot(mj, robot)
     drafts = {name: add_object(mj, scene, name, spec) for name, spec in scene.objects.items()}
-    pads = [ROBOT_PREFIX + pad for pad in robot.gripper.pads]
-    add_pad_pairs(mj, pads, list(scene.objects), scene.actuation.pad_friction)
+    if robot is not None:
+        pads = [ROBOT_PREFIX + pad for pad in robot.gripper.pads]
+        add_pad_pairs(mj, pads, list(scene.objects), scene.actuation.pad_friction)
     return mj, drafts
 
 
