@@ -22,7 +22,7 @@ from etot_cli.specs.footprint import (
     shifted,
     turned,
 )
-from etot_cli.specs.objects import FURNITURE, Cup, DrawerUnit, ObjectBase, Sphere
+from etot_cli.specs.objects import Cup, DrawerUnit, ObjectBase, Sphere, is_fastened
 from etot_cli.specs.placement import (
     Placed,
     Solid,
@@ -80,7 +80,7 @@ def placement_problems(scene: Scene) -> Iterator[Problem]:
         support = support_of(item)
         if support == DESK:
             yield from _on_desk(name, item, place, scene)
-        elif not is_movable(item) and (item.at is None or len(item.at) < 3):
+        elif is_fastened(item) and (item.at is None or len(item.at) < 3):
             yield Problem(
                 ("objects", name, "at" if item.at is not None else "on" if item.on else "inside"),
                 f"{name!r} is fastened and stands on or in {support!r}, so nothing lets it down "
@@ -93,11 +93,6 @@ def placement_problems(scene: Scene) -> Iterator[Problem]:
     yield from _overlaps(scene, placed)
 
 
-def is_movable(item: ObjectBase) -> bool:
-    """Whether an object is loose: by default all but furniture."""
-    return not isinstance(item, FURNITURE) if item.fixed is None else not item.fixed
-
-
 def _reachable(name: str, item: ObjectBase, place: Placed, reach: float) -> Iterator[Problem]:
     distance = math.hypot(place.x, place.y)
     path = ("objects", name, "at")
@@ -107,7 +102,7 @@ def _reachable(name: str, item: ObjectBase, place: Placed, reach: float) -> Iter
             f"unreachable placement: {distance:.3g} m from the robot's axis is where its base "
             f"stands; expected at least {BASE_RADIUS:g} m",
         )
-    limit = reach if is_movable(item) else reach + FURNITURE_BEYOND
+    limit = reach + FURNITURE_BEYOND if is_fastened(item) else reach
     if distance > limit:
         yield Problem(
             path,
@@ -120,7 +115,7 @@ def _on_desk(name: str, item: ObjectBase, place: Placed, scene: Scene) -> Iterat
     desk = scene.desk
     path = ("objects", name, "at")
     top = rectangle(*desk.center, 0.0, *desk.size)
-    lifted = place.base > desk.top + TOUCHING and not is_movable(item)
+    lifted = place.base > desk.top + TOUCHING and is_fastened(item)
     if not contains(top, (place.x, place.y)) and not lifted:
         (x, y), (along, across) = desk.center, desk.size
         yield Problem(

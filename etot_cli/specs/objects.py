@@ -300,3 +300,8 @@ ROLLING_DEFAULT = 0.0005
 20 cm."""
 FURNITURE = (DrawerUnit, Cabinet, Shelf)
 """Kinds that are fastened to the desk unless ``fixed: false``."""
+
+
+def is_fastened(item: ObjectBase) -> bool:
+    """Whether an object does not move: said so, or furniture."""
+    return isinstance(item, FURNITURE) if item.fixed is None else item.fixed

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping
 from etot_cli.specs.disturbance import Disturbance, Role
 from etot_cli.specs.document import DataPath
 from etot_cli.specs.objects import (
-    FURNITURE,
     Box,
     Cabinet,
     Cup,
@@ -17,6 +16,7 @@ from etot_cli.specs.objects import (
     Mjcf,
     ObjectBase,
     Shelf,
+    is_fastened,
 )
 from etot_cli.specs.problems import Problem, show, unknown
 from etot_cli.specs.scene import RESERVED_NAMES, ROBOT_VIEWPOINT, Scene
@@ -153,7 +153,7 @@ def _disturbance_problems(
         yield from _check((*path, "part"), given.part, openable(scene), "part that opens", scene)
         return
     else:
-        names = [*Role, *(name for name, item in objects.items() if not _fastened(item))]
+        names = [*Role, *(name for name, item in objects.items() if not is_fastened(item))]
         yield from _check((*path, given.deed), given.name, names, "loose object", scene)
     if place.on is not None:
         yield from _check((*path, "on"), place.on, surfaces(scene), "surface", scene)
@@ -164,10 +164,6 @@ def _disturbance_problems(
         yield Problem((*path, "at"), message)
     if given.name in (given.on, given.inside):
         yield Problem(path, f"{given.name!r} cannot be put on or into itself")
-
-
-def _fastened(item: ObjectBase) -> bool:
-    return isinstance(item, FURNITURE) if item.fixed is None else item.fixed
 
 
 def _above_desk(point: tuple[float, float], scene: Scene) -> bool:

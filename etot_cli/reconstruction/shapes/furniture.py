@@ -49,6 +49,18 @@ class _Case(Family):
         return float(self.wall * faces)
 
 
+def _carcass(params: Array, wall: float, front: float) -> list[Panel]:
+    """A case's panels without its front, which begins at x ``front``."""
+    depth, width, height = params[4] / 2, params[5] / 2, params[6]
+    return [
+        ([-depth, -width, height - wall], [front, width, height]),
+        ([-depth, -width, 0.0], [front, width, wall]),
+        ([-depth, -width, 0.0], [-depth + wall, width, height]),
+        ([-depth, -width, 0.0], [front, -width + wall, height]),
+        ([-depth, width - wall, 0.0], [front, width, height]),
+    ]
+
+
 class OpenUnit(_Case):
     """A unit of equal drawers, one of them out by ``open``; ``moving`` counts from the top."""
 
@@ -93,13 +105,7 @@ class OpenUnit(_Case):
         t, out, front = UNIT_WALL, params[7], params[4] / 2 - UNIT_WALL
         level = (height - (self.drawers + 1) * t) / self.drawers
         low = height - t - level - self.moving * (level + t)
-        fixed: list[Panel] = [
-            ([-depth, -width, height - t], [front, width, height]),
-            ([-depth, -width, 0.0], [front, width, t]),
-            ([-depth, -width, 0.0], [-depth + t, width, height]),
-            ([-depth, -width, 0.0], [front, -width + t, height]),
-            ([-depth, width - t, 0.0], [front, width, height]),
-        ]
+        fixed = _carcass(params, t, front)
         for index in range(self.drawers):
             floor = height - (index + 1) * (t + level)
             if index < self.drawers - 1:
@@ -196,15 +202,7 @@ class OpenCabinet(_Case):
 
     def distance(self, params: Array, points: Array) -> Array:
         local = own_frame(points, params, params[3])
-        depth, width, height = params[4] / 2, params[5] / 2, params[6]
-        t, front = CABINET_WALL, params[4] / 2 - DOOR_THICKNESS
-        panels: list[Panel] = [
-            ([-depth, -width, height - t], [front, width, height]),
-            ([-depth, -width, 0.0], [front, width, t]),
-            ([-depth, -width, 0.0], [-depth + t, width, height]),
-            ([-depth, -width, 0.0], [front, -width + t, height]),
-            ([-depth, width - t, 0.0], [front, width, height]),
-        ]
+        panels = _carcass(params, CABINET_WALL, params[4] / 2 - DOOR_THICKNESS)
         hinge, turn = self._door(params)
         leaf = box_distance(rotate(local - hinge, -turn), [self._door_extent(params)])
         return np.minimum(box_distance(local, panels), leaf)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from math import hypot
 
+from etot_cli.specs.footprint import hull
 from etot_cli.world.state import ObjectInfo, ObjectState, SceneState
 
 WIDTH_PX, HEIGHT_PX = 640, 400
@@ -146,7 +147,7 @@ def _shape(
     return f'<polygon points="{points}" {style} stroke-linejoin="round"/>'
 
 
-def footprint(info: ObjectInfo, state: ObjectState) -> list[tuple[float, float]] | None:
+def footprint(info: ObjectInfo, state: ObjectState) -> Sequence[tuple[float, float]] | None:
     """Outline of an object's box on the desk plane, base frame [m]; None for an upright round one.
 
     A ball is round however it lies; what leans shows its side.
@@ -164,31 +165,12 @@ def footprint(info: ObjectInfo, state: ObjectState) -> list[tuple[float, float]]
         local = [
             side * (0.5 if number >> axis & 1 else -0.5) for axis, side in enumerate(info.size)
         ]
-        corners.append(
-            tuple(
-                center + sum(r * v for r, v in zip(row, local, strict=True))
-                for center, row in zip(state.position[:2], rows, strict=True)
-            )
+        x, y = (
+            center + sum(r * v for r, v in zip(row, local, strict=True))
+            for center, row in zip(state.position[:2], rows, strict=True)
         )
-    return _hull([(x, y) for x, y in corners])
-
-
-def _hull(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Convex hull by turning around the outermost points; fine for eight of them."""
-    ordered = sorted(set(points))
-
-    def half(sequence: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-        chain: list[tuple[float, float]] = []
-        for x, y in sequence:
-            while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2], chain[-1]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0:
-                    break
-                chain.pop()
-            chain.append((x, y))
-        return chain[:-1]
-
-    return half(ordered) + half(reversed(ordered))
+        corners.append((x, y))
+    return hull(corners).corners
 
 
 def _way(before: ObjectState, after: ObjectState, at: Project) -> str:

@@ -26,6 +26,11 @@ SIDE_HEIGHT = 0.6
 DOOR_EDGE_SHARES = (0.85, 0.6, 0.35)
 """Where along a door's upper edge it can be gripped, as shares of its width from the hinge: far out
 the lever is long, near the hinge the way is short."""
+STOPS: dict[str, Any] = {
+    "limited": mujoco.mjtLimited.mjLIMITED_TRUE,
+    "solref_limit": [0.005, 1.0],
+}
+"""At both ends of their way drawers and doors stop hard, without bouncing."""
 EDGE_GRIP = 0.014
 """How far below a panel's edge the fingertips close on it [m]."""
 
@@ -48,6 +53,31 @@ def _panel(
     )
 
 
+def _add_sides(
+    body: Any,
+    look: Look,
+    x: tuple[float, float],
+    outer: float,
+    z: tuple[float, float],
+    thickness: float,
+) -> None:
+    """Two panels along x, from ``outer`` inwards on either side."""
+    for side in (-1, 1):
+        low, high = sorted((side * outer, side * (outer - thickness)))
+        _panel(body, look, (x[0], low, z[0]), (x[1], high, z[1]))
+
+
+def _add_carcass(
+    body: Any, look: Look, half: tuple[float, float, float], wall: float, front: float
+) -> None:
+    """Roof, floor, back and sides of a box of half sizes, open at its front, x ``front``."""
+    depth, width, height = half
+    _panel(body, look, (-depth, -width, height - wall), (front, width, height))
+    _panel(body, look, (-depth, -width, -height), (front, width, -height + wall))
+    _panel(body, look, (-depth, -width, -height + wall), (-depth + wall, width, height - wall))
+    _add_sides(body, look, (-depth + wall, front), width, (-height + wall, height - wall), wall)
+
+
 def add_drawer_unit(
     body: Any, spec: specs.DrawerUnit, look: Look, name: str
 ) -> tuple[tuple[Part, ...], tuple[Region, ...], tuple[Surface, ...]]:
@@ -56,12 +86,7 @@ def add_drawer_unit(
     t = spec.wall
     front = depth - t
     levels = spec.compartment_heights()
-    _panel(body, look, (-depth, -width, height - t), (front, width, height))
-    _panel(body, look, (-depth, -width, -height), (front, width, -height + t))
-    _panel(body, look, (-depth, -width, -height + t), (-depth + t, width, height - t))
-    for side in (-1, 1):
-        inner, outer = sorted((side * width, side * (width - t)))
-        _panel(body, look, (-depth + t, inner, -height + t), (front, outer, height - t))
+    _add_carcass(body, look, (depth, width, height), t, front)
     parts: list[Part] = []
     regions: list[Region] = []
     movable = [drawer for drawer in spec.drawers if drawer.travel > 0]
@@ -101,7 +126,7 @@ def _drawer(
     t, p, gap = spec.wall, DRAWER_PANEL, DRAWER_GAP
     part_name = f"{name}.{drawer.name}"
     moving = body.add_body(name=part_name)
-    joint = moving.add_joint(
+    moving.add_joint(
         name=part_name,
         type=mujoco.mjtJoint.mjJNT_SLIDE,
         axis=[1, 0, 0],
@@ -109,18 +134,15 @@ def _drawer(
         frictionloss=drawer.friction_loss,
         damping=2.0,
         armature=0.05,
+        **STOPS,
     )
-    joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
-    joint.solref_limit = [0.005, 1.0]
     inside = look.darker(0.93).with_mass(0.08)
     floor, half_width = low + gap, width - t - gap
     back, front = -depth + t + gap, depth - t
     side_top = floor + p + SIDE_HEIGHT * (top - floor - p)
     _panel(moving, inside, (back, -half_width, floor), (front, half_width, floor + p))
     _panel(moving, inside, (back, -half_width, floor + p), (back + p, half_width, side_top))
-    for side in (-1, 1):
-        y0, y1 = sorted((side * half_width, side * (half_width - p)))
-        _panel(moving, inside, (back + p, y0, floor + p), (front, y1, side_top))
+    _add_sides(moving, inside, (back + p, front), half_width, (floor + p, side_top), p)
     front_low, front_top = low - t / 2 + 0.001, top + t / 2 - 0.001
     middle = (front_low + front_top) / 2
     _panel(
@@ -200,18 +222,13 @@ def add_cabinet(
     depth, width, height = (side / 2 for side in spec.size)
     t, door = spec.wall, spec.door
     front = depth - door.thickness
-    _panel(body, look, (-depth, -width, height - t), (front, width, height))
-    _panel(body, look, (-depth, -width, -height), (front, width, -height + t))
-    _panel(body, look, (-depth, -width, -height + t), (-depth + t, width, height - t))
-    for side in (-1, 1):
-        y0, y1 = sorted((side * width, side * (width - t)))
-        _panel(body, look, (-depth + t, y0, -height + t), (front, y1, height - t))
+    _add_carcass(body, look, (depth, width, height), t, front)
     # Facing the front one looks along -x, so the left side is at -y.
     hinge_side = -1.0 if door.hinge == "left" else 1.0
     part_name = f"{name}.{door.name}"
     moving = body.add_body(name=part_name, pos=[front + 0.001, hinge_side * width, 0])
     travel = math.radians(door.range_deg)
-    joint = moving.add_joint(
+    moving.add_joint(
         name=part_name,
         type=mujoco.mjtJoint.mjJNT_HINGE,
         axis=[0, 0, hinge_side],
@@ -219,9 +236,8 @@ def add_cabinet(
         frictionloss=door.friction_loss,
         damping=0.3,
         armature=0.02,
+        **STOPS,
     )
-    joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
-    joint.solref_limit = [0.005, 1.0]
     reach = -hinge_side  # direction from the hinge to the free edge along y
     span = spec.size[1]
     y0, y1 = sorted((0.001 * reach, span * reach))
@@ -260,9 +276,7 @@ def add_shelf(
     """Boards between two side walls and a back; every board is a surface, bottom to top."""
     depth, width, height = (side / 2 for side in spec.size)
     t, count = spec.wall, len(spec.boards)
-    for side in (-1, 1):
-        y0, y1 = sorted((side * width, side * (width - t)))
-        _panel(body, look, (-depth, y0, -height), (depth, y1, height))
+    _add_sides(body, look, (-depth, depth), width, (-height, height), t)
     _panel(body, look, (-depth, -width + t, -height), (-depth + t, width - t, height))
     step = (spec.size[2] - t) / (count - 1) if count > 1 else 0.0
     surfaces: list[Surface] = []

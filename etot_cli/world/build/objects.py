@@ -9,7 +9,8 @@ import mujoco
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
-from etot_cli.specs.objects import ROLLING_DEFAULT
+from etot_cli.specs.objects import ROLLING_DEFAULT, is_fastened
+from etot_cli.specs.placement import size_of
 from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
 from etot_cli.world.build.material import Look
 from etot_cli.world.colors import is_basic, nearest_basic, rgb
@@ -25,7 +26,7 @@ def add_object(
 ) -> tuple[ObjectEntry, Any]:
     """Adds an object to the model to be; returns what is known of it, and its specification."""
     body = mj.worldbody.add_body(name=name)
-    fixed = is_fixed(spec)
+    fixed = is_fastened(spec)
     if not fixed:
         body.add_freejoint(name=name)
     look = _look(spec)
@@ -33,46 +34,39 @@ def add_object(
     regions: tuple[Region, ...] = ()
     surfaces: tuple[Surface, ...] = ()
     axis = None
+    # An attached file's is not known before it is compiled.
+    size: tuple[float, ...] = size_of(spec) or (0.1, 0.1, 0.1)
     if isinstance(spec, specs.Sphere):
         shapes.add_sphere(body, spec, look)
-        size = (spec.diameter,) * 3
     elif isinstance(spec, specs.Box):
         shapes.add_box(body, spec, look)
-        size = spec.size
-        surfaces = (Surface(name, name, (0, 0, size[2] / 2), (size[0] / 2, size[1] / 2)),)
+        length, width, height = spec.size
+        surfaces = (Surface(name, name, (0, 0, height / 2), (length / 2, width / 2)),)
     elif isinstance(spec, specs.Cylinder):
         shapes.add_cylinder(body, spec, look)
-        size = (spec.diameter, spec.diameter, spec.height)
         radius = spec.diameter / 2
-        surfaces = (Surface(name, name, (0, 0, size[2] / 2), (radius, radius), round=True),)
+        surfaces = (Surface(name, name, (0, 0, spec.height / 2), (radius, radius), round=True),)
     elif isinstance(spec, specs.Capsule):
         shapes.add_capsule(body, spec, look)
-        size = (spec.length, spec.diameter, spec.diameter)
         axis = (1.0, 0.0, 0.0)
     elif isinstance(spec, specs.Pen):
         shapes.add_pen(mj, body, spec, look, name)
-        size = (spec.length, spec.diameter, spec.diameter)
         axis = (1.0, 0.0, 0.0)
     elif isinstance(spec, specs.Cup):
         vessels.add_cup(mj, body, spec, look, name)
-        size = (spec.diameter, spec.diameter, spec.height)
         regions = (vessels.cup_region(spec, name),)
     elif isinstance(spec, specs.DrawerUnit):
         parts, regions, surfaces = furniture.add_drawer_unit(body, spec, look, name)
-        size = spec.size
     elif isinstance(spec, specs.Cabinet):
         parts, regions, surfaces = furniture.add_cabinet(body, spec, look, name)
-        size = spec.size
     elif isinstance(spec, specs.Shelf):
         parts, regions, surfaces = furniture.add_shelf(body, spec, look, name)
-        size = spec.size
     elif isinstance(spec, specs.Mesh):
-        size = tuple(meshes.add_mesh(mj, body, spec, look, name, scene.directory))
+        size = (*meshes.add_mesh(mj, body, spec, look, name, scene.directory),)
         if spec.hollow:
             regions = (vessels.hollow_region(size, name),)
     else:
         mjcf.attach_mjcf(mj, body, spec, name, scene.directory)
-        size = (0.1, 0.1, 0.1)
     if fixed:
         body.pos = _fixed_position(scene, name, spec, size)
         body.quat = list(resting_quaternion(spec))
@@ -89,11 +83,6 @@ def _look(spec: Any) -> Look:
         else None
     )
     return Look((*color, 1.0), spec.friction, rolling, spec.slippery, mass, shapes.DENSITY)
-
-
-def is_fixed(spec: Any) -> bool:
-    """Whether an object is fastened: said so, or furniture."""
-    return bool(spec.fixed) if spec.fixed is not None else isinstance(spec, specs.FURNITURE)
 
 
 def resting_quaternion(spec: Any) -> tuple[float, float, float, float]:
@@ -129,7 +118,7 @@ def entry_of(
     axis: tuple[float, float, float] | None = None,
 ) -> ObjectEntry:
     """What is known of an object, its mass excepted, which the compiled model tells."""
-    fixed = is_fixed(spec)
+    fixed = is_fastened(spec)
     behind_parts = {part.info.address for part in parts if part.info.container}
     boards = [surface.address.partition(".")[2] for surface in surfaces]
     info = ObjectInfo(
