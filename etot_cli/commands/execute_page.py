@@ -82,14 +82,15 @@ def _takes(trial: Trial, *, foreseen: bool) -> list[Take]:
         for trajectory in item.foreseen if foreseen else item.trajectories:
             if foreseen and len(trajectory.qpos[0]) != max(sizes):
                 continue  # of before something came onto the scene: another model
-            ending = float(trajectory.times[-1] - trajectory.times[0])
             verdict = ""
             if item.cause is not None and not foreseen:
                 verdict = f"{item.status}: {item.cause.text}"
             tone: Tone = "bad" if verdict else "plain" if foreseen else "good"
             culprits = item.cause.objects if verdict and item.cause else ()
             caption = f"{number}   {item.action}"
-            found.append(Take(trajectory, caption, verdict, tone, tuple(culprits), ending))
+            found.append(
+                Take(trajectory, caption, verdict, tone, tuple(culprits), trajectory.seconds)
+            )
     return found
 
 
@@ -181,8 +182,8 @@ def _pieces(trial: Trial, *, foreseen: bool) -> list[_Piece]:
             # Before something came onto the scene, the twin was another model.
             if len(trajectory.times) and (not foreseen or len(trajectory.qpos[0]) == max(widths)):
                 # What the twin goes on to do after the robot stopped did not come to pass.
-                whole = float(trajectory.times[-1] - trajectory.times[0])
-                found.append(_Piece(item, trajectory, start, min(whole, lasted), foreseen))
+                seconds = min(trajectory.seconds, lasted)
+                found.append(_Piece(item, trajectory, start, seconds, foreseen))
             start += lasted
     return found
 
@@ -191,11 +192,10 @@ def _film(letter: str, name: str, scene: Scene, pieces: Sequence[_Piece], rate: 
     shots: list[Shot] = []
     frames: list[tuple[float, str]] = []
     for piece in pieces:
-        times = piece.trajectory.times - piece.trajectory.times[0]
         even = np.linspace(0.0, piece.seconds, max(2, round(piece.seconds * rate) + 1))
         for moment in np.union1d(even, piece.parted_s):
             now = piece.start + float(moment)
-            row = int(np.argmin(np.abs(times - moment)))
+            row = piece.trajectory.row_at(moment)
             shot = Shot(piece.trajectory.qpos[row], piece.outlined(now))
             if shots and alike(shots[-1], shot):
                 continue  # what stands still needs no second picture

@@ -115,9 +115,7 @@ def write_simulate_page(
     report = simulation.report
     films = [t for t in simulation.trajectories if isinstance(t, Trajectory) and len(t.times)]
     whole = len(films) == len(report.steps) and films
-    durations = (
-        [float(t.times[-1] - t.times[0]) for t in films] if whole else [1.0] * len(report.steps)
-    )
+    durations = [t.seconds for t in films] if whole else [1.0] * len(report.steps)
     wanted: list[Wanted] = []
     frames: list[tuple[float, str]] = []
     start = 0.0
@@ -131,8 +129,7 @@ def write_simulate_page(
             key = f"f{len(wanted)}"
             shot = None
             if whole:
-                times = films[index].times - films[index].times[0]
-                row = int(np.argmin(np.abs(times - time_s)))
+                row = films[index].row_at(time_s)
                 shot = Shot(films[index].qpos[row], culprits if time_s >= since else ())
             last = wanted[-1].shot if wanted else None
             if shot is not None and last is not None and alike(last, shot):
@@ -192,13 +189,11 @@ def _frames_of(
     if before == "start":
         want(before, 0, True)
     if rows is not None and trajectory is not None:
-        times = trajectory.times - trajectory.times[0]
         # Of what went well and is no part of the plan, the end says enough.
         told = failed_s is not None or number in planning.report.plan_nodes
-        moment = _key_moment(trajectory, failed_s, float(times[-1])) if told else None
+        moment = _key_moment(trajectory, failed_s, trajectory.seconds) if told else None
         if moment is not None:
-            row = int(np.argmin(np.abs(times - moment)))
-            want(f"n{number}-key", row, False)
+            want(f"n{number}-key", trajectory.row_at(moment), False)
             what = "when it went wrong" if failed_s is not None else "the key moment"
             found.append(Frame(f"n{number}-key", f"After {moment:.1f} s, {what}"))
     want(f"n{number}-after", -1, False)

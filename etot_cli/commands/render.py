@@ -85,7 +85,6 @@ def takes(simulation: Simulation) -> list[Take]:
             continue
         caption = f"{number} of {len(report.plan)}   {step.action}"
         cause = step.cause
-        ending = float(trajectory.times[-1] - trajectory.times[0])
         verdict = ""
         if step.status != "success":
             verdict = f"{step.status}: {cause.text}" if cause is not None else step.status
@@ -96,7 +95,7 @@ def takes(simulation: Simulation) -> list[Take]:
                 verdict,
                 "good" if step.status == "success" else "bad",
                 tuple(cause.objects) if cause is not None else (),
-                ending if cause is None or cause.time_s is None else cause.time_s,
+                trajectory.seconds if cause is None or cause.time_s is None else cause.time_s,
             )
         )
     return found

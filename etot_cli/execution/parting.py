@@ -26,7 +26,7 @@ def parting(
         foreseen: the same motion there.
         begun_s: the robot's time at the motion's start [s].
     """
-    mine, theirs = happened.times - happened.times[0], foreseen.times - foreseen.times[0]
+    mine, theirs = happened.elapsed, foreseen.elapsed
     times = np.union1d(mine, theirs)
     found: list[Parted] = []
 

@@ -43,7 +43,7 @@ class Take:
 
     def shot(self, row: int) -> Shot:
         """The picture of one row of the trajectory."""
-        time = float(self.trajectory.times[row] - self.trajectory.times[0])
+        time = float(self.trajectory.elapsed[row])
         judged = time >= self.since_s or row == len(self.trajectory.times) - 1
         return Shot(
             self.trajectory.qpos[row],
@@ -55,10 +55,10 @@ class Take:
 
 def key_moments(trajectory: Trajectory) -> list[tuple[str, float, int]]:
     """The moments worth a picture: (word, time since the action's start [s], row in ``qpos``)."""
-    times = trajectory.times - trajectory.times[0]
+    times = trajectory.elapsed
     moments = [("start", 0.0, 0)]
     for time in trajectory.key_times:
-        row = int(np.argmin(np.abs(times - time)))
+        row = trajectory.row_at(time)
         if moments[-1][2] < row < len(times) - 1:
             moments.append(("key", float(times[row]), row))
     if len(times) > 1:
@@ -171,7 +171,7 @@ def _make_folder(folder: Path) -> None:
 
 def _even_rows(trajectory: Trajectory, rate: int) -> NDArray[np.int64]:
     """Rows of a trajectory at even distances in time, the last one included."""
-    times = trajectory.times - trajectory.times[0]
+    times = trajectory.elapsed
     wanted = np.arange(0.0, float(times[-1]) + 1e-6, 1.0 / rate)
     rows = np.searchsorted(times, wanted + 1e-4, side="right") - 1
     return np.append(np.clip(rows, 0, len(times) - 1), len(times) - 1)

@@ -36,6 +36,20 @@ class Trajectory:
     key_times: tuple[float, ...] = ()
     """Moments worth a picture, in seconds."""
 
+    @property
+    def elapsed(self) -> NDArray[np.float32]:
+        """Times (k,) since the first of them [s]."""
+        return np.asarray(self.times - self.times[0])
+
+    @property
+    def seconds(self) -> float:
+        """From the first configuration to the last [s]."""
+        return float(self.elapsed[-1])
+
+    def row_at(self, time_s: float) -> int:
+        """The row next to a moment since the first of them [s]."""
+        return int(np.argmin(np.abs(self.elapsed - time_s)))
+
     def followed_by(self, other: Trajectory, after_s: float) -> Trajectory:
         """This one and another that began ``after_s`` [s] later."""
         return Trajectory(

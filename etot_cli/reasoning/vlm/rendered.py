@@ -99,16 +99,14 @@ class RenderedFrames(NominalOutcomes):
         before = record.before
         if not isinstance(trajectory, Trajectory) or not len(trajectory.times):
             return [self._picture(NEVER_BEGAN, self._configuration(before), before, marks=marks)]
-        times = trajectory.times - trajectory.times[0]
-        if len(times) == 1:
+        if len(trajectory.times) == 1:
             return [self._picture(NEVER_BEGAN, trajectory.qpos[0], before, marks=marks)]
         rows = [(0, "Before the action")]
-        duration = float(times[-1])
         for moment, what in moments(
-            record, trajectory.key_times, duration, max(count - 2, 0), hints=hints
+            record, trajectory.key_times, trajectory.seconds, max(count - 2, 0), hints=hints
         ):
-            rows.append((int(np.argmin(np.abs(times - moment))), f"After {moment:.1f} s, {what}"))
-        rows.append((len(times) - 1, "After the action"))
+            rows.append((trajectory.row_at(moment), f"After {moment:.1f} s, {what}"))
+        rows.append((len(trajectory.times) - 1, "After the action"))
         return [
             self._picture(what, trajectory.qpos[row], before, marks=marks)
             for row, what in rows[-count:]
