@@ -141,9 +141,6 @@ def _render(
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.int32]]:
     """Colour, depth and geom ids (−1 for none), each (h, w), without the robot."""
     model = world.model
-    # Rounder balls than the viewer's: the truth is a ball, not its tessellation.
-    model.vis.quality.numslices = 96
-    model.vis.quality.numstacks = 48
     if samples > 1:
         model.vis.quality.offsamples = 0
     for geom, owner in enumerate(world.geom_object):
@@ -151,19 +148,17 @@ def _render(
             model.geom_rgba[geom, 3] = 0.0
             model.geom_group[geom] = 5
     aim(model, name, camera)
-    view = mujoco.MjvCamera()
-    view.type = mujoco.mjtCamera.mjCAMERA_FIXED
-    view.fixedcamid = model.camera(name).id
     with OffscreenRenderer(model, camera.width, camera.height) as renderer:
-        renderer.look(data, view)
+        renderer.look(data, name)
         color = renderer.soft_color(samples) if samples > 1 else renderer.color()
-        depth, ids = renderer.depth_and_geoms()
-    depth[ids < 0] = 0.0  # the sky
-    return color, depth, ids
+        return color, *renderer.depth_and_geoms()
 
 
 def aim(model: mujoco.MjModel, name: str, camera: Camera) -> None:
-    """Sets the camera's intrinsics so that pixel centres lie at whole image coordinates."""
+    """Sets the camera's intrinsics so that pixel centres lie at whole image coordinates, and shows
+    it rounder balls than the viewer: what is looked at is a ball, not its tessellation.
+    """
+    model.vis.quality.numslices, model.vis.quality.numstacks = 96, 48
     index = model.camera(name).id
     pixel = model.cam_sensorsize[index] / (camera.width, camera.height)
     # MuJoCo counts the principal point from the image's centre, which lies half a pixel before

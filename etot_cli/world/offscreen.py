@@ -71,8 +71,13 @@ class OffscreenRenderer:
             self._context.free()
             self._context = None
 
-    def look(self, data: mujoco.MjData, camera: mujoco.MjvCamera) -> None:
-        """Takes over what is to be drawn: ``data`` with its kinematics done, seen by ``camera``."""
+    def look(self, data: mujoco.MjData, camera: mujoco.MjvCamera | str) -> None:
+        """Takes over what is to be drawn: ``data`` with its kinematics done, seen by ``camera``,
+        one of the model's by its name.
+        """
+        if isinstance(camera, str):
+            index, camera = self._model.camera(camera).id, mujoco.MjvCamera()
+            camera.type, camera.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, index
         mujoco.mjv_updateScene(
             self._model, data, self._option, None, camera, mujoco.mjtCatBit.mjCAT_ALL.value,
             self._scene,
@@ -118,7 +123,7 @@ class OffscreenRenderer:
     def depth_and_geoms(self) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Depth along the view axis [m] and id of the geom seen, both (height, width).
 
-        Where no geom is seen the id is -1 and the depth that of the far plane.
+        Where no geom is seen, in the sky, the id is -1 and the depth 0.
         """
         flags = self._scene.flags
         kept = flags.copy()
@@ -140,6 +145,7 @@ class OffscreenRenderer:
         planes, extent = self._model.vis.map, self._model.stat.extent
         near, far = planes.znear * extent, planes.zfar * extent
         depth = near * far / (near + buffer.astype(np.float64) * (far - near))
+        depth[geoms < 0] = 0.0
         return depth, geoms
 
     def _draw(self) -> tuple[Image, NDArray[np.float32]]:

@@ -70,7 +70,7 @@ class WorldRenderer:
         self.width, self.height = fit_size(world.scene, camera, width, height)
         self._model = world.model
         self._data = mujoco.MjData(self._model)
-        self._camera = self._view(camera)
+        self._camera = camera or self._whole_desk()
         self._renderer = OffscreenRenderer(self._model, self.width, self.height)
 
     def __enter__(self) -> WorldRenderer:
@@ -120,12 +120,8 @@ class WorldRenderer:
         mujoco.mj_camlight(self._model, self._data)
         self._renderer.look(self._data, self._camera)
 
-    def _view(self, camera: str | None) -> mujoco.MjvCamera:
+    def _whole_desk(self) -> mujoco.MjvCamera:
         view = mujoco.MjvCamera()
-        if camera is not None:
-            view.type = mujoco.mjtCamera.mjCAMERA_FIXED
-            view.fixedcamid = self._model.camera(camera).id
-            return view
         desk = self.world.scene.desk
         view.type = mujoco.mjtCamera.mjCAMERA_FREE
         view.lookat[:] = [*desk.center, desk.top + 0.08]

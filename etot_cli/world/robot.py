@@ -35,6 +35,11 @@ class GripperSpec(Spec):
     command_closed: Finite = 0.0
     force: Annotated[float, Field(gt=0.1, le=1000.0)] = 30.0
 
+    def command(self, opening: float) -> float:
+        """What the actuator is sent for a distance between the pads [m]."""
+        share = min(max(opening / self.opening, 0.0), 1.0)
+        return self.command_closed + share * (self.command_open - self.command_closed)
+
 
 class JointLimitsSpec(Spec):
     """What the joints' drives accept: the largest acceleration [rad/s²] and jerk [rad/s³].

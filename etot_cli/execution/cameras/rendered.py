@@ -79,8 +79,6 @@ class RenderedCamera:
         """
         if self._renderer is None:
             model = self._world.model
-            # Rounder balls than the viewer's: what is looked at is a ball, not its tessellation.
-            model.vis.quality.numslices, model.vis.quality.numstacks = 96, 48
             # A depth camera has one ray a pixel; without a graphics card it halves the time.
             model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, 1024
             aim(model, CAMERA_NAME, self._camera)
@@ -100,13 +98,9 @@ class RenderedCamera:
             self._data.mocap_pos[:], self._data.mocap_quat[:] = state.mocap_pos, state.mocap_quat
         mujoco.mj_kinematics(model, self._data)
         mujoco.mj_camlight(model, self._data)
-        view = mujoco.MjvCamera()
-        view.type = mujoco.mjtCamera.mjCAMERA_FIXED
-        view.fixedcamid = model.camera(CAMERA_NAME).id
-        self._renderer.look(self._data, view)
+        self._renderer.look(self._data, CAMERA_NAME)
         color = self._renderer.color()
-        depth, ids = self._renderer.depth_and_geoms()
-        depth[ids < 0] = 0.0  # the sky
+        depth, _ = self._renderer.depth_and_geoms()
         picture = Picture(self._camera, color, depth, {})
         if self._noise is not None:
             picture = add_noise(picture, self._noise, self._rng)
