@@ -120,11 +120,8 @@ class SimulatedRobot:
 
     def set_opening(self, opening: float) -> None:
         """Sends the gripper to a distance between the pads [m]."""
-        gripper = self._world.robot.spec.gripper
-        share = min(max(opening / gripper.opening, 0.0), 1.0)
-        self._command[self._world.robot.gripper_ctrl] = gripper.command_closed + share * (
-            gripper.command_open - gripper.command_closed
-        )
+        robot = self._world.robot
+        self._command[robot.gripper_ctrl] = robot.spec.gripper.command(opening)
 
     def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
         """Holds still; at rest, stepping on would change nothing."""

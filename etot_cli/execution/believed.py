@@ -234,12 +234,8 @@ class BelievedTwin:
 
     def _hand(self, robot: RobotState, *, closed: bool) -> None:
         """Sends the twin's gripper where the robot's was sent."""
-        gripper = self.world.robot.spec.gripper
-        opening = 0.0 if closed else robot.opening
-        share = min(max(opening / gripper.opening, 0.0), 1.0)
-        self._data.ctrl[self.world.robot.gripper_ctrl] = gripper.command_closed + share * (
-            gripper.command_open - gripper.command_closed
-        )
+        twin, opening = self.world.robot, 0.0 if closed else robot.opening
+        self._data.ctrl[twin.gripper_ctrl] = twin.spec.gripper.command(opening)
 
     def _grip(self, name: str) -> None:
         """Closes the fingers on what is held, which only gives way between them."""

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
-from etot_cli.execution.perception.fitting import TOLERANCE, visible_points
+from etot_cli.execution.perception.fitting import TOLERANCE, shown
 from etot_cli.execution.perception.following import Following
 from etot_cli.execution.perception.furniture import Furniture
 from etot_cli.execution.perception.hand import HandContents
@@ -100,13 +100,9 @@ class CameraEyes:
         if self._frame is None or name not in self._found:
             return None
         view, depth = view_of(self._frame), self._frame.depth
-        surface, pose = self._known.surfaces[name], self._found[name]
-        points = pose.place(surface.points[visible_points(surface, pose, view)])
-        pixels = np.round(view.project(points)).astype(np.int64)
-        inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
-        pixels, expected = pixels[inside], view.depth_of(points[inside])
+        _, points, pixels, _ = shown(self._known.surfaces[name], self._found[name], view)
         read = depth[pixels[:, 1], pixels[:, 0]]
-        own = pixels[(read == 0) | (read > expected - TOLERANCE)]
+        own = pixels[(read == 0) | (read > view.depth_of(points) - TOLERANCE)]
         mask = np.zeros(depth.shape, np.uint8)
         mask[own[:, 1], own[:, 0]] = 1
         return self._frame, cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((5, 5))) > 0

@@ -14,6 +14,7 @@ from etot_cli.execution.perception.fitting import (
     Support,
     climbed,
     moved,
+    shown,
     support,
     visible_points,
 )
@@ -109,10 +110,8 @@ def _likeness(surface: Surface, pose: Pose, scan: Scan) -> Array | None:
     likelihood ratio around it and 0 elsewhere; None where that cannot be told.
     """
     view, depth, picture = scan.view, scan.depth, scan.picture.astype(np.float64)
-    points = pose.place(surface.points[visible_points(surface, pose, view)])
-    pixels = np.round(view.project(points)).astype(np.int64)
-    inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
-    (u, v), expected = pixels[inside].T, view.depth_of(points[inside])
+    _, points, pixels, _ = shown(surface, pose, view)
+    (u, v), expected = pixels.T, view.depth_of(points)
     read = depth[v, u]
     bright = picture[v, u][(read > 0) & (np.abs(read - expected) < TOLERANCE)]
     if len(bright) < OWN:

@@ -103,13 +103,22 @@ def visible_points(surface: Surface, pose: Pose, view: View) -> NDArray[np.intp]
     return np.asarray(facing[depth < nearest[key] + SELF])
 
 
-def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
-    """How far a depth picture (h, w) [m] bears a pose out."""
+def shown(
+    surface: Surface, pose: Pose, view: View
+) -> tuple[NDArray[np.intp], Array, NDArray[np.int64], int]:
+    """The visible points that the picture has: indices (k,), places (k, 3), pixels (k, 2); and how
+    many lie beside it.
+    """
     chosen = visible_points(surface, pose, view)
     points = pose.place(surface.points[chosen])
     pixels = np.round(view.project(points)).astype(np.int64)
     inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
-    points, pixels, chosen = points[inside], pixels[inside], chosen[inside]
+    return chosen[inside], points[inside], pixels[inside], int((~inside).sum())
+
+
+def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
+    """How far a depth picture (h, w) [m] bears a pose out."""
+    chosen, points, pixels, beside = shown(surface, pose, view)
     read = depth[pixels[:, 1], pixels[:, 0]]
     expected = view.depth_of(points)
     towards = view.position - points
@@ -120,7 +129,7 @@ def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
     agree = known & (np.abs(off) * slant < TOLERANCE)
     return Support(
         int(agree.sum()),
-        int((known & ~agree & (off < 0)).sum()) + int((~inside).sum()),
+        int((known & ~agree & (off < 0)).sum()) + beside,
         int((known & ~agree & (off > 0)).sum()),
         int((~known).sum()),
     )

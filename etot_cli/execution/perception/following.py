@@ -134,8 +134,7 @@ class Following:
         """How much the readings there have the object's colour, 0 to 1; 1 before it is known."""
         if name not in self._colors:
             return 1.0
-        apart, _ = surface.tree.query(pose.local(scan.points), distance_upper_bound=NEAR)
-        own = np.isfinite(apart)
+        own = surface.has(pose, scan.points, NEAR)
         if not own.any():
             return 0.0
         unlike = float(np.linalg.norm(chroma(scan.colors[own]) - self._colors[name]))
@@ -144,8 +143,7 @@ class Following:
     def _explains(self, scan: Scan, name: str, pose: Pose) -> bool:
         """Takes the readings of an object's surface, unless others have most of them already."""
         surface = self._known.surfaces[name]
-        apart, _ = surface.tree.query(pose.local(scan.points), distance_upper_bound=NEAR)
-        own = np.isfinite(apart)
+        own = surface.has(pose, scan.points, NEAR)
         fresh = own & scan.unexplained
         if fresh.sum() < max(6, 0.3 * own.sum()):
             return False

@@ -181,5 +181,4 @@ class Furniture:
     def _explain(self, scan: Scan, surface: Surface, pose: Pose) -> None:
         """Takes the readings of a surface."""
         rest = np.flatnonzero(scan.unexplained)
-        apart, _ = surface.tree.query(pose.local(scan.points[rest]), distance_upper_bound=OWN)
-        scan.unexplained[rest[np.isfinite(apart)]] = False
+        scan.unexplained[rest[surface.has(pose, scan.points[rest], OWN)]] = False

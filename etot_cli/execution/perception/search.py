@@ -121,8 +121,7 @@ def _best(
     for _, guess in guesses[:PROMISING]:
         pose = improved(surface, guess, readings, scan.view)
         borne = support(surface, pose, scan.view, scan.depth)
-        apart, _ = surface.tree.query(pose.local(readings), distance_upper_bound=NEAR)
-        own = np.isfinite(apart)
+        own = surface.has(pose, readings, NEAR)
         if borne.share < LEAST_SHARE or own.sum() < LEAST_POINTS:
             continue
         score = borne.share * (0.25 + 0.75 * float(own.mean()))

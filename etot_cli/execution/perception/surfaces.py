@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from etot_cli.world.model import World
-from etot_cli.world.pose import UP, turn_about
+from etot_cli.world.pose import UP, Pose, turn_about
 from etot_cli.world.surface import SEEN_GROUPS, area, sampled, triangles
 
 Array = NDArray[np.float64]
@@ -73,6 +73,11 @@ class Surface:
         """The points that a viewer (3,) in the frame of the body sees from outside."""
         front = ((viewer - self.points) * self.normals).sum(axis=1) > 0
         return Surface(self.points[front], self.normals[front])
+
+    def has(self, pose: Pose, readings: Array, within: float) -> NDArray[np.bool_]:
+        """Which readings (n, 3) lie on it where it stands, as near as that [m]."""
+        apart, _ = self.tree.query(pose.local(readings), distance_upper_bound=within)
+        return np.asarray(np.isfinite(apart))
 
     @cached_property
     def round(self) -> bool:
