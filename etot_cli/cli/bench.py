@@ -30,7 +30,7 @@ from etot_cli.cli.options import (
     model_settings,
     refuse_beside,
 )
-from etot_cli.cli.session import Session
+from etot_cli.cli.session import Session, print_json
 from etot_cli.errors import ServiceError
 from etot_cli.specs.bounds import MAX_TRIALS
 
@@ -204,7 +204,7 @@ def _compare(
     """Prints how two runs differ; with ``out``, writes report and page."""
     from etot_cli.commands.bench_compare import compare
     from etot_cli.reporting.bench_table import significantly_worse, told
-    from etot_cli.reporting.files import claim_folder, report_text, write_report
+    from etot_cli.reporting.files import claim_folder, write_report
 
     report = compare(first, second)
     if out is not None:
@@ -220,10 +220,7 @@ def _compare(
             print(f"page: {page}", file=sys.stderr)
     worse = [pair for pair in report.comparisons if significantly_worse(pair)]
     if json:
-        # Bytes, so that the output is UTF-8 whatever the locale.
-        sys.stdout.flush()
-        sys.stdout.buffer.write(report_text(report).encode())
-        sys.stdout.buffer.flush()
+        print_json(report)
     else:
         for pair in [] if quiet else report.comparisons:
             print(("worse: " if pair in worse else "") + told(pair))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -13,7 +12,7 @@ import typer
 from etot_cli.cli.exits import INTERRUPTED, NO, OK
 from etot_cli.cli.interrupts import heed
 from etot_cli.cli.options import Force, Html, Json, Out, Quiet, Seed, Verbose
-from etot_cli.cli.session import Session
+from etot_cli.cli.session import Session, print_json
 
 FARTHEST_M = 5.0
 """No desk of a robot is farther from its base; a larger number is in another unit [m]."""
@@ -170,7 +169,6 @@ def reconstruct(
     )
 
     heed()
-    from etot_cli.reporting.files import report_text
 
     board = None if calibrate is None else read_board(calibrate)
     session = Session(
@@ -195,9 +193,7 @@ def reconstruct(
 
         session.add_page(report, lambda told: write_reconstruct_page(reconstruction, folder))
     if json:
-        sys.stdout.flush()
-        sys.stdout.buffer.write(report_text(report).encode())
-        sys.stdout.buffer.flush()
+        print_json(report)
     else:
         _show(report, folder, quiet=quiet, verbose=verbose)
     if report.interrupted:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
     from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
-    from etot_cli.reporting.models import Report
+    from etot_cli.reporting.models import Model, Report
     from etot_cli.reporting.printer import Printer
     from etot_cli.reporting.reconstruct_report import ReconstructReport
     from etot_cli.specs.task import Task
@@ -204,16 +204,12 @@ class Session:
             path: where it was saved.
             show: prints it with what it is given.
         """
-        from etot_cli.reporting.files import report_text
         from etot_cli.reporting.printer import Printer
         from etot_cli.reporting.style import make_console
 
         with uninterrupted():
             if self._json:
-                # Bytes, so that the output is the file's UTF-8 whatever the locale.
-                sys.stdout.flush()
-                sys.stdout.buffer.write(report_text(report).encode())
-                sys.stdout.buffer.flush()
+                print_json(report)
                 if report.interrupted:
                     print(f"interrupted; what was found so far: {path}", file=sys.stderr)
             else:
@@ -234,3 +230,12 @@ class Session:
 
         detailed = self._verbosity is Verbosity.VERBOSE
         return LiveView(console, f"etot plan {self._subject}", detailed=detailed)
+
+
+def print_json(report: Model) -> None:
+    """A report on standard output: bytes, the file's UTF-8 whatever the locale."""
+    from etot_cli.reporting.files import report_text
+
+    sys.stdout.flush()
+    sys.stdout.buffer.write(report_text(report).encode())
+    sys.stdout.buffer.flush()

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from etot_cli.reporting.bench_report import AverageModel, BenchReport, PairedModel
+from etot_cli.reporting.printer import Printer
 from etot_cli.reporting.style import Verbosity, counted
 
 PIPE_WIDTH = 10_000
@@ -26,36 +26,31 @@ LEAST_TOLD = 1e-4
 """P values below this say nothing more."""
 
 
-class BenchSummary:
+class BenchSummary(Printer):
     """Prints a benchmark to a console, as much as the verbosity asks for."""
-
-    def __init__(self, console: Console, verbosity: Verbosity) -> None:
-        self._console = console
-        self._verbosity = verbosity
 
     def show(self, report: BenchReport, path: Path) -> None:
         """The whole summary."""
         done, total = len(report.trials), _planned_trials(report)
-        if self._verbosity is Verbosity.QUIET:
+        if self.verbosity is Verbosity.QUIET:
             rates = ", ".join(f"{item.method} {_percent(item.rate)}" for item in report.averages)
             cause = f" ({report.reason})" if report.reason else ""
-            self._line(f"{report.status}: {rates or 'no trial was finished'}{cause}")
+            self.line(f"{report.status}: {rates or 'no trial was finished'}{cause}")
             return
-        self._line("")
-        self._line(
+        self.line("")
+        self.line(
             f"{counted(done, 'trial')} of {total}, {counted(len(report.tasks), 'task')}, "
             f"{counted(len(report.methods), 'method')}, seed {report.seed}"
         )
         if report.reason:
-            self._line(f"{report.status}: {report.reason}")
+            self.line(f"{report.status}: {report.reason}")
         if report.averages:
             self._rates(report)
             self._averages(report)
             self._costs(report)
-            for pair in report.comparisons if self._verbosity is Verbosity.VERBOSE else ():
-                self._line(f"  {told(pair)}")
-        for purpose, name in [*report.files.items(), ("report", path.name)]:
-            self._line(f"  {purpose}: {path.parent / name}")
+            for pair in report.comparisons if self.verbosity is Verbosity.VERBOSE else ():
+                self.line(f"  {told(pair)}")
+        self.files(path, report.files)
 
     def _rates(self, report: BenchReport) -> None:
         cells = {(row.method, row.task): row for row in report.rows}
@@ -91,7 +86,7 @@ class BenchSummary:
         tall.add_row("average", *(_percent(means[method.name].rate) for method in methods))
         self._table(tall)
         for number, method in enumerate(methods, 1):
-            self._line(f"  {number} {method.title}: {method.summary}")
+            self.line(f"  {number} {method.title}: {method.summary}")
 
     def _averages(self, report: BenchReport) -> None:
         titles = {method.name: method.title for method in report.methods}
@@ -130,29 +125,26 @@ class BenchSummary:
         if self._fits(table([*row[:-1], max(row[-1].split() or [""], key=len)] for row in rows)):
             self._table(table(rows))
             return
-        self._line(f"\n{heads[0]}")
+        self.line(f"\n{heads[0]}")
         for row in rows:
             told = [f"{head} {cell}" for head, cell in zip(heads[1:], row[1:], strict=True) if cell]
-            self._console.print(f"  {row[0]}: {', '.join(told)}", markup=False, highlight=False)
+            self.console.print(f"  {row[0]}: {', '.join(told)}", markup=False, highlight=False)
 
     def _fits(self, table: Table) -> bool:
-        if not self._console.is_terminal:
+        if not self.console.is_terminal:
             return True
-        options = self._console.options.update(max_width=PIPE_WIDTH)
-        return table.__rich_measure__(self._console, options).maximum <= self._console.width
+        options = self.console.options.update(max_width=PIPE_WIDTH)
+        return table.__rich_measure__(self.console, options).maximum <= self.console.width
 
     def _table(self, table: Table) -> None:
-        self._console.print()
-        width = self._console.width
-        if not self._console.is_terminal:
-            self._console.width = PIPE_WIDTH
+        self.console.print()
+        width = self.console.width
+        if not self.console.is_terminal:
+            self.console.width = PIPE_WIDTH
         try:
-            self._console.print(table)
+            self.console.print(table)
         finally:
-            self._console.width = width
-
-    def _line(self, text: str) -> None:
-        self._console.print(text, markup=False, soft_wrap=True)
+            self.console.width = width
 
 
 def told(pair: PairedModel) -> str:

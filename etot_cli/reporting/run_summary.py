@@ -9,7 +9,7 @@ from rich.text import Text
 from etot_cli.reporting.execute_report import CLASSES, ExecuteReport, HappenedModel, TrialModel
 from etot_cli.reporting.printer import Printer, widest
 from etot_cli.reporting.simulate_report import SimulateReport
-from etot_cli.reporting.style import Verbosity, counted
+from etot_cli.reporting.style import LOOKS_LIKE, Verbosity, counted
 
 
 def simulate_summary(out: Printer, report: SimulateReport, path: Path) -> None:
@@ -66,7 +66,7 @@ def execute_summary(out: Printer, report: ExecuteReport, path: Path) -> None:
 
 def _trial(out: Printer, trial: TrialModel) -> None:
     line = Text(f"{trial.number:>3} ", style="dim")
-    line.append_text(out.badge(_as_verdict(trial.status)))
+    line.append_text(out.badge(LOOKS_LIKE.get(trial.status, trial.status)))
     notes = [counted(len(trial.actions), "action")]
     if trial.replans:
         notes.append(counted(trial.replans, "replan"))
@@ -120,8 +120,3 @@ def _happened(out: Printer, left: list[HappenedModel], after_actions: int) -> No
     """Tells what somebody did up to then, each thing once."""
     while left and left[0].after_actions <= after_actions:
         out.say(f"somebody: {left.pop(0).text}", 2, 4)
-
-
-def _as_verdict(status: str) -> str:
-    """How a trial's status looks."""
-    return {"planned": "success", "lost": "failure"}.get(status, status)

@@ -45,6 +45,8 @@ LOOKS: dict[str, Look] = {
     "lost": Look("✗", "x", "bold red"),
     "error": Look("✗", "x", "bold red"),
 }
+LOOKS_LIKE = {"planned": "success", "lost": "failure"}
+"""Statuses of trials that look like another one."""
 
 
 def make_console(stream: IO[str]) -> Console:

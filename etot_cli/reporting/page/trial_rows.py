@@ -9,11 +9,10 @@ from etot_cli.reporting.evidence import moved_text
 from etot_cli.reporting.execute_report import LookModel, PlanMadeModel, TrialModel
 from etot_cli.reporting.page.pictures import Picture
 from etot_cli.reporting.page.topview import top_view
+from etot_cli.reporting.style import LOOKS_LIKE
 
 MAX_PICTURES = 200
 """Views from above on one page; of later trials the rows say it in words."""
-CHIPS = {"planned": "success", "lost": "failure"}
-"""Statuses of trials that look like another one."""
 
 
 def shown_trial(model: TrialModel, trial: Trial, pictures: dict[str, Picture]) -> dict[str, Any]:
@@ -25,7 +24,7 @@ def shown_trial(model: TrialModel, trial: Trial, pictures: dict[str, Picture]) -
         pictures: of the page; views are added to it.
     """
     keys = _draw(trial, pictures)
-    chip = CHIPS.get(model.status, model.status)
+    chip = LOOKS_LIKE.get(model.status, model.status)
     rows = _rows(model, keys)
     views = [row for row in rows if row.get("picture")]
     return {"model": model, "chip": chip, "rows": rows, "views": views}
