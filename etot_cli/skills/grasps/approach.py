@@ -67,9 +67,7 @@ def prepare_grasp(
         checker.set_fingers(opening)
         hits = [
             address
-            for address in checker.hand_hits(
-                grasp.tool, clearance=SURELY_MET, part=HandPart.ALL
-            )
+            for address in checker.hand_hits(grasp.tool, clearance=SURELY_MET, part=HandPart.ALL)
             if owner_of(address) not in allow
         ]
         met = met or hits

@@ -26,7 +26,7 @@ milliradians late must not get stuck on itself."""
 
 
 class HandPart(Enum):
-    """What of the hand is looked at: all, or the fingers, which are much the same from all sides."""
+    """What of the hand is looked at; its fingers are much the same from all sides."""
 
     ALL = "all"
     FINGERS = "fingers"
