@@ -306,15 +306,14 @@ def _condition(
             raise ReferenceProblem(phrase.text, why, 3)
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     check_describes(context, condition, subjects, places_of)
-    vessels = [theme for theme in themes if theme not in subjects]
     if not set(subjects) & set(themes):
         # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
         along: list[int | None] = []
         with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
-            along = [p.where for p in context.places.of(condition.destinations, subjects, vessels)]
+            along = [p.where for p in context.places.of(condition.destinations, subjects)]
         if not set(along) & set(themes):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
-    places = context.places.of(condition.destinations, subjects, prefer=vessels)
+    places = context.places.of(condition.destinations, subjects)
     for subject in subjects:
         places_of[subject] = places

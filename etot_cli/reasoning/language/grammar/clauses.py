@@ -65,13 +65,6 @@ WANTED = either(
     sequence(verbs.WANT, ALL_THINGS, verbs.DONE, DESTINATIONS, build=put_to),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(ALL_THINGS, verbs.MODAL, SOURCE, build=RemoveClause),
-    sequence(
-        sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=Things.taken_from),
-        "and",
-        verbs.DONE,
-        DESTINATIONS,
-        build=put_to,
-    ),
     sequence(verbs.WANT, ALL_THINGS, "[to be] (picked up|lifted [up])", build=PickClause),
 )
 AGAIN = either(
@@ -260,7 +253,6 @@ _GONE = either(
         either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
         build=MoveClause,
     ),
-    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
         "taken, removed, moved, cleared",
         ALL_THINGS,

@@ -273,6 +273,5 @@ _modifier = either(
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, build=excepting),
-    sequence("~comma but, ~comma, but", ONLY_THOSE),
 )
 MODIFIER.define(_modifier)

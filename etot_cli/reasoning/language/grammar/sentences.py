@@ -110,9 +110,6 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
 def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
     done = first
     for joint, clause in more:
-        last, again = done[-1].clause, clause[0].clause
-        if isinstance(last, PutClause) and last.turns.first and isinstance(again, AgainClause):
-            clause = (replace(clause[0], clause=replace(again, far_fetched=1)), *clause[1:])
         if joint == "until" and isinstance(done[-1].clause, MoveClause):
             # What is opened until it is open is opened; anything else would wait.
             waits = (item.clause for item in clause if isinstance(item.clause, EnsureClause))
@@ -154,7 +151,7 @@ def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
     return None if articled else EnsureClause((State(nps, word=word),))
 
 
-_PLACED = plain(either(VERBLESS, sequence(VERBLESS, OPTIONAL_COMMA, LEFT_OUT, build=excluding)))
+_PLACED = plain(VERBLESS)
 _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
 _NAMED = plain(sequence(THINGS, build=partial(ReorientClause, only_named=True)))

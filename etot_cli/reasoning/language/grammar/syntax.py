@@ -286,8 +286,6 @@ class AgainClause:
     trailing: bool = False
     destinations: tuple[Destination, ...] = ()
     """Where the same things go next ("…, then on the tray"); there are no ``things`` then."""
-    far_fetched: int = 0
-    """By how much the words rather go on with an order ("red first, then blue")."""
 
 
 class Avoid(StrEnum):

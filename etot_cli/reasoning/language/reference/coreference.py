@@ -66,9 +66,6 @@ def meant_by_it(
     """
     for clause in _clauses(discourse):
         acted_on, places, landmarks = _mentioned_in(discourse, clause, role, excluded)
-        if topmost and len(acted_on) > 1:
-            last = _put_last(discourse, clause, excluded)
-            acted_on = tuple(index for index in acted_on if index in last)
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
@@ -186,19 +183,6 @@ def _rivals(discourse: Discourse, place: int, theme: int, role: Role) -> bool:
     return all(discourse.scene.infos[thing.name].movable for thing in things)
 
 
-def _put_last(discourse: Discourse, clause: int, excluded: Sequence[int]) -> tuple[int, ...]:
-    """What went together to the latest place of a clause that says where several things go."""
-    last: list[int] = []
-    named: list[int] = []
-    for mention in discourse.mentions:
-        if mention.clause == clause and mention.referent not in excluded:
-            if mention.role is Role.THEME:
-                named.append(mention.referent)
-            elif mention.role is not Role.ANY:
-                last, named = named or last, []
-    return tuple(last)
-
-
 def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
     """Whether things stood on top of what has drawers or doors, and in none of these."""
     scene = discourse.scene
@@ -265,13 +249,6 @@ def _acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> 
             if mention.role in (Role.THEME, Role.PART) and _fits(discourse, mention.referent, role)
         )
     )
-
-
-def places_spoken_of(discourse: Discourse) -> frozenset[int]:
-    """What the latest clause named but for what it moved."""
-    last = [mention for mention in discourse.mentions if mention.clause == _clauses(discourse)[0]]
-    moved = {mention.referent for mention in last if mention.role is Role.THEME}
-    return frozenset({mention.referent for mention in last} - moved)
 
 
 def latest_place(

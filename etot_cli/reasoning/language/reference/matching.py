@@ -147,10 +147,6 @@ def match_words(
             parts = [*vocabulary.parts, *vocabulary.boards]
             if is_of_parts(found.entries[0], head, vocabulary):
                 found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
-        if found is not None and elliptic and _are_like(head, found.entries):
-            # "The blue one", after a box that is called so, is no block that is like a box.
-            named = any(e.grade(head) in (EXACT, HEAD) for e in vocabulary.objects)
-            found = None if named else found
         level = any(word in LEVELS for word in adjectives)
         if found is not None and (level or not _is_of_another(head, found.entries, vocabulary)):
             return found
@@ -303,11 +299,6 @@ def _match_in(
         loose=best == CONTENT,
         named=tuple(sifted.named),
     )
-
-
-def _are_like(noun: str, entries: Sequence[Entry]) -> bool:
-    """Whether objects are called by a noun for their kind alone."""
-    return all(is_object(entry) and entry.grade(noun) == GENERIC for entry in entries)
 
 
 def _is_of_another(noun: str, entries: Sequence[Entry], vocabulary: Vocabulary) -> bool:

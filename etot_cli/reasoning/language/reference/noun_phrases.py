@@ -278,9 +278,6 @@ class Resolver:
         (only, *more) = modifier.phrases
         if only.pronoun and not more and modifier.prep is not Prep.BETWEEN:
             meant = [list(things) for things in pronoun(only)]
-            if modifier.prep in (Prep.NEAREST, Prep.FARTHEST):
-                # Which one is nearest to "it" depends on which of several "it" is.
-                meant = [[thing] for things in meant for thing in things]
             return [[things] for things in meant]
         if modifier.prep is Prep.BETWEEN and not more:
             both = self._landmarks(pronoun, only)

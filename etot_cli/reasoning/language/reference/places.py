@@ -16,7 +16,6 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.coreference import (
     antecedents,
     latest_place,
-    places_spoken_of,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -76,13 +75,12 @@ class Places:
         self,
         destinations: Sequence[Destination],
         themes: Sequence[int],
-        prefer: Sequence[int] = (),
     ) -> tuple[Place, ...]:
-        """Alternative places. ``prefer``: referents that "inside" means before any other."""
+        """Alternative places."""
         places: dict[Place, None] = {}
         for destination in destinations:
             if destination.toward is Toward.HERE:
-                found = list(self._here(destination.word, themes, prefer))
+                found = list(self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE:
                 surface = self._surroundings.surface(destination.beside, themes)
                 if surface is None and not any(b.relation.landmarks for b in destination.beside):
@@ -286,7 +284,7 @@ class Places:
         near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
         return [replace(place, beside=near) for place in surfaces]
 
-    def _here(self, word: str, themes: Sequence[int], prefer: Sequence[int]) -> tuple[Place, ...]:
+    def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
         discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
@@ -305,12 +303,6 @@ class Places:
         if word == "on top" and put & set(discourse.things(*themes)):
             raise ReferenceProblem(word, "say on top of what", 2)
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
-        for index in prefer:
-            if any(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(index)):
-                return (Place(relation, index),)
-        if word == "there":  # nowhere else than where something was or is, so not in what moved
-            referents = range(len(discourse.referents))
-            themes = [*themes, *({*referents} - places_spoken_of(discourse))]
         place = latest_place(discourse, relation, themes, word)
         if relation is Relation.INSIDE or place.where is None:
             return (place,)

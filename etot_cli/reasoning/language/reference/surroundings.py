@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -97,8 +97,6 @@ class Surroundings:
         """
         resolved = self._phrases.meaning(phrase, Role.ANY)
         things = set(things_in(resolved.options))
-        if not all(can_be(thing, Role.SURFACE, self._scene) for thing in things):
-            raise ReferenceProblem(phrase.text, "it has no flat top with places on it", 2)
         anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
         if region.relation in anywhere or all(thing.name == DESK for thing in things):
             return
