@@ -29,6 +29,7 @@ GROUPING = either(
     phrase(manner.TOGETHER, Grouping.TOGETHER),
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
+BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
 CONDITION = sequence("with", NP_LIST, PREDICATE, build=state_of)
 EXTRA = sequence(
     OPTIONAL_COMMA,
@@ -43,7 +44,7 @@ EXTRA = sequence(
             build=lambda found: ("not", found),
         ),
         sequence(optional("but"), TURN),
-        phrase(manner.BY_COLOR, ("color", ())),
+        BY_COLOR,
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
         phrase("[but|though|and] not both [of them]", ("one", ())),

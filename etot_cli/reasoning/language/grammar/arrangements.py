@@ -111,28 +111,14 @@ TOWER = either(
         build=lambda top, below: TowerClause(Things((top, below)), upward=False),
     ),
     sequence(
-        verbs.STACK,
-        THINGS,
-        optional(f"{manner.UPON_EACH_OTHER}, up"),
+        either(
+            sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
+            sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
+        ),
         optional(_UPWARD, None),
-        _TOWER_ENDS,
-        build=_tower,
-    ),
-    sequence(
-        verbs.STACK,
-        THINGS,
-        optional(_UPWARD, None),
-        DESTINATIONS,
+        optional(DESTINATIONS, ()),
         _TOWER_ENDS,
         build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
-    ),
-    sequence(
-        verbs.PUT,
-        THINGS,
-        manner.UPON_EACH_OTHER,
-        optional(_UPWARD, None),
-        _TOWER_ENDS,
-        build=_tower,
     ),
     sequence(
         verbs.BUILD,

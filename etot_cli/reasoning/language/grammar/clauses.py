@@ -246,39 +246,29 @@ LED_CLAUSE = Rule(
 )
 
 
-_GONE = either(
-    sequence(ALL_THINGS, small_words.GONE, DESTINATIONS, build=put_to),
+_SO_BY_THEN = either(
+    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
+    sequence(ALL_THINGS, verbs.BE, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        either(phrase(small_words.OPENED, True), phrase(small_words.CLOSED, False)),
-        build=MoveClause,
+        f"{verbs.BE}, (has|have) been",
+        OPEN_OR_CLOSED,
+        build=lambda things, word: MoveClause(things, word == "open"),
     ),
+)
+"""What has been done or is so by then ("once the pear has been put into the bowl")."""
+_HAVING_DONE = either(
+    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
         "taken, removed, moved, cleared",
         ALL_THINGS,
         either(SOURCE, phrase("out, off, away", "")),
         build=lambda things, source: RemoveClause(things, source or None),
     ),
-    sequence(
-        either(phrase("opened", True), phrase("closed", False)),
-        THINGS,
-        build=lambda opens, things: MoveClause(things, opens),
-    ),
+    sequence(OPEN_OR_CLOSED, THINGS, build=lambda word, things: MoveClause(things, word == "open")),
 )
-"""What has been done by then ("once the pear has been put into the bowl")."""
-_SO_BY_THEN = either(
-    sequence(ALL_THINGS, verbs.BE, DESTINATIONS, build=put_to),
-    sequence(ALL_THINGS, verbs.BE, SOURCE, build=RemoveClause),
-    sequence(
-        ALL_THINGS,
-        verbs.BE,
-        OPEN_OR_CLOSED,
-        build=lambda things, word: MoveClause(things, word == "open"),
-    ),
-)
-"""What is so by then."""
 EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_GONE))),
+    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
     sequence("once, after, when, as soon as", plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

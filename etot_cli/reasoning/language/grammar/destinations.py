@@ -140,20 +140,14 @@ destination = Rule(
             build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
         ),
         sequence(
-            _ABREAST,
-            either(ONTO, _to, INTO),
-            build=lambda found, surface: replace(surface, beside=found),
-        ),
-        sequence(
             either(ONTO, _to, INTO),
             OPTIONAL_COMMA,
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
         ),
         sequence(
-            BESIDES,
-            COMMA,
-            either(ONTO, INTO),
+            either(_ABREAST, sequence(BESIDES, COMMA)),
+            either(ONTO, _to, INTO),
             build=lambda found, surface: replace(surface, beside=found),
         ),
     )

@@ -84,26 +84,15 @@ _HAVING = f"with, {nouns.CONTAINING}"
 
 
 def _contents_with(having: str, denied: bool) -> Parser:
-    return either(
-        sequence(
-            having,
-            noun_phrase,
-            # "Without" before a bare noun may stand before anything.
-            build=lambda np: (
-                None if denied and not np.determiner else Modifier(Prep.WITH, (np,), denied=denied)
-            ),
-        ),
-        sequence(
-            having,
-            noun_phrase,
-            _INSIDE_IT,
-            build=lambda np: Modifier(Prep.CONTAINING, (np,), denied=denied),
-        ),
-        sequence(
-            having,
-            noun_phrase,
-            _UPON_IT,
-            build=lambda np: Modifier(Prep.BEARING, (np,), denied=denied),
+    return sequence(
+        having,
+        noun_phrase,
+        optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
+        # "Without" before a bare noun may stand before anything.
+        build=lambda np, prep: (
+            None
+            if denied and prep is Prep.WITH and not np.determiner
+            else Modifier(prep, (np,), denied=denied)
         ),
     )
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
+    BY_COLOR,
     CONDITION,
     EXTRAS,
     GROUPING,
@@ -97,31 +98,17 @@ PUT_GROUP = sequence(
     DESTINATIONS,
     build=lambda things, upright, where: PutGroup(things, where, upright),
 )
-_GROUPED = sequence(
+_SAID_AHEAD = sequence(
     verbs.PUT,
     THINGS,
-    GROUPING,
+    either(
+        sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
+        sequence(COMMA, either(TURN, CONDITION), COMMA),
+    ),
     DESTINATIONS,
-    build=lambda things, grouping, where: replace(put_to(things, where), grouping=grouping),
+    build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
 )
-_IN_TURNS = sequence(
-    verbs.PUT,
-    THINGS,
-    COMMA,
-    TURN,
-    COMMA,
-    DESTINATIONS,
-    build=lambda things, turn, where: put_of(put_to(things, where).groups, (turn,)),
-)
-_WITH_WHAT_IT_HOLDS = sequence(
-    verbs.PUT,
-    THINGS,
-    COMMA,
-    CONDITION,
-    COMMA,
-    DESTINATIONS,
-    build=lambda things, held, where: replace(put_to(things, where), conditions=(held,)),
-)
+"""What may follow the place stands before it."""
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 
 
@@ -224,11 +211,9 @@ def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutCla
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
-    _GROUPED,
+    _SAID_AHEAD,
     _FRONTED,
     _ALONG_WITH,
-    _IN_TURNS,
-    _WITH_WHAT_IT_HOLDS,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
@@ -237,14 +222,6 @@ PUT = either(
     ),
     sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
-    sequence(
-        verbs.PUT,
-        THINGS,
-        manner.BY_COLOR,
-        OPTIONAL_COMMA,
-        DESTINATIONS,
-        build=lambda things, where: replace(put_to(things, where), by_color=True),
-    ),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(
         verbs.STACK, PUT_GROUPS, build=lambda groups: PutClause(groups) if len(groups) > 1 else None

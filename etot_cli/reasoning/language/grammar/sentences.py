@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from operator import add
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.clauses import (
@@ -29,6 +30,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     sequence,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
@@ -171,18 +173,11 @@ def _set_down(topic: Reading, rest: Reading) -> Reading | None:
 
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
-SENTENCE = either(
-    CHAIN,
+_WITH_MORE_BEFORE_IT = either(
     sequence(
-        UNORDERED,
-        optional(small_words.LOOK_FOR),
-        _NAMED,
-        either(COMMA, "and, and then"),
-        CHAIN,
-        build=_about,
+        optional(small_words.LOOK_FOR), _NAMED, either(COMMA, "and, and then"), CHAIN, build=_about
     ),
     sequence(
-        UNORDERED,
         verbs.FETCH,
         _NAMED,
         "over [here], here",
@@ -190,45 +185,28 @@ SENTENCE = either(
         CHAIN,
         build=_set_down,
     ),
+    sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
+    plain(IF_NOT_SO),
+    sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
+    sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
+    sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
+    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, _then), build=add),
     sequence(
-        UNORDERED,
-        "put[ting], stow[ing]",
-        _NAMED,
-        "away",
-        COMMA,
-        _PLACED,
-        build=lambda topic, placed: (*topic, *placed),
+        small_words.BEFORE,
+        LED_CLAUSE,
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=lambda later, rest: rest + _then(later),
     ),
-    sequence(UNORDERED, plain(IF_NOT_SO)),
-    sequence(UNORDERED, LEFT_OUT, COMMA, CHAIN, build=_without),
-    sequence(UNORDERED, _NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
+)
+SENTENCE = either(
+    CHAIN,
+    sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
         EMPTY_WORDS,
         plain(sequence(THINGS, build=AgainClause), Order.THEN),
-    ),
-    sequence(
-        UNORDERED,
-        plain(WITHOUT),
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=lambda avoided, rest: (*avoided, *rest),
-    ),
-    sequence(
-        UNORDERED,
-        EARLIER,
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=lambda earlier, rest: (*earlier, *_then(rest)),
-    ),
-    sequence(
-        UNORDERED,
-        small_words.BEFORE,
-        LED_CLAUSE,
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=lambda later, rest: (*rest, *_then(later)),
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
@@ -247,7 +225,7 @@ WHOLE = either(
         optional(sequence(_PLACED, LIST), ()),
         _LEFT_SO,
         _END,
-        build=lambda put, left: (*put, *left),
+        build=add,
     ),
 )
 

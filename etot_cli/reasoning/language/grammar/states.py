@@ -199,27 +199,18 @@ ENSURE = either(
         )
     ),
     sequence(NP_LIST, phrase("each, both, all"), verbs.MODAL, PREDICATE, build=_all_should),
-    sequence(
-        NP_LIST,
-        verbs.MODAL,
-        PREDICATE,
-        # "…, the ball in the cup": the verb is left out.
-        some(sequence(LIST, NP_LIST, PREDICATE, build=state_of), most=4),
-        build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
-    ),
-    sequence(
-        verbs.CAN,
-        NP_LIST,
-        verbs.BE_PUT,
-        PREDICATE,
-        build=lambda nps, predicate: _ensured(state_of(nps, predicate)),
-    ),
-    sequence(
-        verbs.WANT,
-        NP_LIST,
-        _TO_BE,
-        PREDICATE,
-        some(sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of), most=4),
-        build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
+    *(
+        sequence(
+            *said,
+            PREDICATE,
+            # "…, the ball in the cup": the verb is left out.
+            some(sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of), most=4),
+            build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
+        )
+        for said in (
+            (NP_LIST, verbs.MODAL),
+            (verbs.WANT, NP_LIST, _TO_BE),
+            (verbs.CAN, NP_LIST, verbs.BE_PUT),
+        )
     ),
 )
