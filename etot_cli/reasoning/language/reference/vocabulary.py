@@ -80,7 +80,11 @@ class Vocabulary:
                 before, rest = inner.words, replace(phrase, modifiers=more)
         # "The levels of shelf B" are told by what has them.
         whose = phrase.owner is not None
-        everything = (*self.objects, *self.parts, *self.boards)
+        everything = (
+            *self.objects,
+            *(self.parts if whose else ()),
+            *(self.boards if whose else ()),
+        )
         told = any(
             entry.grade(words[-1]) is not None
             and all(matches_any(word, (*entry.own, *entry.owner)) for word in before)
