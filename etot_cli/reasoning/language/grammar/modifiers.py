@@ -185,23 +185,21 @@ def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | 
     return Modifier(Prep.EXCEPT, left_out, denied=only) if said == {only} else None
 
 
-def _only_ahead(given: Input, at: int) -> list[Result]:
-    """Nothing, where "only" follows."""
-    return [(at, NOTHING)] if nouns.is_only(" ".join(given.words[at : at + 1])) else []
-
-
+_only_ahead = Parser(lambda given, at: [(at, NOTHING)] if nouns.is_only(given.ahead[at]) else [])
 ONLY_THOSE = sequence(_only_ahead, exceptions, build=partial(excepting, only=True))
 
 
-def quality_alone(given: Input, at: int) -> list[Result]:
-    """Qualities, but no "closest" that says "to" what."""
-    words = (*given.words, "")
+def _without_place(given: Input, at: int) -> list[Result]:
+    words = given.ahead
     return [
         (end, value)
-        for end, value in QUALITY(given, at)
+        for end, value in QUALITY.find(given, at)
         if not (SIDES.get(words[end - 1]) in ("near", "far") and words[end] in ("to", "from"))
     ]
 
+
+quality_alone = Parser(_without_place, lambda: QUALITY.first)
+"""Qualities, but no "closest" that says "to" what."""
 
 _described = either(PLAIN_MODIFIER, _contents, quality_alone)
 MODIFIER = Rule()

@@ -2,22 +2,24 @@
 
 A parser takes the input and a position and returns all (end, value) pairs. No word is ever skipped:
 a reading covers its words from the first to the last, each by a terminal of the grammar. Work is
-bounded; text with too many readings is refused, never cut down to some of them.
+bounded; text with too many readings is refused, never cut down to some of them. Most parsers know
+the words that their readings may begin with, and are not asked where another one stands.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 from etot_cli.reasoning.language.words.patterns import spellings
 
 Result = tuple[int, Any]
-Parser = Callable[["Input", int], Sequence[Result]]
-Part = Parser | str
-"""What larger parsers are put together of; a text is patterns of words that have no value."""
+Find = Callable[["Input", int], Sequence[Result]]
+First = frozenset[str] | None
+"""Words that readings may begin with, NO_WORD for those of none; None where a test tells them."""
+NO_WORD = ""
 MAX_WORK = 4000
 """Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
 need some hundreds."""
@@ -43,26 +45,67 @@ class Input:
     _memo: dict[tuple[int, int], Sequence[Result]] = field(default_factory=dict)
     _work: int = 0
 
-    def recall(self, rule: Rule, at: int) -> Sequence[Result]:
-        """A rule's results at a position, worked out once."""
-        key = (id(rule), at)
+    @cached_property
+    def ahead(self) -> tuple[str, ...]:
+        """The word at every position, NO_WORD at the end."""
+        return (*self.words, NO_WORD)
+
+    def recall(self, find: Find, at: int) -> Sequence[Result]:
+        """What is found at a position, worked out once."""
+        key = (id(find), at)
         if key not in self._memo:
-            self._memo[key] = ()  # no rule of the grammar begins with itself
-            self._memo[key] = tuple(dict.fromkeys(rule.parser(self, at)))
-            self._work += len(self._memo[key])
-            if self._work > MAX_WORK:
-                raise TooManyReadings
+            self._memo[key] = ()  # nothing of the grammar begins with itself
+            self._memo[key] = find(self, at)
         return self._memo[key]
+
+    def counted(self, found: Sequence[Result]) -> Sequence[Result]:
+        """Each result once; all of them count as work."""
+        once = tuple(dict.fromkeys(found))
+        self._work += len(once)
+        if self._work > MAX_WORK:
+            raise TooManyReadings
+        return once
 
     def reach(self, end: int) -> None:
         """Notes that the words up to ``end`` could be followed."""
         self.reached = max(self.reached, end)
 
 
-class Rule:
+def _remembered(find: Find) -> Find:
+    return lambda given, at: given.recall(find, at)
+
+
+class Parser:
+    """Finds all readings that begin at a position.
+
+    Args:
+        find: finds them.
+        first: tells what they may begin with; asked once all rules of the grammar are defined.
+    """
+
+    def __init__(self, find: Find, first: Callable[[], First] = lambda: None) -> None:
+        self.find = find
+        self._first = first
+
+    @cached_property
+    def first(self) -> First:
+        """What its readings may begin with."""
+        return self._first()
+
+    def may_begin(self, word: str) -> bool:
+        """Whether readings may begin where a word stands."""
+        return self.first is None or word in self.first or NO_WORD in self.first
+
+
+Part = Parser | str
+"""What larger parsers are put together of; a text is patterns of words that have no value."""
+
+
+class Rule(Parser):
     """A rule of the grammar, which others may use before it is defined."""
 
     def __init__(self, parser: Parser | None = None) -> None:
+        super().__init__(_remembered(self._results), lambda: self.parser.first)
         self._parser = parser
 
     def define(self, parser: Parser) -> None:
@@ -75,9 +118,8 @@ class Rule:
         assert self._parser is not None  # every rule of the grammar is defined
         return self._parser
 
-    def __call__(self, given: Input, at: int) -> Sequence[Result]:
-        """The rule as a parser."""
-        return given.recall(self, at)
+    def _results(self, given: Input, at: int) -> Sequence[Result]:
+        return given.counted(self.parser.find(given, at))
 
 
 class _Nothing:
@@ -131,7 +173,7 @@ def one_of(table: Mapping[Any, str]) -> Parser:
             given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
 
-    return parse
+    return Parser(parse, lambda: frozenset(root.following))
 
 
 class _Node:
@@ -153,7 +195,7 @@ def word(test: Callable[[Input, str], bool]) -> Parser:
             return [(at + 1, given.words[at])]
         return []
 
-    return parse
+    return Parser(parse)
 
 
 def _only(*values: Any) -> Any:
@@ -164,51 +206,90 @@ def _only(*values: Any) -> Any:
 def sequence(*parts: Part, build: Callable[..., Any] = _only) -> Parser:
     """One after the other; ``build`` gets the values of those that have one."""
     parsers = tuple(map(_parser, parts))
+    finds = tuple(parser.find for parser in parsers)
 
     def parse(given: Input, at: int) -> list[Result]:
         partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
-        for parser in parsers:
+        for find in finds:
             partial = [
                 (end, values if value is NOTHING else (*values, value))
                 for start, values in partial
-                for end, value in parser(given, start)
+                for end, value in find(given, start)
             ]
             if not partial:
                 return []
         built = ((end, build(*values)) for end, values in partial)
         return [(end, value) for end, value in built if value is not None]
 
-    return parse
+    def first() -> First:
+        words = {NO_WORD}
+        for parser in parsers:
+            if parser.first is None:
+                return None
+            words = words - {NO_WORD} | parser.first
+            if NO_WORD not in words:
+                break
+        return frozenset(words)
+
+    return Parser(parse, first)
 
 
 def either(*parts: Part) -> Parser:
     """All that any of them finds."""
     parsers = tuple(map(_parser, parts))
-    return lambda given, at: [item for parser in parsers for item in parser(given, at)]
+
+    def first() -> First:
+        words = [parser.first for parser in parsers]
+        return None if None in words else frozenset().union(*filter(None, words))
+
+    @cache
+    def asked() -> tuple[dict[str, list[Find]], list[Find]]:
+        """Who may begin with each word that some begin with, and who with any other."""
+        words = {word for parser in parsers for word in parser.first or ()}
+        table = {word: [p.find for p in parsers if p.may_begin(word)] for word in words}
+        return table, [p.find for p in parsers if p.may_begin(NO_WORD)]
+
+    def parse(given: Input, at: int) -> list[Result]:
+        table, others = asked()
+        finds = table.get(given.ahead[at], others)
+        return [item for find in finds for item in find(given, at)]
+
+    return Parser(_remembered(parse) if len(parts) > 2 else parse, first)  # two are asked as soon
 
 
-def at_end(given: Input, at: int) -> list[Result]:
-    """Nothing, where no words are left."""
-    return [(at, NOTHING)] if at == len(given.words) else []
+at_end = Parser(lambda given, at: [(at, NOTHING)] if at == len(given.words) else [])
+"""Finds nothing, where no words are left."""
 
 
 def optional(part: Part, default: Any = NOTHING) -> Parser:
     """What a parser finds, or nothing at all."""
     parser = _parser(part)
-    return lambda given, at: [*parser(given, at), (at, default)]
+    find = parser.find
+
+    def parse(given: Input, at: int) -> list[Result]:
+        found = find(given, at) if parser.may_begin(given.ahead[at]) else ()
+        return [*found, (at, default)]
+
+    return Parser(parse, lambda: None if parser.first is None else parser.first | _NONE)
+
+
+_NONE = frozenset({NO_WORD})
 
 
 def some(parser: Parser, least: int = 0, most: int = 12) -> Parser:
     """So many in a row, of every possible length; the value is a tuple."""
+    find = parser.find
 
     def parse(given: Input, at: int) -> list[Result]:
         found: list[Result] = [(at, ())] if least == 0 else []
+        if not parser.may_begin(given.ahead[at]):
+            return found
         partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
         for count in range(1, most + 1):
             partial = [
                 (end, values if value is NOTHING else (*values, value))
                 for start, values in partial
-                for end, value in parser(given, start)
+                for end, value in find(given, start)
                 if end > start
             ]
             if not partial:
@@ -217,7 +298,10 @@ def some(parser: Parser, least: int = 0, most: int = 12) -> Parser:
                 found += partial
         return found
 
-    return parse
+    def first() -> First:
+        return parser.first if least or parser.first is None else parser.first | _NONE
+
+    return Parser(parse, first)
 
 
 def separated(parser: Parser, separator: Part, most: int = 12) -> Parser:
@@ -226,34 +310,48 @@ def separated(parser: Parser, separator: Part, most: int = 12) -> Parser:
     return sequence(parser, rest, build=lambda first, more: (first, *more))
 
 
+def _alike(
+    parser: Parser, changed: Callable[[Input, int, Sequence[Result]], list[Result]]
+) -> Parser:
+    """What a parser finds, changed."""
+    find = parser.find
+
+    def parse(given: Input, at: int) -> list[Result]:
+        found = find(given, at)
+        return changed(given, at, found) if found else []
+
+    return Parser(parse, lambda: parser.first)
+
+
 def silent(parser: Parser) -> Parser:
     """Without its value."""
-    return lambda given, at: [(end, NOTHING) for end, _ in parser(given, at)]
+    return valued(parser, lambda _: NOTHING)
 
 
 def valued(parser: Parser, build: Callable[[Any], Any]) -> Parser:
     """With another value."""
-    return lambda given, at: [(end, build(value)) for end, value in parser(given, at)]
+    return _alike(parser, lambda _, __, found: [(end, build(value)) for end, value in found])
 
 
 def variants(parser: Parser, build: Callable[[Any], Sequence[Any]]) -> Parser:
     """With several values in place of each."""
-    return lambda given, at: [
-        (end, item) for end, value in parser(given, at) for item in build(value)
-    ]
+    return _alike(
+        parser, lambda _, __, found: [(end, item) for end, value in found for item in build(value)]
+    )
 
 
 def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     """With a value that knows the words that it covers."""
-    return lambda given, at: [
-        (
-            end,
-            build(
-                " ".join(given.words[at:end]).replace(" ~comma", ",").replace(" 's", "'s"), value
-            ),
-        )
-        for end, value in parser(given, at)
-    ]
+
+    def said(words: Sequence[str]) -> str:
+        return " ".join(words).replace(" ~comma", ",").replace(" 's", "'s")
+
+    return _alike(
+        parser,
+        lambda given, at, found: [
+            (end, build(said(given.words[at:end]), value)) for end, value in found
+        ],
+    )
 
 
 def quiet(parser: Parser) -> Parser:
@@ -261,19 +359,20 @@ def quiet(parser: Parser) -> Parser:
 
     def parse(given: Input, at: int) -> Sequence[Result]:
         before = given.reached
-        found = parser(given, at)
+        found = parser.find(given, at)
         if not found:
             given.reached = before
         return found
 
-    return parse
+    return Parser(parse, lambda: parser.first)
 
 
 def located(parser: Parser, build: Callable[[int, Any], Any]) -> Parser:
     """With a value that knows where it begins."""
-    return lambda given, at: [(end, build(at, value)) for end, value in parser(given, at)]
+    return _alike(parser, lambda _, at, found: [(end, build(at, value)) for end, value in found])
 
 
 def complete(parser: Parser, given: Input) -> list[Any]:
     """The values of all readings of the whole input."""
-    return list(dict.fromkeys(value for end, value in parser(given, 0) if end == len(given.words)))
+    found = parser.find(given, 0)
+    return list(dict.fromkeys(value for end, value in found if end == len(given.words)))
