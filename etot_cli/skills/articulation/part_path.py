@@ -20,6 +20,11 @@ from etot_cli.world.snapshot import copy_configuration
 
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
+LOOKS = (1.0, 0.5)
+"""Where from one pose of a drawer's path to the next it is looked at what is met, as shares, the end
+first: closer by than a finger and the bar of the next drawer's handle are thick. Between those of a
+door's path the joints cut its arc short, and the hand would seem to be in the door.
+"""
 BEND = 0.15
 """Largest joint change of a gripping arm from one pose of the path to the next [rad]. In between
 joints are interpolated: with more the hand strays by millimetres from the part that it grips."""
@@ -137,6 +142,15 @@ class PartTravel:
         low, high = sorted((self.part.lower, self.part.upper))
         self.belief.checker.set_joint(self.part.joint, min(max(value, low), high))
 
+    def hits(self, contact: Contact, joints: Vector, value: float) -> list[str]:
+        """What the arm comes too close to at ``joints`` (n,) while it works on the part."""
+        self.place(value)
+        return self.belief.checker.hits(
+            joints,
+            clearance=CONTACT_CLEARANCE,
+            worked=(self.part.joint, contact.overlap),
+        )
+
     def passage(self) -> Passage:
         """A passage in which only the part's own furniture cannot be thought away."""
         return Passage(self.belief.world.entries, {self.owner})
@@ -247,7 +261,7 @@ def follow(travel: PartTravel, contact: Contact, start: Vector, passage: Passage
     joints, lean, value = start, contact.lean, travel.value
     while abs(end - value) > 1e-9:
         ahead = end if abs(end - value) <= abs(step) * 1.001 else value + step
-        reached = _next(travel, contact, ahead, lean, joints, passage)
+        reached = _next(travel, contact, value, ahead, lean, joints, passage)
         if reached is None:
             step /= 2
             if abs(step) < abs(finest):
@@ -266,15 +280,19 @@ def follow(travel: PartTravel, contact: Contact, start: Vector, passage: Passage
 def _next(
     travel: PartTravel,
     contact: Contact,
+    begun: float,
     value: float,
     lean: float,
     joints: Vector,
     passage: Passage,
 ) -> tuple[Vector, float] | None:
-    """Joint values with the part at ``value``, and the hand's lean; free ones are preferred."""
+    """Joint values with the part moved from ``begun``, where the arm is at ``joints``, to ``value``,
+    and the hand's lean; free ones are preferred.
+    """
     belief = travel.belief
     pose = travel.at(value)
-    travel.place(value)
+    looks = LOOKS if travel.part.info.joint_type == "slide" else LOOKS[:1]
+    between = [(share, begun + (value - begun) * share) for share in looks]
     second: tuple[Vector, float, Passage] | None = None
     largest = BEND if contact.grip else JUMP
     for tool, leaning in contact.moving(pose, lean):
@@ -282,10 +300,10 @@ def _next(
         if not result.reached or np.abs(result.joints - joints).max() > largest:
             continue
         tried = passage.copy()
-        hits = belief.checker.hits(
-            result.joints, clearance=CONTACT_CLEARANCE, worked=(travel.owner, contact.overlap)
-        )
-        if not tried.admits(hits):
+        if not all(
+            tried.admits(travel.hits(contact, joints + (result.joints - joints) * share, at))
+            for share, at in between
+        ):
             continue
         if tried.others == passage.others:
             return result.joints, leaning

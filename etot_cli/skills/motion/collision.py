@@ -65,6 +65,7 @@ class CollisionChecker(FrozenScene):
         self._hands: dict[bytes, tuple[Vector, Vector]] = {}
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
+        self._part_geoms: dict[str, NDArray[np.bool_]] = {}
 
     def _select_pairs(self, carried: int | None, within: float) -> None:
         """Makes MuJoCo look only at pairs with the robot or the carried object (its number) in
@@ -118,8 +119,9 @@ class CollisionChecker(FrozenScene):
             allow: objects that the gripper (not the arm) may touch.
             allow_attached: addresses that the attached object may touch.
             hand_only: look at gripper and attached object alone.
-            worked: an object that the fingers work on, and the distance that they keep from it
-                [m] (negative: it is pressed on).
+            worked: joint of the part that the fingers work on, and the distance that they keep
+                from it and what it belongs to, other parts left out [m] (negative: it is pressed
+                on).
 
         Returns:
             Addresses as in ``World.geom_address``; ``robot`` for a self-collision. Empty: free.
@@ -220,9 +222,23 @@ class CollisionChecker(FrozenScene):
         if worked is None:
             return clearance
         required = np.full(len(pairs), clearance)
-        touched = _either(self._owner[pairs] == self._object_names.index(worked[0]))
+        touched = _either(self._worked_on(worked[0])[pairs])
         required[touched & _either(self._finger[pairs])] = worked[1]
         return required
+
+    def _moved_by(self, joint: str) -> NDArray[np.bool_]:
+        """Which geoms a part's joint moves."""
+        model = self._model
+        welded = model.body_weldid[model.geom_bodyid]
+        return np.asarray(welded == model.body_weldid[model.jnt_bodyid[model.joint(joint).id]])
+
+    def _worked_on(self, joint: str) -> NDArray[np.bool_]:
+        """Which geoms are a part's, or of what it belongs to and no other part's."""
+        if joint not in self._part_geoms:
+            own, world = self._moved_by(joint), self.world
+            owner = world.geom_object[int(own.argmax())]
+            self._part_geoms[joint] = own | [item == owner for item in world.geom_address]
+        return self._part_geoms[joint]
 
     def hand_hits(self, tool: Pose, *, clearance: float, part: HandPart) -> list[str]:
         """Addresses of what the hand alone would come too close to, wherever the arm might be.
@@ -248,8 +264,7 @@ class CollisionChecker(FrozenScene):
         that it belongs to and what rides in it left out.
         """
         model, data = self._model, self._data
-        welded = model.body_weldid[model.geom_bodyid]
-        own = welded == model.body_weldid[model.jnt_bodyid[model.joint(joint).id]]
+        own = self._moved_by(joint)
         model.geom_contype[:], model.geom_conaffinity[:] = own & self._solid, self._solid
         model.body_contype[:] = 0
         np.bitwise_or.at(model.body_contype, model.geom_bodyid, model.geom_contype)

@@ -26,7 +26,7 @@ def ready_pose(world: World, data: mujoco.MjData) -> Vector:
     arm, checker = Arm(world.robot.spec), CollisionChecker(world)
     checker.freeze(data)
     home = arm.forward(arm.home)
-    joints = arm.home
+    joints, opened = arm.home, world.robot.opening(data)
     for rise in (0.0, *RISES):
         if rise:
             pose = Pose(home.position + np.array([0.0, 0.0, rise]), home.rotation)
@@ -34,9 +34,15 @@ def ready_pose(world: World, data: mujoco.MjData) -> Vector:
             if not result.reached:
                 break
             joints = result.joints
-        if not checker.hits(joints, clearance=WAITING_CLEARANCE):
+        # With the fingers astride of something the hand is free only until they close.
+        if not any(_meets(checker, joints, opening) for opening in (opened, 0.0)):
             return joints
     return arm.home
+
+
+def _meets(checker: CollisionChecker, joints: Vector, opening: float) -> bool:
+    checker.set_fingers(opening)
+    return bool(checker.hits(joints, clearance=WAITING_CLEARANCE))
 
 
 def make_ready(world: World, data: mujoco.MjData) -> None:
