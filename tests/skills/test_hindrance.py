@@ -77,6 +77,15 @@ def test_hand_alone_meets_what_the_arm_with_it_meets() -> None:
     assert seen > 20
 
 
+def test_arm_does_not_wait_astride_of_anything() -> None:
+    run = episode(wall=dict(BOX, at=[0.268, 0.0], size=[0.30, 0.02, 0.22]))
+    belief = run.simulated.believe(run.snapshot)
+    belief.checker.freeze(belief.data)
+    for opening in (0.0, belief.opening):
+        belief.checker.set_fingers(opening)
+        assert not belief.checker.hits(belief.joints)
+
+
 def test_arm_waits_above_what_stands_at_its_home() -> None:
     tall = UNIT_CLOSED | {"at": [0.34, 0.09], "yaw_deg": -97, "size": [0.24, 0.2, 0.2]}
     for things, free in (({"unit": tall}, False), ({"ball": BALL}, True)):

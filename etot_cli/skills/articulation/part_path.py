@@ -21,10 +21,9 @@ from etot_cli.world.snapshot import copy_configuration
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
 LOOKS = (1.0, 0.5)
-"""Where from one pose of a drawer's path to the next it is looked at what is met, as shares, the end
-first: closer by than a finger and the bar of the next drawer's handle are thick. Between those of a
-door's path the joints cut its arc short, and the hand would seem to be in the door.
-"""
+"""Where from one pose of a drawer's path to the next it is looked at what is met, as shares, the
+end first: closer by than a finger and the bar of the next drawer's handle are thick. Between those
+of a door's path the joints cut its arc short, and the hand would seem to be in the door."""
 BEND = 0.15
 """Largest joint change of a gripping arm from one pose of the path to the next [rad]. In between
 joints are interpolated: with more the hand strays by millimetres from the part that it grips."""
@@ -286,8 +285,8 @@ def _next(
     joints: Vector,
     passage: Passage,
 ) -> tuple[Vector, float] | None:
-    """Joint values with the part moved from ``begun``, where the arm is at ``joints``, to ``value``,
-    and the hand's lean; free ones are preferred.
+    """Joint values with the part at ``value``, and the hand's lean; free ones are preferred. It comes
+    from ``begun``, where the arm is at ``joints``.
     """
     belief = travel.belief
     pose = travel.at(value)
