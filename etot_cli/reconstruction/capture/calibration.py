@@ -28,6 +28,8 @@ MAX_TILT = 25.0
 """A desk that leans more means a wrong pose, not an inexact one [deg]."""
 CLEAN = 0.0002
 """A desk plane with a smaller residual is a renderer's [m]; a sensor's is three times that."""
+COARSE = 0.0015
+"""With a larger residual of the desk plane colour is believed against depth [m]."""
 TILT_NOTED = 0.3
 """Smaller tilts are corrected silently [deg]."""
 INLIER = 0.006
@@ -77,6 +79,11 @@ class Calibrated:
     def exact(self) -> bool:
         """Whether depth comes from a renderer rather than from a sensor."""
         return self.noise <= CLEAN and self.shift == (0, 0)
+
+    @property
+    def coarse(self) -> bool:
+        """Whether colour is believed against depth."""
+        return self.noise > COARSE
 
 
 def calibrate(

@@ -19,7 +19,7 @@ from etot_cli.reconstruction.capture.view import Array, Mask
 
 FRONT_DEG = 70.0
 """The wall is looked at so far to both sides of the direction to the camera."""
-COLUMNS = 71
+COLUMNS = round(FRONT_DEG) + 1
 """One for every two degrees."""
 STEP = 0.00025
 """Heights of the unrolled wall are so far apart [m]."""

@@ -34,7 +34,8 @@ def first_sigma(seen: Calibrated) -> float:
     """How far depth is trusted before it has been compared with silhouettes [m]."""
     if seen.exact:
         return FIRST_DEPTH / 4
-    return float(np.clip(FIRST_DEPTH / 2 + 2 * (seen.noise - 0.0007), 0.003, 2 * FIRST_DEPTH))
+    least = FIRST_DEPTH / 2
+    return float(np.clip(least + 2 * (seen.noise - LEAST_DEPTH), least, 2 * FIRST_DEPTH))
 
 
 def least_sigma(seen: Calibrated) -> float:

@@ -9,15 +9,16 @@ import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import View
-from etot_cli.reconstruction.fit.observation import Observation
+from etot_cli.reconstruction.fit.observation import LOST, Observation
 from etot_cli.reconstruction.fit.pose import Fit
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
 from etot_cli.reconstruction.shapes.base import convex_distance, rotate
 from etot_cli.reconstruction.shapes.furniture import OpenUnit
 from etot_cli.reconstruction.shapes.upright import Cup
 
-NEIGHBOUR = 9
-"""Masks closer than this may belong to things that touch [px]."""
+NEIGHBOUR = LOST
+"""Masks closer than this may belong to things that touch: an edge between them costs each as many
+readings [px]."""
 TOUCHES = 0.02
 """Something may stand on a surface up to this far beyond its edge [m]."""
 CLEARANCE = 0.004

@@ -18,8 +18,6 @@ INNER = 4
 """Pixels this far inside a mask are the object's for sure."""
 OUTER = 14
 """Pixels this far outside are not."""
-EXACT = 0.0015
-"""With a smaller residual of the desk plane depth is believed against colour [m]."""
 SAMPLES = 400
 """So many pixels show the colours of an object."""
 MARGIN = 40
@@ -48,7 +46,7 @@ def refine_masks(
     desk = np.median(color[seen.desk][:, :2], axis=0)
     small_first = sorted(range(len(masks)), key=lambda i: int(masks[i].sum()))
     result, settled = list(masks), [False] * len(masks)
-    readings = sure_readings(seen) if seen.noise < EXACT else None
+    readings = None if seen.coarse else sure_readings(seen)
     # So coarse a sensor smears things over the desk beside them: colour says what is desk.
     smeared = like_desk(seen, color) if readings is None else np.zeros_like(shade)
     for _ in range(REFINEMENTS):
