@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from etot_cli.benchmark.statistics.paired import paired
-from etot_cli.errors import EtotError, SpecError
+from etot_cli.errors import EtotError
 from etot_cli.reporting.bench_report import BenchReport, CompareReport, paired_models
 from etot_cli.reporting.bench_table import significantly_worse
 from etot_cli.reporting.provenance import versions
-from etot_cli.specs.problems import first_fault
-from etot_cli.specs.reading import read_utf8
+from etot_cli.specs.problems import read_json
 
 MAX_REPORT_BYTES = 256 * 1024 * 1024
 """A report of ten thousand trials is a tenth of it."""
@@ -67,13 +64,6 @@ def load_report(path: Path) -> BenchReport:
         SpecError: it is none.
     """
     file = path / "report.json" if path.is_dir() else path
-    text = read_utf8(file, MAX_REPORT_BYTES, "a report of etot bench")
-    try:
-        return BenchReport.model_validate_json(text)
-    except ValidationError as error:
-        fault = first_fault(error)
-        raise SpecError(
-            f"is no report of etot bench: {fault.text}; expected schema etot.bench/1",
-            file=str(file),
-            path=fault.path,
-        ) from None
+    return read_json(
+        BenchReport, file, MAX_REPORT_BYTES, "report of etot bench", "schema etot.bench/1"
+    )

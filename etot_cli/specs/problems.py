@@ -6,6 +6,7 @@ import difflib
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeVar, get_args
 
 from annotated_types import Ge, Gt, Le
@@ -13,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 
 from etot_cli.errors import SpecError
 from etot_cli.specs.document import DataPath, Node, path_text
+from etot_cli.specs.reading import printable, read_utf8
 from etot_cli.specs.shape import (
     KEY,
     LOADER_KEYS,
@@ -59,6 +61,24 @@ def first_fault(error: ValidationError) -> Fault:
     """The first finding, in pydantic's words: never what was found, which may be a secret."""
     first = error.errors(include_url=False, include_input=False)[0]
     return Fault(".".join(str(step) for step in first["loc"]), first["msg"])
+
+
+def read_json(model: type[Model], path: Path, limit: int, name: str, expected: str) -> Model:
+    """What a program wrote as JSON, ``limit`` bytes at most; ``name``: what it is called.
+
+    Raises:
+        SpecError: it cannot be read, or is something else.
+    """
+    text = read_utf8(path, limit, f"a {name}")
+    try:
+        return model.model_validate_json(text)
+    except ValidationError as error:
+        fault = first_fault(error)
+        raise SpecError(
+            f"is no {name}: {fault.text}; expected {expected}",
+            file=printable(path),
+            path=fault.path,
+        ) from None
 
 
 def validate(model: type[Model], node: Node) -> Model:

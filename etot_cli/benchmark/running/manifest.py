@@ -6,15 +6,14 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from etot_cli.benchmark.methods.catalogue import METHODS
 from etot_cli.benchmark.running.journal import NAME as JOURNAL
 from etot_cli.benchmark.suite import Seed, Trials
-from etot_cli.errors import EtotError, SpecError
+from etot_cli.errors import EtotError
 from etot_cli.specs.bounds import MAX_TRIALS
-from etot_cli.specs.problems import first_fault
-from etot_cli.specs.reading import printable, read_utf8
+from etot_cli.specs.problems import read_json
 from etot_cli.specs.writing import replacing
 
 NAME = "bench.json"
@@ -67,16 +66,9 @@ def read_manifest(folder: Path, *, resume: bool) -> Manifest | None:
             f"there is a run in {folder} already; go on with it by --resume {folder}, or give "
             "another --out"
         )
-    text = read_utf8(path, MAX_BYTES, "a benchmark's description")
-    try:
-        return Manifest.model_validate_json(text)
-    except ValidationError as error:
-        fault = first_fault(error)
-        raise SpecError(
-            f"is no benchmark's description: {fault.text}; expected what 'etot bench' wrote",
-            file=printable(path),
-            path=fault.path,
-        ) from None
+    return read_json(
+        Manifest, path, MAX_BYTES, "benchmark's description", "what 'etot bench' wrote"
+    )
 
 
 def agree(wanted: Manifest, known: Manifest | None, folder: Path) -> None:
