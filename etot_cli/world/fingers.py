@@ -6,6 +6,7 @@ from closed to open in a model of the robot alone, and what its joints and pads 
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -171,7 +172,7 @@ def _check_tips(
         geom
         for geom in range(model.ngeom)
         if (model.geom_contype[geom] or model.geom_conaffinity[geom])
-        and _is_below(model, int(model.geom_bodyid[geom]), roots | {hand})
+        and root_of(model, int(model.geom_bodyid[geom]), roots | {hand})
     ]
     site = data.site(spec.tool_site)
     approach = site.xmat.reshape(3, 3)[:, 2]
@@ -195,10 +196,8 @@ def _check_tips(
         )
 
 
-def _is_below(model: mujoco.MjModel, body: int, roots: set[int]) -> bool:
-    """Whether a body is one of ``roots`` or hangs on one."""
-    while body:
-        if body in roots:
-            return True
+def root_of(model: mujoco.MjModel, body: int, roots: Container[int]) -> int:
+    """The first of a body and those that it hangs on that is one of ``roots``; 0 where none is."""
+    while body and body not in roots:
         body = int(model.body_parentid[body])
-    return False
+    return body

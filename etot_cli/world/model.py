@@ -17,6 +17,7 @@ from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
 from etot_cli.world.build.pads import add_pad_pairs
 from etot_cli.world.build.surroundings import add_surroundings, set_options
+from etot_cli.world.fingers import root_of
 from etot_cli.world.index import ObjectEntry, Part, Region, Surface
 from etot_cli.world.robot import RobotSpec, load_robot
 from etot_cli.world.robot_index import ROBOT_PREFIX, RobotIndex, actuate, add_robot, robot_index
@@ -236,7 +237,4 @@ def _hand_bodies(model: mujoco.MjModel) -> set[int]:
     """Bodies of the gripper: those that hang on the tool site's body."""
     sites = [i for i in range(model.nsite) if model.site(i).name.startswith(ROBOT_PREFIX)]
     hand = {int(model.site_bodyid[i]) for i in sites}
-    for body in range(1, model.nbody):
-        if int(model.body_parentid[body]) in hand:
-            hand.add(body)
-    return hand
+    return {body for body in range(1, model.nbody) if root_of(model, body, hand)}

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import WorldError
 from etot_cli.specs.scene import Actuation
 from etot_cli.world.build.mjcf_check import check_mjcf
-from etot_cli.world.fingers import Fingers, fingers_of
+from etot_cli.world.fingers import Fingers, fingers_of, root_of
 from etot_cli.world.robot import RobotSpec
 
 ROBOT_PREFIX = "robot/"
@@ -157,14 +157,8 @@ def _check_joints(spec: RobotSpec, joints: Sequence[Any]) -> None:
 
 def _sides(model: mujoco.MjModel, fingers: list[int]) -> dict[int, int]:
     """For every body that is a finger or hangs on one, which of the two."""
-    sides: dict[int, int] = {}
-    for body in range(model.nbody):
-        parent = body
-        while parent and parent not in fingers:
-            parent = int(model.body_parentid[parent])
-        if parent:
-            sides[body] = fingers.index(parent)
-    return sides
+    roots = ((body, root_of(model, body, fingers)) for body in range(model.nbody))
+    return {body: fingers.index(root) for body, root in roots if root}
 
 
 def _fingertips(model: mujoco.MjModel, site: int, pads: list[int]) -> tuple[float, float]:
