@@ -35,9 +35,10 @@ from etot_cli.reconstruction.objects import Segment
 
 HOVERING = 0.05
 """A thing whose lowest visible point is higher than this and touches nothing hangs in the air [m].
-Of 98 things in 17 captures 8 are lost where it is halved; doubled, no mask changes."""
+Of 98 things found in 17 captures 8 are lost where it is halved; doubled, no mask is another."""
 ABOVE = 0.4
-"""Share of a piece that is above the desk, from which it counts as on it."""
+"""Share of a piece that is above the desk, from which it counts as on it. Of the same things 17 are
+lost where it is doubled; halved, no mask is another."""
 
 
 def find_segments(seen: Calibrated) -> list[Segment]:

@@ -30,7 +30,8 @@ LEAST_TALL = 0.006
 THINNEST = 7.0
 """Thinner things are fringes [px]."""
 FEET = 45
-"""An object's lower part may be hidden from depth up to this far below the rest [px]."""
+"""An object's lower part may be hidden from depth up to this far below the rest [px]. No mask of 17
+captures changes its overlap with the truth by 0.003 where it is halved or doubled."""
 COVERED = 0.6
 """What stands on the desk with its foot out of sight hides so much of its own footprint."""
 _CELLS = 400
