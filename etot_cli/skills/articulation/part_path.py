@@ -285,8 +285,8 @@ def _next(
     joints: Vector,
     passage: Passage,
 ) -> tuple[Vector, float] | None:
-    """Joint values with the part at ``value``, and the hand's lean; free ones are preferred. It comes
-    from ``begun``, where the arm is at ``joints``.
+    """Joint values with the part at ``value``, and the hand's lean; free ones are preferred. The
+    part comes from ``begun``, where the arm is at ``joints``.
     """
     belief = travel.belief
     pose = travel.at(value)
