@@ -78,17 +78,25 @@ def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing
 
 
 def swap(context: Context, clause: SwapClause) -> None:
-    """Each of two things to the other's place; the first one waits on the desk."""
+    """Each of two things to the other's place, while the first one waits on the desk; what is
+    replaced stays there.
+    """
     themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
     text = clause.things.text
     if len(things) != 2:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
-    if any(index in context.discourse.put for index in themes):
+    stay = themes[1:] if clause.replaces else themes  # it may have been taken away before
+    if any(index in context.discourse.put for index in stay):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
     if _carries(context, things[0], things[1]) or _carries(context, things[1], things[0]):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
+    if clause.replaces:
+        away = Put((themes[0],), (context.places.on_the_desk(),), removal=True)
+        gone = themes[0] in context.discourse.put
+        context.steps += [*([] if gone else [away]), Put((themes[1],), (homes[0],))]
+        return
     if homes[0] == homes[1]:
         if homes[0].relation is not Relation.ON:
             raise ReferenceProblem(text, "they are in the same place", 2)

@@ -195,7 +195,7 @@ class _State:
             _check_instead(spoken, self._last)
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
             self._last = spoken.clause
-        check_opposites(self.context.discourse.notes)
+        check_opposites(self.context.discourse)
         for spoken in reading:
             done = tuple(steps[id(spoken)])
             self.timed.append(Timed(done, spoken.order, self.sentence))

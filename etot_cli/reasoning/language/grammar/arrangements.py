@@ -157,10 +157,10 @@ TOWER = either(
 SWAP = either(
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
-        "swap[ping], exchang(e|ing), switch[ing], replac(e|ing)",
+        one_of({False: "swap[ping], exchang(e|ing), switch[ing]", True: "replac(e|ing)"}),
         noun_phrase,
-        "with, for",
+        "with, for, by",
         noun_phrase,
-        build=lambda one, two: SwapClause(Things((one, two))),
+        build=lambda replaces, one, two: SwapClause(Things((one, two)), replaces),
     ),
 )

@@ -263,9 +263,10 @@ class TowerClause:
 
 @dataclass(frozen=True, slots=True)
 class SwapClause:
-    """Each of two things goes where the other one is."""
+    """Each of two things goes where the other is, or (``replaces``) but the second."""
 
     things: Things
+    replaces: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,3 +37,7 @@ class Mention:
     """The words before the noun."""
     whatever: bool = False
     """It speaks of whatever is somewhere, which nothing is put into or onto."""
+    idle: tuple[str, ...] = ()
+    """Its words for a side or size that tell one thing from no other."""
+    either: bool = False
+    """It is one of several phrases ("the apple or the pear")."""

@@ -74,8 +74,9 @@ class Discourse:
         self.notes += [note for note in resolved.notes if note not in self.notes]
         index = len(self.referents)
         mention = Mention(
-            index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever
-        )
+            index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever,
+            resolved.idle, resolved.either,
+        )  # fmt: skip
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):

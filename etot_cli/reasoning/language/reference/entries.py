@@ -219,8 +219,13 @@ def _twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
     """Other names of what is called so, one that is written as one word among them."""
     nouns = tuple(word for word in words if not word.isdigit())
     groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
-    own = [name for group in groups if any(nouns[-len(t) :] == t for t in group) for name in group]
     written = [("".join(nouns),)] if len(nouns) == 2 else []
+    own = [
+        name
+        for group in groups
+        if any(nouns[-len(t) :] == t or t in written for t in group)
+        for name in group
+    ]
     return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
 
 

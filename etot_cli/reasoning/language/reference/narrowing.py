@@ -83,7 +83,8 @@ def of_last_choice(resolved: Resolved, discourse: Discourse) -> Resolved:
 
 def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
     """After "the pen and the key on the shelf" of the same clause "one" is one of these, and "the
-    other" what is left of two after "one of them"; None where no such thing is said.
+    other" what is left of two after "one of them" or "the pen or the key"; None where that is not
+    said.
     """
     said = [item for item in discourse.mentions if item.role is role is Role.THEME]
     if phrase.modifiers or phrase.words not in ((), ("one",)) or not said:
@@ -91,7 +92,9 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
     noun, chosen = said[-1].noun, discourse.referents[said[-1].referent].options
     known = {item.referent for item in said if len(discourse.referents[item.referent].options) == 1}
     spoken = {thing for index in known for thing in discourse.things(index)}
-    choice = len(chosen) > 1 and {*discourse.things(said[-1].referent)} <= spoken
+    choice = said[-1].either or (
+        len(chosen) > 1 and {*discourse.things(said[-1].referent)} <= spoken
+    )
     if phrase.determiner == "the other" and choice and len(chosen) == 2:
         return Resolved(chosen, definite=True, other=True, noun=noun, again=True)
     here = {item.referent for item in said if item.clause == discourse.clause} & known

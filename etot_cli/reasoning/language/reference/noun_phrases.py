@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.reference.nouns import (
     names_part,
     parts_of,
 )
+from etot_cli.reasoning.language.reference.opposites import idle_words
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.stacks import meant_by_stack, of_stack, stack_of
@@ -195,16 +196,16 @@ class Resolver:
         if among and among != len(
             all_among(things, match, phrase, role, self._vocabulary, self._scene)
         ):
-            raise ReferenceProblem(
-                phrase.text, f"not {among}, but {names_of_things(things)} fit", 2
-            )
+            why = f"not {among}, but {names_of_things(things)} fit"
+            raise ReferenceProblem(phrase.text, why, 2)
         asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
         if len(things) == 1 and any(item.words[0] in ("to", "from") for item in asides):
             raise ReferenceProblem(phrase.text, "say to which side of what", 3)
         if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
             why = f"say 'the' one of {names_of_things(things)}, or to which side of what"
             raise ReferenceProblem(phrase.text, why, 3)
-        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text, notes)
+        idle = idle_words(match, modifiers, things, self._scene, phrase.text, notes)
+        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
         kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
         unclear = phrase.loose and len(words) == 1 and len(things) > 1
         unclear |= match.loose and quantity.definite and len(kinds) > 1
@@ -230,9 +231,8 @@ class Resolver:
             why = f"only {things[0].name} is called so"
             raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
         if quantity.sole and len(things) > 1:
-            raise ReferenceProblem(
-                phrase.text, f"it is not the only one: {names_of_things(things)}", 2, word="only"
-            )
+            why = f"it is not the only one: {names_of_things(things)}"
+            raise ReferenceProblem(phrase.text, why, 2, word="only")
         level = next((word for word in words[:-1] if word in LEVELS), "")
         own = words[-1] in phrase.text.split() and not phrase.loose  # "the top and bottom drawers"
         if level and own and match.plural and len(things) == 1 and quantity.count is None:
@@ -253,7 +253,7 @@ class Resolver:
         every = quantity.every or (count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, head, every, tuple(notes),
-            adjectives=words[:-1], left_out=tuple(unmeant), others=others,
+            adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
         )  # fmt: skip
 
     def _names_stack(self, phrase: NounPhrase) -> bool:

@@ -57,7 +57,7 @@ class Phrases(Meanings):
         ]
         resolved = [self.meaning(phrase, role) for phrase in phrases]
         options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
-        either = Resolved(options, noun=resolved[-1].noun)
+        either = Resolved(options, noun=resolved[-1].noun, either=True)
         text = things.text
         return [self.discourse.add(either, text, role)]
 

@@ -21,6 +21,8 @@ class Resolved:
         again: it is some of what was spoken of before ("one of them").
         adjectives: the phrase's words before its noun.
         left_out: what the phrase says that it does not mean.
+        either: it is one of several phrases ("the apple or the pear").
+        idle: words of it for a side or size that tell one thing from no other.
         others: what it says would be true of as well, though it fits what is meant better.
     """
 
@@ -34,3 +36,5 @@ class Resolved:
     adjectives: tuple[str, ...] = ()
     left_out: tuple[Thing, ...] = ()
     others: tuple[Thing, ...] = ()
+    idle: tuple[str, ...] = ()
+    either: bool = False

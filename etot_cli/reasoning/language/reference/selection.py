@@ -11,7 +11,6 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.opposites import ONLY_ONE
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
@@ -33,7 +32,6 @@ def select(
     count: int | None,
     scene: SceneState,
     phrase: str,
-    notes: list[str] | None = None,
 ) -> list[Thing]:
     """Things that selecting words and modifiers of place single out.
 
@@ -44,7 +42,6 @@ def select(
         count: how many are meant, None when the noun is an open plural.
         scene: where they are.
         phrase: as written, for messages.
-        notes: gets the words that tell nothing, since there is but one such thing.
 
     Raises:
         ReferenceProblem: nothing is left, or of two sides one leaves what the other does not.
@@ -77,9 +74,6 @@ def select(
     if not things:
         raise ReferenceProblem(phrase, "nothing is in that state", 1)
     by_size = [word for word in words if word in SIZES]
-    told = [word for word in (*words, *sides) if word in SIDES or word in SIZES]
-    if told and len(things) == 1 and notes is not None:
-        notes.append(f"{told[0]!r}{ONLY_ONE.format(things[0].name)}")
     plain = not any(sides) and not any(word in SIDES for word in words)
     if len(ordinals) == len(by_size) == 1 and plain and by_size[0].endswith("est"):
         return [_nth_by_size(ordinals[0], by_size[0], things, scene, phrase)]
@@ -223,6 +217,11 @@ def _by_size(
     measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
     last = measure(_leading(ordered, count, phrase)[-1])
+    said = [own for thing in ordered for own in scene.infos[thing.name].label.casefold().split()]
+    if measure(ordered[0]) == measure(ordered[-1]) and any(map(word.startswith, {*said} - {word})):
+        # "The lightest brown pad" of a light brown and a dark brown one
+        names = " and ".join(thing.name for thing in ordered)
+        raise ReferenceProblem(phrase, f"{word!r} tells nothing of {names}", 2, word=word)
     return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
 
 

@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_general_noun,
     matches_any,
 )
+from etot_cli.world.colors import NAMED_COLORS
 
 TAKEN_FOR = "took "
 """How notes begin on an adjective that is not plainly true of what it is said of."""
@@ -157,6 +158,9 @@ def _of_color(sifted: Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
         looks = [item for item in plain if item[1] != GENERIC or item[0].color in (None, color)]
         return looks or plain
     near = [item for item in graded if item[0].has_color(color)]
+    if word in NAMED_COLORS and word not in (color, _BRITISH.get(color)):
+        # What is only near a basic colour may be of this very one; what has that colour is not.
+        near = [item for item in near if not item[0].is_plainly(color)] or near
     # A thing of unknown colour may have any.
     found = near or [item for item in graded if not item[0].is_colored()]
     if found:

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.reference.entries import (
 from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
+    BINS,
     DESK_NOUNS,
     MATERIALS,
     NUMBERS,
@@ -110,6 +111,9 @@ class Vocabulary:
         if is_descriptive(word) or word in PURPOSES | MATERIALS or word in STATES:
             return []
         for_it = place and word in RUBBISH
+        if for_it and not told:  # what is thrown away goes into the bin, whatever kind it is
+            told = [e for e in self.objects if {*map(singular, e.heads)} & BINS]
+            told = [e for e in told if e.info is not None and e.info.container]
         if not for_it:  # a yarn basket is no yarn
             told = [entry for entry in told if entry.info is None or not entry.info.container]
         if word not in RUBBISH and any(word in group for group in TWINS):
