@@ -15,6 +15,7 @@ from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.deadline import Deadline
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.motion import Motion, Trace
 from etot_cli.skills.motion.ready import make_ready
 from etot_cli.skills.motion.timing import JointLimits
@@ -59,9 +60,18 @@ class Performed:
 
 
 class PhysicsWorld:
-    """A world that is stepped. What is planned for it is planned elsewhere, on a belief."""
+    """A world that is stepped. What is planned for it is planned elsewhere, on a belief.
 
-    def __init__(self, scene: Scene, seed: int = 0, *, keep_frames: bool = True) -> None:
+    Args:
+        scene: what it is built from.
+        seed: of random choices.
+        keep_frames: keep trajectories for rendering.
+        arm: the robot's kinematics, where another world has them; they are the same in all.
+    """
+
+    def __init__(
+        self, scene: Scene, seed: int = 0, *, keep_frames: bool = True, arm: Arm | None = None
+    ) -> None:
         self.world: World = build_world(scene)
         # Before there is data: what never moves is worked out when data are made.
         self.world.model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
@@ -69,6 +79,7 @@ class PhysicsWorld:
         self.data = mujoco.MjData(self.world.model)
         self.deadline = Deadline()
         robot = self.world.robot.spec
+        self.arm = arm or Arm(robot, self.deadline)
         self.limits = JointLimits(robot.speed, robot.limits.acceleration, robot.limits.jerk)
         self.seed = seed
         self.keep_frames = keep_frames
@@ -84,7 +95,7 @@ class PhysicsWorld:
         """
         world, data = self.world, self.data
         mujoco.mj_resetData(world.model, data)
-        make_ready(world, data)
+        make_ready(world, data, self.arm)
         check_robot_is_free(world, data)
         robot = SimulatedRobot(world, data, deadline=self.deadline)
         robot.wait(SETTLE_AT_START, Guards(), until_rest=True)

@@ -30,8 +30,8 @@ REST_SPEED = 0.01
 """Free objects slower than this [m/s] are at rest ..."""
 REST_PERIODS = 15
 """... when they stay so for so many control periods."""
-TIME_LIMIT_S = 60.0
-"""Bound on the simulated time of one action [s]; the longest one seen takes 21."""
+MOST_PERIODS = round(60.0 / CONTROL_PERIOD)
+"""Bound on the control periods of one action, a minute; the longest one seen takes 21 s."""
 
 
 class SimulatedRobot:
@@ -57,6 +57,7 @@ class SimulatedRobot:
         self._start_time = float(data.time)
         self._steps_per_period: int = round(CONTROL_PERIOD / world.model.opt.timestep)
         model, robot = world.model, world.robot
+        self._model = model
         gain = model.actuator_gainprm[robot.ctrl, 0]
         damping = -model.actuator_biasprm[robot.ctrl, 2]
         # A position servo with velocity damping follows this much later than its target.
@@ -113,7 +114,7 @@ class SimulatedRobot:
             if late >= BLOCKED_PERIODS:
                 self._command[ctrl] = qpos[joints]
                 return PhaseEnd.BLOCKED
-            if self._exhausted:
+            if self._periods > MOST_PERIODS:
                 return PhaseEnd.OUT_OF_TIME
         self._command[ctrl] = targets[-1]
         return PhaseEnd.DONE
@@ -134,7 +135,7 @@ class SimulatedRobot:
                 quiet = quiet + 1 if self._at_rest() else 0
                 if quiet >= REST_PERIODS:
                     break
-        return PhaseEnd.OUT_OF_TIME if self._exhausted else PhaseEnd.DONE
+        return PhaseEnd.OUT_OF_TIME if self._periods > MOST_PERIODS else PhaseEnd.DONE
 
     def rest(self) -> None:
         """What has been commanded last is in effect from now on."""
@@ -164,7 +165,7 @@ class SimulatedRobot:
         if self._delay_steps:
             self._step_late()
         else:
-            mujoco.mj_step(self._world.model, self._data, self._steps_per_period)
+            mujoco.mj_step(self._model, self._data, self._steps_per_period)
         self._periods += 1
         if self._periods % OBSERVE_EVERY == 0:
             self._deadline.check()
@@ -181,9 +182,9 @@ class SimulatedRobot:
         while self._under_way and self._under_way[0][0] < end:
             due, command = self._under_way.popleft()
             if due > now:
-                mujoco.mj_step(self._world.model, self._data, due - now)
+                mujoco.mj_step(self._model, self._data, due - now)
             self._data.ctrl[:], now = command, due
-        mujoco.mj_step(self._world.model, self._data, end - now)
+        mujoco.mj_step(self._model, self._data, end - now)
 
     def _opening(self) -> float:
         return self._world.robot.fingers.opening(self._qpos[self._fingers])
@@ -192,10 +193,6 @@ class SimulatedRobot:
         if not len(self._free_dofs):
             return True
         return _largest(self._qvel[self._free_dofs]) < REST_SPEED
-
-    @property
-    def _exhausted(self) -> bool:
-        return self._periods * CONTROL_PERIOD > TIME_LIMIT_S
 
 
 def _largest(values: Vector) -> float:

@@ -33,7 +33,7 @@ class SimulatedWorld(PhysicsWorld):
 
     def __init__(self, scene: Scene, seed: int = 0, *, keep_frames: bool = True) -> None:
         super().__init__(scene, seed, keep_frames=keep_frames)
-        self.twin = build_twin(self.world, self.deadline)
+        self.twin = build_twin(self.world, self.arm, self.deadline)
         self._believed = mujoco.MjData(self.world.model)
 
     def place_furniture(self, scene: SceneState) -> bool:
@@ -48,7 +48,8 @@ class SimulatedWorld(PhysicsWorld):
     @cached_property
     def seen_twin(self) -> Twin:
         """The twin for states that are only seen, in which furniture may stand elsewhere."""
-        return build_twin(build_world(self.world.scene, loose_furniture=True), self.deadline)
+        world = build_world(self.world.scene, loose_furniture=True)
+        return build_twin(world, self.arm, self.deadline)
 
     def believe(self, start: Snapshot, salt: str = "") -> Belief:
         """The twin in a stored state; the random choices depend on seed and ``salt`` alone."""

@@ -45,7 +45,7 @@ class TrueWorld(PhysicsWorld):
         look: Look = Look.EACH,
         keep_frames: bool = False,
     ) -> None:
-        super().__init__(scene, twin.seed, keep_frames=keep_frames)
+        super().__init__(scene, twin.seed, keep_frames=keep_frames, arm=twin.arm)
         self._twin, self._number, self._when = twin.seen_twin, number, look
         # Planning for this world ends when planning in the twin does.
         self.deadline = twin.deadline

@@ -63,7 +63,7 @@ class BelievedTwin:
         self.world.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         self.limits = self._physics.limits
         self.scene = scene
-        self._twin = build_twin(self.world, self._physics.deadline)
+        self._twin = build_twin(self.world, self._physics.arm, self._physics.deadline)
         self._data = self._physics.data
         self._believed = mujoco.MjData(self.world.model)
         self._memory: Memory | None = None

@@ -15,6 +15,7 @@ import numpy as np
 from etot_cli.control.physics_world import SETTLE_AT_START
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
+from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.ready import make_ready
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
 from etot_cli.specs.scene import Scene, SceneObject
@@ -128,7 +129,7 @@ class ExecutionWorld:
 
     def _begin(self) -> None:
         world, data = self.world, self.data
-        make_ready(world, data)
+        make_ready(world, data, Arm(world.robot.spec))
         SimulatedRobot(world, data).wait(SETTLE_AT_START, Guards(), until_rest=True)
         data.time = 0.0
         mujoco.mj_forward(world.model, data)

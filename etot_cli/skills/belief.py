@@ -37,11 +37,13 @@ class Twin:
     scratch: mujoco.MjData
 
 
-def build_twin(world: World, deadline: Deadline) -> Twin:
-    """The planning side of a world; what is worked out in it ends at ``deadline``."""
+def build_twin(world: World, arm: Arm, deadline: Deadline) -> Twin:
+    """The planning side of a world with the robot's ``arm``; what is worked out in it ends at
+    ``deadline``.
+    """
     return Twin(
         world,
-        Arm(world.robot.spec, deadline),
+        arm,
         CollisionChecker(world, deadline),
         Solids(world),
         mujoco.MjData(world.model),

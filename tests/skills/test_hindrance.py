@@ -93,7 +93,7 @@ def test_arm_waits_above_what_stands_at_its_home() -> None:
         belief = run.simulated.believe(run.snapshot)
         belief.checker.freeze(belief.data)
         assert bool(belief.checker.hits(belief.arm.home)) is not free
-        waiting = ready_pose(belief.world, belief.data)
+        waiting = ready_pose(belief.world, belief.data, belief.arm)
         assert not belief.checker.hits(waiting, clearance=WAITING_CLEARANCE)
         np.testing.assert_allclose(belief.joints, waiting, atol=0.01)
         assert np.array_equal(waiting, belief.arm.home) is free

@@ -211,15 +211,23 @@ def _from_above(
     lines = solids.intervals(data, name, origins, closings)
     at_tips = solids.intervals(data, name, tips, closings)
     slanted: list[Slanted] = []
-    for (origin, closing, offset, depth), line, below in zip(levels, lines, at_tips, strict=True):
-        tool_depth = min(depth, deepest)
-        for interval, rim in _choices(line, below):
-            middle = origin + closing * (interval.start + interval.end) / 2
-            middle[2] = high[2] - tool_depth
-            score = _score(center, middle, axis, interval, rim=rim, offset=offset)
-            if rim and interval.squareness < SQUARE:
-                slanted.append(Slanted(middle, closing, score))
-            found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score)
+    chosen = [
+        (number, interval, rim)
+        for number, cuts in enumerate(zip(lines, at_tips, strict=True))
+        for interval, rim in _choices(*cuts)
+    ]
+    if not chosen:
+        return
+    of = np.array([number for number, _, _ in chosen])
+    twice = np.array([interval.start + interval.end for _, interval, _ in chosen])
+    middles = origins[of] + closings[of] * twice[:, None] / 2
+    middles[:, 2] = high[2] - np.minimum([levels[number].depth for number in of], deepest)
+    scores = _scores(center, middles, axis, chosen, [levels[number].offset for number in of])
+    for (number, interval, rim), middle, score in zip(chosen, middles, scores, strict=True):
+        closing = levels[number].closing
+        if rim and interval.squareness < SQUARE:
+            slanted.append(Slanted(middle, closing, score))
+        found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score)
     for wall in across_walls(solids, data, name, slanted):
         found.add(
             wall.middle, wall.approach, wall.closing, wall.interval,
@@ -247,25 +255,33 @@ def _choices(line: list[Interval], below: list[Interval]) -> list[tuple[Interval
     return chosen
 
 
-def _score(
+def _scores(
     center: Vector,
-    middle: Vector,
+    middles: Vector,
     axis: Vector | None,
-    interval: Interval,
-    *,
-    rim: bool,
-    offset: float,
-) -> float:
-    """Prefers grasps whose line passes near the centre of mass, and thin walls over wide spans."""
-    lateral = middle - center
+    chosen: Sequence[tuple[int, Interval, bool]],
+    offsets: Sequence[float],
+) -> list[float]:
+    """Prefers grasps whose line passes near the centre of mass, and thin walls over wide spans.
+
+    Args:
+        center: of mass (3,), base frame [m].
+        middles: (m, 3) of what is chosen, base frame [m].
+        axis: (3,) of a rod; None for all else.
+        chosen: of which line what is grasped, and whether that is a single wall.
+        offsets: (m,) of the lines from the centre [m].
+    """
+    lateral = middles - center
     if axis is not None:
-        along = float(lateral @ axis)
-        score = abs(along + 0.03) * 4
+        score = np.abs([float(row @ axis) + 0.03 for row in lateral]) * 4
     else:
-        level = float(np.hypot(lateral[0], lateral[1]))
-        score = abs(offset) * 6 if rim else level * 8
-        score += abs(middle[2] - center[2]) * (1.0 if rim else 2.0)
-    return score + interval.width * 2
+        rim = np.array([is_rim for _, _, is_rim in chosen])
+        level = np.hypot(lateral[:, 0], lateral[:, 1])
+        score = np.where(rim, np.abs(offsets) * 6, level * 8)
+        score += np.abs(lateral[:, 2]) * np.where(rim, 1.0, 2.0)
+    widths = np.array([interval.width for _, interval, _ in chosen])
+    scores: list[float] = (score + widths * 2).tolist()
+    return scores
 
 
 def _from_side(

@@ -66,6 +66,7 @@ class CollisionChecker(FrozenScene):
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
         self._part_geoms: dict[str, NDArray[np.bool_]] = {}
+        self._known_of_hands: dict[tuple[object, ...], dict[HandPart, list[str]]] = {}
 
     def _select_pairs(self, carried: int | None, within: float) -> None:
         """Makes MuJoCo look only at pairs with the robot or the carried object (its number) in
@@ -137,15 +138,14 @@ class CollisionChecker(FrozenScene):
         # Looking again without somebody asks the same of the same configurations.
         key = (self._data.qpos.tobytes(), *asked)
         if key not in self._known:
-            self._remember(key, self._hits(None, *asked))
+            if len(self._known) >= MAX_KNOWN:
+                self._known.clear()
+            self._known[key] = tuple(self._hits(None, *asked))
         return self._not_ignored(self._known[key])
 
-    def _remember(self, key: tuple[object, ...], found: Iterable[str]) -> None:
-        if len(self._known) >= MAX_KNOWN:
-            self._known.clear()
-        self._known[key] = tuple(found)
-
     def _not_ignored(self, addresses: Iterable[str]) -> list[str]:
+        if not self._ignored:
+            return list(addresses)
         return [item for item in addresses if owner_of(item) not in self._ignored]
 
     def _hits(
@@ -252,11 +252,11 @@ class CollisionChecker(FrozenScene):
         """
         pose = (tool.position.tobytes(), tool.rotation.tobytes())
         key = (self._data.qpos.tobytes(), self._carried, *pose, clearance)
-        if (*key, part) in self._known:
-            return self._not_ignored(self._known[*key, part])
-        found = self._hand_hits(tool, clearance)
-        for each, addresses in found.items():
-            self._remember((*key, each), addresses)
+        found = self._known_of_hands.get(key)
+        if found is None:
+            if len(self._known_of_hands) >= MAX_KNOWN:
+                self._known_of_hands.clear()
+            found = self._known_of_hands[key] = self._hand_hits(tool, clearance)
         return self._not_ignored(found[part])
 
     def part_hits(self, joint: str) -> list[str]:
@@ -280,7 +280,7 @@ class CollisionChecker(FrozenScene):
     def _object_names_of(self, geoms: NDArray[np.bool_]) -> list[str]:
         return [self._object_names[int(index)] for index in np.unique(self._owner[geoms])]
 
-    def _hand_hits(self, tool: Pose, clearance: float) -> dict[HandPart, dict[str, None]]:
+    def _hand_hits(self, tool: Pose, clearance: float) -> dict[HandPart, list[str]]:
         model, data = self._model, self._data
         self._select_pairs(self._carried, clearance)
         points, turns = self._hand_frames()
@@ -293,21 +293,21 @@ class CollisionChecker(FrozenScene):
         data.xipos[bodies], data.geom_xpos[geoms] = points[:count], points[count:]
         data.ximat[bodies], data.geom_xmat[geoms] = turns[:count], turns[count:]
         mujoco.mj_collision(model, data)
-        found: dict[HandPart, dict[str, None]] = {part: {} for part in HandPart}
-        if data.ncon == 0:
-            return found
-        near = np.flatnonzero(data.contact.dist < clearance)
-        pairs = data.contact.geom[near]
-        owners = self._owner[pairs]
-        for (one, two), (first, second) in zip(pairs.tolist(), owners.tolist(), strict=True):
-            if (first == -2) == (second == -2) or min(first, second) < -2:
-                continue
-            own, other = (one, two) if first == -2 else (two, one)
-            address = self.world.geom_address[other]
-            found[HandPart.ALL][address] = None
-            if self._finger[own]:
-                found[HandPart.FINGERS][address] = None
-        return found
+        of_all: dict[str, None] = {}
+        of_fingers: dict[str, None] = {}
+        if data.ncon:
+            contacts = data.contact
+            pairs = contacts.geom[contacts.dist < clearance]
+            owners = self._owner[pairs]
+            for (one, two), (first, second) in zip(pairs.tolist(), owners.tolist(), strict=True):
+                if (first == -2) == (second == -2) or min(first, second) < -2:
+                    continue
+                own, other = (one, two) if first == -2 else (two, one)
+                address = self.world.geom_address[other]
+                of_all[address] = None
+                if self._finger[own]:
+                    of_fingers[address] = None
+        return {HandPart.ALL: list(of_all), HandPart.FINGERS: list(of_fingers)}
 
     def _hand_frames(self) -> tuple[Vector, Vector]:
         """Where bodies and geoms of the hand are, as the fingers stand now: points (k, 3) and

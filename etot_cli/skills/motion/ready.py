@@ -18,12 +18,12 @@ WAITING_CLEARANCE = 0.01
 """Distance that a waiting robot keeps from everything [m]."""
 
 
-def ready_pose(world: World, data: mujoco.MjData) -> Vector:
+def ready_pose(world: World, data: mujoco.MjData, arm: Arm) -> Vector:
     """Joint values (n,) [rad] of the home pose, or straight above it where something stands.
 
     ``data`` has the scene and the fingers as they will be. Where nothing above is free, home.
     """
-    arm, checker = Arm(world.robot.spec), CollisionChecker(world)
+    checker = CollisionChecker(world)
     checker.freeze(data)
     home = arm.forward(arm.home)
     joints, opened = arm.home, world.robot.opening(data)
@@ -45,8 +45,13 @@ def _meets(checker: CollisionChecker, joints: Vector, opening: float) -> bool:
     return bool(checker.hits(joints, clearance=WAITING_CLEARANCE))
 
 
-def make_ready(world: World, data: mujoco.MjData) -> None:
+def make_ready(world: World, data: mujoco.MjData, arm: Arm) -> None:
     """Puts ``data`` where an execution begins: objects placed, fingers open, the arm waiting.
+
+    Args:
+        world: the world.
+        data: its state.
+        arm: the robot's kinematics.
 
     Raises:
         WorldError: an object does not fit where the scene puts it.
@@ -54,6 +59,6 @@ def make_ready(world: World, data: mujoco.MjData) -> None:
     place_objects(world, data)
     robot = world.robot
     robot.set_opening(data, robot.spec.gripper.opening)
-    data.qpos[robot.qpos] = data.ctrl[robot.ctrl] = ready_pose(world, data)
+    data.qpos[robot.qpos] = data.ctrl[robot.ctrl] = ready_pose(world, data, arm)
     data.ctrl[robot.gripper_ctrl] = robot.spec.gripper.command_open
     mujoco.mj_forward(world.model, data)

@@ -160,6 +160,7 @@ class Judge:
         axes, cell = self._support.axes, self.relief.cell
         self._undersides = Undersides(belief, attached, axes, cell, stamps)
         self._on_desk = self._support.owner is None
+        self._extents: dict[bytes, tuple[Vector, Vector]] = {}
 
     def grid(self) -> Cells:
         """Cells (m, 2) of the floor that are looked at, the middle among them."""
@@ -187,8 +188,8 @@ class Judge:
         """
         if self._on_desk:
             return cells
-        few = self._undersides.at(rotation)[0].outline(OUTLINE)
-        bottom = self._belief.checker.extent(self._request.attached.name, rotation)[0][2]
+        few = self._undersides.of_object(rotation).outline(OUTLINE)
+        bottom = self._extent(rotation)[0][2]
         lift = resting_heights(self.relief, few, cells) + bottom - self.relief.floor
         gap = least(self._free, 1.0, few, cells) - self.relief.cell
         stands = (lift <= FLAT) & (gap >= GAP) & self._is_off_edge(few, cells)
@@ -197,12 +198,13 @@ class Judge:
     def judge(self, rotation: Vector, cells: Cells) -> Judged:
         """Judges cells (m, 2) for an orientation (3, 3) of the object's body."""
         relief = self.relief
-        low, high = self._belief.checker.extent(self._request.attached.name, rotation)
-        underside, whole_hand = self._undersides.at(rotation)
-        rest = resting_heights(relief, underside, cells)
-        highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min(initial=np.inf))
-        open_hand = whole_hand.below(highest)
-        drop = resting_heights(relief, open_hand, cells) - rest
+        low, high = self._extent(rotation)
+        underside = self._undersides.of_object(rotation)
+        rest = drop = resting_heights(relief, underside, cells)
+        if len(cells):
+            highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
+            open_hand = self._undersides.of_hand(rotation).below(highest)
+            drop = resting_heights(relief, open_hand, cells) - rest
         turned = Turned(
             cells, relief.points(cells), rotation, underside, float(high[2] - low[2]), rest,
             lift=rest + low[2] - relief.floor,
@@ -216,6 +218,14 @@ class Judge:
             to_sweep = np.full(len(cells), np.inf)
         cost = self._costs(turned, kind, to_sweep)
         return Judged(turned, self._forbid(turned, kind, cost, to_sweep), cost)
+
+    def _extent(self, rotation: Vector) -> tuple[Vector, Vector]:
+        """Bounds (3,), (3,) of the object turned to ``rotation`` (3, 3), around its origin [m]."""
+        key = rotation.tobytes()
+        if key not in self._extents:
+            name = self._request.attached.name
+            self._extents[key] = self._belief.checker.extent(name, rotation)
+        return self._extents[key]
 
     def _kinds(self, turned: Turned) -> Cells:
         support, relief = self._support, self.relief

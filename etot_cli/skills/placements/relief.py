@@ -254,7 +254,7 @@ def resting_heights(relief: Relief, stamp: Stamp, places: Cells) -> Vector:
     found = np.full(len(places), -np.inf)
     if len(stamp.cells):
         for part, seen in _under(relief.heights, -np.inf, stamp, places):
-            found[part] = (seen - stamp.low).max(axis=1)
+            found[part] = np.subtract(seen, stamp.low, out=seen).max(axis=1)
     return found
 
 
@@ -306,12 +306,13 @@ def _under(
 ) -> Iterator[tuple[slice, Vector]]:
     """What a field holds under a stamp, for a slice of the places (c, k) at a time."""
     pad = int(np.abs(stamp.cells).max()) + 1
-    padded = np.pad(field, pad, constant_values=outside)
-    width = padded.shape[1]
+    height, width = (size + 2 * pad for size in field.shape)
+    padded = np.full((height, width), outside, dtype=field.dtype)
+    padded[pad:-pad, pad:-pad] = field
     flat = padded.ravel()
     start = (places[:, 0] + pad) * width + places[:, 1] + pad
     offsets = stamp.cells[:, 0] * width + stamp.cells[:, 1]
     step = max(CHUNK // len(offsets), 1)
     for first in range(0, len(places), step):
         part = slice(first, first + step)
-        yield part, flat[start[part, None] + offsets]
+        yield part, flat.take(start[part, None] + offsets)

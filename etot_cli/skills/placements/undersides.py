@@ -21,13 +21,13 @@ are more than a held object gives."""
 HAND_MARGIN = 0.002
 """Distance that the open hand keeps while it is planned on height maps [m], about their error."""
 
-Stamps = dict[bytes, tuple[Stamp, Stamp]]
-"""Undersides of an object and of the hand by orientation, on one floor; what else stands there does
-not change them."""
+Stamps = dict[tuple[bytes, bool], Stamp]
+"""Undersides of an object, and of the hand (True), by orientation, on one floor; what else stands
+there does not change them."""
 
 
 class Undersides:
-    """Works out undersides on one floor, each orientation once.
+    """Works out undersides on one floor, each once.
 
     Args:
         belief: holds the object.
@@ -43,18 +43,24 @@ class Undersides:
         self._belief, self._name, self._known = belief, attached.name, known
         self._axes, self._cell = axes, cell
 
-    def at(self, rotation: Vector) -> tuple[Stamp, Stamp]:
-        """Of the object at an orientation (3, 3) of its body, and of the hand, opened to let go."""
-        key = rotation.tobytes()
+    def of_object(self, rotation: Vector) -> Stamp:
+        """Of the object at an orientation (3, 3) of its body."""
+        return self._at(rotation, hand=False)
+
+    def of_hand(self, rotation: Vector) -> Stamp:
+        """Of the hand, opened to let go, with the object's body at an orientation (3, 3)."""
+        return self._at(rotation, hand=True)
+
+    def _at(self, rotation: Vector, *, hand: bool) -> Stamp:
+        key = rotation.tobytes(), hand
         if key not in self._known:
-            solids = self._belief.solids
             turn = rotation @ self._belief.object_pose(self._name).rotation.T
-            shapes = [_turned(shape, turn) for shape in self._object_shapes]
-            hand = [_turned(shape, turn) for shape in self._hand_shapes]
-            self._known[key] = (
-                stamp(solids, shapes, self._axes, self._cell),
-                stamp(solids, hand, self._axes, self._cell, HAND_MARGIN),
+            shapes = self._hand_shapes if hand else self._object_shapes
+            turned, margin = (
+                [_turned(shape, turn) for shape in shapes],
+                HAND_MARGIN if hand else 0.0,
             )
+            self._known[key] = stamp(self._belief.solids, turned, self._axes, self._cell, margin)
         return self._known[key]
 
     @cached_property
