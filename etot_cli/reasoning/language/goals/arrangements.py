@@ -9,7 +9,10 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.vessels import lies_on
+from etot_cli.reasoning.language.words.lexicon import SIZES
 
 
 def tower(context: Context, clause: TowerClause) -> None:
@@ -70,9 +73,15 @@ def _upward(
 
 
 def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing:
-    resolved = context.phrases.meaning(phrase, Role.THEME)
-    found = [option[0] for option in resolved.options if option[0] in things]
-    if len(found) != 1:
+    told = phrase.words[:-1] if phrase.is_elliptic and not phrase.modifiers else ()
+    if told and all(word in SIZES for word in told):
+        found = select(told, (), list(things), 1, context.scene, phrase.text)
+    else:
+        options = context.phrases.meaning(phrase, Role.THEME).options
+        found = [option[0] for option in options if option[0] in things]
+    if len(found) > 1:
+        raise AmbiguousReference(phrase.text, [thing.name for thing in found])
+    if not found:
         raise ReferenceProblem(phrase.text, "it is not one of what is to be stacked", 2)
     return found[0]
 

@@ -66,7 +66,7 @@ _FIXED = """
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near the,
-    s (top|surface), in any order
+    s (top|surface), in any order, only then
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = re.compile(

@@ -68,7 +68,7 @@ OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
-    [and|but] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
+    [and|but] [only] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
     and last, after which,
     and later
 """
