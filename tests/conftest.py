@@ -33,15 +33,15 @@ settings.load_profile("shared machine")
 import_mujoco()
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Where there is little time, the first case of a test stands for all of them."""
-    seen: set[str] = set()
-    for item in items:
-        test = item.nodeid.partition("[")[0]
-        if test in seen:
-            item.add_marker(pytest.mark.slow)
-        seen.add(test)
+@pytest.hookimpl(trylast=True)
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Where there is little time, the first case of a test stands for all of them.
+
+    The others are not even made: to deselect thousands takes each worker as long as to run a fifth
+    of what is left.
+    """
+    if "not slow" in metafunc.config.getoption("markexpr"):
+        del metafunc._calls[1:]  # pytest has no public way to take cases back
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -193,6 +193,7 @@ def test_who_stands_before_a_handle_is_named_and_without_it_the_drawer_opens() -
     episode(unit=GRIPPED, other=aside).must("[OPEN, unit]")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "hinge"), [(1, "right"), (-1, "left")])
 def test_a_door_whose_hinge_is_far_is_pulled_by_its_edge_and_pushed_shut(
     side: int, hinge: str
@@ -206,6 +207,7 @@ def test_a_door_whose_hinge_is_far_is_pulled_by_its_edge_and_pushed_shut(
 POST = {"kind": "box", "size": [0.04, 0.26, 0.10], "fixed": True}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("far", [0.16, 0.19], ids=["no room for the hand", "no room for the door"])
 def test_what_is_fastened_before_a_door_is_named_and_without_it_the_door_opens(far: float) -> None:
     oven = OVEN | {"at": [0.62, 0.0], "yaw_deg": 180, "door": {"handle": {"vertical": True}}}
@@ -216,12 +218,14 @@ def test_what_is_fastened_before_a_door_is_named_and_without_it_the_door_opens(f
     episode(oven=oven).must("[OPEN, oven]")
 
 
+@pytest.mark.slow
 def test_a_door_that_only_just_gets_far_enough_is_opened() -> None:
     size, door = [0.24, 0.30, 0.26], {"hinge": "right", "handle": {"vertical": True}}
     oven = OVEN | {"at": [0.60, 0.0], "yaw_deg": 180, "size": size, "door": door}
     assert episode(oven=oven).must("[OPEN, oven]").states["oven"].openness["door"] >= OPEN_AT
 
 
+@pytest.mark.slow
 def test_who_keeps_the_arm_from_a_door_is_named_or_swept_away() -> None:
     """The hand that draws back from the door ajar does not end up in its own arm."""
     oven = OVEN | {"at": [0.60, 0.0], "yaw_deg": 180, "door": {"handle": {"vertical": True}}}

@@ -57,6 +57,7 @@ def test_a_standing_rod_is_laid_down_by_a_hand_thicker_than_it() -> None:
     assert after.on == ("desk",) and abs(long_axis(after)[2]) < 0.1
 
 
+@pytest.mark.slow
 def test_what_a_level_hand_took_from_a_board_is_let_go_just_above_the_desk() -> None:
     """Its wrist is thicker than half the mug is high."""
     shelf = {"kind": "shelf", "size": [0.22, 0.32, 0.36], "mass": 4.0, "at": [0.6, 0.0],

@@ -78,6 +78,7 @@ def test_no_room_names_who_fills_it(
     assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
 
 
+@pytest.mark.slow
 def test_fastened_things_that_fill_a_place_together_are_named() -> None:
     post = BLOCK | {"size": [0.05, 0.05, 0.1], "fixed": True}
     posts = {"one": post | {"at": [0.42, -0.16, 0.18]}, "two": post | {"at": [0.42, -0.24, 0.18]}}

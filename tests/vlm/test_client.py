@@ -488,6 +488,7 @@ def test_unstated_usage_is_estimated_and_said_so(make_settings: Make) -> None:
     assert total.estimated == 1 and total.output_tokens == 100
 
 
+@pytest.mark.slow
 def test_the_openai_package_agrees_with_the_fake_server() -> None:
     import openai  # takes a second to load, which collecting need not pay
 
