@@ -32,17 +32,19 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     Raises:
         InstructionError: what could not be understood and what can be done about it.
     """
+    vocabulary = Vocabulary(scene)
     try:
-        return _read(instruction, scene)
+        return _read(instruction, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
         with suppress(UnreadableError, ReferenceProblem):
-            return _read(instruction, scene, common=True)
-        raise InstructionError(_message(error, instruction, scene)) from None
+            return _read(instruction, scene, vocabulary, common=True)
+        raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
 
 
-def _read(instruction: str, scene: SceneState, *, common: bool = False) -> Goal:
+def _read(
+    instruction: str, scene: SceneState, vocabulary: Vocabulary, *, common: bool = False
+) -> Goal:
     """The goal; slips of the pen in words that stand in no scene are put right where ``common``."""
-    vocabulary = Vocabulary(scene)
     found = read(vocabulary.joined(normalized(instruction)), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
@@ -61,9 +63,14 @@ def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
             yield f"{said[0]!r}: {why}"
 
 
-def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene: SceneState) -> str:
+def _message(
+    error: UnreadableError | ReferenceProblem,
+    instruction: str,
+    scene: SceneState,
+    vocabulary: Vocabulary,
+) -> str:
     """Which words, why, and one way to say it that is read in this scene."""
-    joined = set(re.findall(r"\w+_\w+", Vocabulary(scene).joined(normalized(instruction))))
+    joined = set(re.findall(r"\w+_\w+", vocabulary.joined(normalized(instruction))))
 
     def plain(text: str) -> str:
         """With labels of several words as they were written."""
@@ -72,7 +79,7 @@ def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene:
     language = other_language(instruction, scene)
     foreign = f"it seems to be in {language}; only English is read" if language else ""
     if isinstance(error, UnreadableError):
-        error = blamed(error, partial(_fits, scene=scene, vocabulary=Vocabulary(scene)))
+        error = blamed(error, partial(_fits, scene=scene, vocabulary=vocabulary))
         why = foreign or error.why
         head = f"cannot read the instruction at {error.words!r}" + (f": {why}" if why else "")
         second = f"  understood up to there: {error.understood or 'nothing'}"
@@ -86,7 +93,7 @@ def _message(error: UnreadableError | ReferenceProblem, instruction: str, scene:
         second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
         refused = Refused(instruction, phrase, word=error.word, candidates=error.candidates)
     lines = [head, second]
-    example = next(rewordings(refused, scene, _reads), None)
+    example = next(rewordings(refused, scene, partial(_reads, vocabulary=vocabulary)), None)
     if example is not None:
         lines.append(f"  what would be read: {example}")
     lines.append(
@@ -105,9 +112,9 @@ def _fits(text: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
     return True
 
 
-def _reads(instruction: str, scene: SceneState) -> bool:
+def _reads(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
     try:
-        _read(instruction, scene)
+        _read(instruction, scene, vocabulary)
     except (UnreadableError, ReferenceProblem):
         return False
     return True

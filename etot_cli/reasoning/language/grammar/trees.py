@@ -22,6 +22,8 @@ def pronouns(tree: object) -> Iterator[str]:
 
 def reading_cost(tree: object) -> int:
     """How far-fetched a reading is: modifiers on nouns, which say nothing of the goal, count."""
-    phrases = (node for node in nodes(tree) if isinstance(node, NounPhrase))
-    said: int = sum(getattr(node, "far_fetched", 0) for node in nodes(tree))
-    return said + sum(len(phrase.modifiers) + phrase.loose for phrase in phrases)
+    return sum(
+        getattr(node, "far_fetched", 0)
+        + (len(node.modifiers) + node.loose if isinstance(node, NounPhrase) else 0)
+        for node in nodes(tree)
+    )
