@@ -61,7 +61,7 @@ def branches_of(
     if past:
         goals = what_is_left(goals, scene)
     course = Course(past, scene)
-    looked_at = islice(_candidates(goals, scene, course), MAX_CHOICES)
+    looked_at = islice(_candidates(goals, scene, course, idle=not past), MAX_CHOICES)
     if any(found is not None and not found.branch.actions for found in looked_at):
         return
     seen: set[tuple[Action, ...]] = set()
@@ -114,14 +114,17 @@ def reached(goals: Sequence[Goal], scene: SceneState) -> Branch | None:
 
 
 def _candidates(
-    goals: Sequence[Goal], scene: SceneState, course: Course
+    goals: Sequence[Goal], scene: SceneState, course: Course, *, idle: bool = False
 ) -> Iterator[_Candidate | None]:
-    """One branch per choice; None where a choice makes no sense."""
+    """One branch per choice; None where a choice makes no sense, or (``idle``) has things to move,
+    which is told at once.
+    """
+    sketch = Sketch(scene)
     for goal in goals:
         ordered = replace(goal, steps=in_final_order(goal.steps))
         poses = [step.poses if isinstance(step, Pick | Put) else (None,) for step in ordered.steps]
         for choice in choices(ordered, scene, course.first):
-            if choice is None:
+            if choice is None or (idle and _moves_anything(ordered.steps, choice, sketch)):
                 yield None
                 continue
             for selected in product(*poses):
@@ -208,6 +211,17 @@ def _bring_back(
             aside = isinstance(step, Put) and step.aside
             if rode and not aside and lasting[put.name] == index:
                 sketch.put(put.name, put.relation, put.target, None, put.where, left_open)
+
+
+def _moves_anything(steps: Sequence[Step], choice: Choice, sketch: Sketch) -> bool:
+    """Whether anything is not where it is to be put."""
+    placed = (
+        placement
+        for index, placements in choice.placements.items()
+        if not (isinstance(step := steps[index], Put) and step.aside)
+        for placement in placements
+    )
+    return any(not sketch.holds(*placement) for placement in placed)
 
 
 def _in_the_way(name: str, choice: Choice, sketch: Sketch) -> bool:

@@ -96,6 +96,11 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         names = ", ".join(thing.name for thing in there)
         which = "one" if stays else "none"
         discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
+    for index in fixed if stays else ():
+        # "Leave the lily in the vase": of several vases the one that it is in.
+        around, left = discourse.referents[index], discourse.things(theme)
+        here = [o for o in around.options if all(touches(one, o[0], context.scene) for one in left)]
+        discourse.referents[index] = replace(around, options=tuple(here) or around.options)
 
 
 def leave_among(context: Context, themes: Sequence[int]) -> None:

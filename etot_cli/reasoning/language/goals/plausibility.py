@@ -74,8 +74,11 @@ def _moves(actions: Sequence[Action], *, ordered: bool) -> Moves:
 
 def holds_roughly(goal: Goal) -> bool:
     """Whether what holds already is that things are beside others, which may be meant nearer."""
-    places = (p for step in goal.steps if isinstance(step, Put) for p in step.places)
-    return any(near.landmarks for place in places for near in place.beside)
+    puts = [step for step in goal.steps if isinstance(step, Put)]
+    # "The tomato next to the onion" of two tells which one.
+    told = any(goal.referents[index].options[1:] for step in puts for index in step.what)
+    beside = (near for step in puts for place in step.places for near in place.beside)
+    return not told and any(near.landmarks for near in beside)
 
 
 def does_as_well(plans: Sequence[Moves], others: Sequence[Moves]) -> bool:

@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words
+from etot_cli.reasoning.language.words import manner, nouns, places
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -152,11 +152,14 @@ _matching = sequence(
     build=lambda: Modifier(Prep.MATCHING),
 )
 QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
-_none_of = sequence(
-    ADJECTIVE,
-    some(sequence(small_words.OR, ADJECTIVE), least=1, most=2),
-    build=lambda first, more: Modifier(Prep.QUALITY, words=(first, *more)),
+_none_of = valued(
+    separated(ADJECTIVE, "or, nor", most=3), lambda words: Modifier(Prep.QUALITY, words=words)
 )
+
+
+def _denied(modifier: Modifier) -> Modifier | None:
+    """What is not so; "the right not of the cup" is no English."""
+    return None if modifier.prep is Prep.OF else replace(modifier, denied=True)
 
 
 def _is_adjective(word: str) -> bool:
@@ -230,33 +233,16 @@ _modifier = either(
     _contents,
     _matching,
     sequence(nouns.RELATIVE, _described),
-    sequence(
-        "whose (color|colour) is",
-        optional(phrase("not", True), False),
-        QUALITY,
-        build=lambda denied, modifier: replace(modifier, denied=denied),
-    ),
     sequence("~comma which (is|are)", either(PLAIN_MODIFIER, QUALITY), COMMA),
     APPOSED,
+    sequence(nouns.RELATIVE_NOT, either(_described, _none_of), build=_denied),
     sequence(
-        nouns.RELATIVE_NOT,
-        either(_described, _none_of),
-        build=lambda modifier: replace(modifier, denied=True),
-    ),
-    sequence(
-        f"{nouns.RELATIVE_NOT}, {nouns.RELATIVE_NEITHER}",
-        separated(noun_phrase, "or, nor, and not", most=3),
-        build=_other_than,
-    ),
-    sequence(
-        nouns.RELATIVE_NEITHER,
-        separated(ADJECTIVE, "nor, or", most=3),
-        build=lambda words: Modifier(Prep.QUALITY, words=words, denied=True),
+        nouns.RELATIVE_NOT, separated(noun_phrase, "or, nor, and not", most=3), build=_other_than
     ),
     sequence(
         # "That is not in a cup and not red"
         either(sequence("[and] not, nor", PLAIN_MODIFIER), sequence("and not, nor", QUALITY)),
-        build=lambda modifier: None if modifier.prep is Prep.OF else replace(modifier, denied=True),
+        build=_denied,
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, build=excepting),

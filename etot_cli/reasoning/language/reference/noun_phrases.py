@@ -121,7 +121,7 @@ class Resolver:
         phrase = usual_form(self.as_labelled(phrase))
         if not phrase.words and (noun is None or phrase.determiner in _INCOMPLETE):
             raise ReferenceProblem(phrase.text, UNCLEAR)
-        if self._names_stack(phrase):
+        if self.names_stack(phrase):
             return meant_by_stack(self._stack(Modifier(Prep.OF, (phrase,))), role, phrase.head)
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
@@ -256,13 +256,14 @@ class Resolver:
             adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
         )  # fmt: skip
 
-    def _names_stack(self, phrase: NounPhrase) -> bool:
+    def names_stack(self, phrase: NounPhrase) -> bool:
+        """Whether it speaks of what lies upon each other, and of nothing that is called so."""
         return phrase.head in spellings(STACK) and not self.names(phrase.head)
 
     def _stack(self, modifier: Modifier) -> list[Thing]:
         """The stack that a modifier names, empty where it names none."""
         phrase = next(iter(modifier.phrases), NounPhrase())
-        if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self._names_stack(phrase):
+        if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self.names_stack(phrase):
             return []
         (inner, *_) = (*(np for m in phrase.modifiers for np in m.phrases), NounPhrase())
         every = replace(inner, determiner="all", words=inner.words or ("objects",))
@@ -293,11 +294,12 @@ class Resolver:
         ]
         if modifier.prep is Prep.ON and modifier.words:
             each = [[space.top_of(thing, self._scene) for thing in things] for things in each]
-        # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear;
-        # "everything in a box" is what one box holds.
+        # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear,
+        # what is not in the box is in none; "everything in a box" is what one box holds.
         ways = (
             [[thing] for thing in things]
-            if is_one(item) or (quantity.every and quantity_of(item.determiner).count == 1)
+            if not modifier.denied
+            and (is_one(item) or (quantity.every and quantity_of(item.determiner).count == 1))
             else [things]
             for item, things in zip(modifier.phrases, each, strict=True)
         )

@@ -169,6 +169,12 @@ class Phrases(Meanings):
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
+        if self.resolver.names_stack(phrase) and self.discourse.stacks:
+            if role not in (Role.THEME, Role.ANY):
+                raise ReferenceProblem(phrase.text, "say which thing it is to go on", 3)
+            stacked = self.discourse.stacks[max(self.discourse.stacks)]
+            self.discourse.mention_again(stacked, role)
+            return (stacked,)
         if quantity_of(phrase.determiner).other and excluded:
             self._note_where_they_are(phrase, role, excluded)
         holder = self._where_it_went(phrase, role, excluded)

@@ -39,12 +39,14 @@ RELATIVE = """
     (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)
     [currently|now|already],
     (that|which) (is|are) (standing|lying|sitting|placed|located|resting|kept|positioned),
-    that, which, standing, lying, sitting, placed, located, resting, kept, situated, positioned,
+    that, which, whose (color|colour) is, standing, lying, sitting, placed, located, resting, kept,
+    situated, positioned,
     currently
 """
 RELATIVE_NOT = """
     (that|which|who) (is|are) not [currently|yet], (that|which) do not (stand|lie|sit|rest),
-    (that|which) does not (stand|lie|sit|rest), (that|which) isn t, not being
+    (that|which) does not (stand|lie|sit|rest), (that|which) isn t, not being,
+    (that|which) (is|are) neither, whose (color|colour) is not
 """
 FREE_RELATIVE = """
     (what|whatever) (is|lies|stands|sits|rests) [currently|now|left],
@@ -69,7 +71,6 @@ MATCHING_ADJECTIVES = (
 )
 STACK = "stack, tower, pile"
 """Several things that lie upon each other."""
-RELATIVE_NEITHER = "(that|which) (is|are) neither"
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
     (that|which) (contains|holds|has|contain|hold|have)
