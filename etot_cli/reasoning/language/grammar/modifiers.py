@@ -157,6 +157,12 @@ _none_of = valued(
 )
 
 
+_denied_before = Parser(
+    lambda given, at: [(at, NOTHING)] if {"not", "neither"} & {*given.words[:at]} else []
+)
+"""Nothing, where anything was denied before, with which "nor" goes on."""
+
+
 def _denied(modifier: Modifier) -> Modifier | None:
     """What is not so; "the right not of the cup" is no English."""
     return None if modifier.prep is Prep.OF else replace(modifier, denied=True)
@@ -241,7 +247,11 @@ _modifier = either(
     ),
     sequence(
         # "That is not in a cup and not red"
-        either(sequence("[and] not, nor", PLAIN_MODIFIER), sequence("and not, nor", QUALITY)),
+        either(
+            sequence("[and] not", PLAIN_MODIFIER),
+            sequence("and not", QUALITY),
+            sequence(_denied_before, "nor", either(PLAIN_MODIFIER, QUALITY)),
+        ),
         build=_denied,
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
