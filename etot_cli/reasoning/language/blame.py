@@ -20,8 +20,9 @@ from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexi
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.world.state import DESK
 
-MAX_TRIES = 32
-"""Ways to mend a sentence that are tried: a third of a second at a usual sentence's time each."""
+MAX_WORDS_TRIED = 320
+"""Words of all ways to mend a sentence that are tried: 32 ways of ten words, and few of a long one
+that takes long to read; together a third of a second."""
 _PLACE = ("on", "the", DESK)
 """Where anything can go in every scene."""
 _PLACE_COSTS = 2.5
@@ -74,7 +75,7 @@ def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tup
         for at in range(2, many + 1)
         if at == many or (words[at] not in unread.nouns and _ends_phrase(words[at - 1]))
     ]
-    for _, _, start, end, place in sorted([*ways, *places])[:MAX_TRIES]:
+    for _, _, start, end, place in sorted([*ways, *places])[: MAX_WORDS_TRIED // many]:
         yield start, end, place
 
 
@@ -127,7 +128,7 @@ def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableE
         why = _cause(unread, words, index)
         odd = not index and word not in known.OPENING_WORDS
         odd |= word not in known.ALL_WORDS and (known.is_adverb(word) or word in known.REASONS)
-        if why and (index >= stop - 1 or odd or word in known.PUSHING):
+        if why and (index >= stop - 1 or odd or word in known.BLAMED):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
             return UnreadableError(shown(words[index:]), understood, why, without)

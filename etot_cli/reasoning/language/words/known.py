@@ -61,8 +61,8 @@ LINKS = word_set(
 """Words that are nothing without what stands behind them."""
 BEFORE_NOUNS = [(word,) for word in ("the", "a", "an", "my", "this", "that", "both", "all")]
 """Before what a verb is about; a noun has none of them behind it."""
-PUSHING = words_of((verbs.PULL,))
-"""Words for what is only done to open and to close, and to blame where more is asked for."""
+BLAMED = words_of((verbs.PULL,)) | {"where"}
+"""Words that are understood in some places only, and where they are not are what is wrong."""
 NEVER_NOUNS = frozenset({"the", "a", "an", "and", "or", "in", "on", "of", "not", "~comma", "to"})
 GRAMMAR_WORDS = frozenset(_FUNCTION.split()) | VERB_WORDS | OTHER_VERBS | {"~comma"}
 
