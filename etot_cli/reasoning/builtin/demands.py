@@ -20,8 +20,11 @@ def demands(goal: Goal) -> list[Demand]:
     for step in goal.steps:
         about = step.what if isinstance(step, Put) else (step.what,)
         for index in about:
-            demand = _any([_all([_one(step, thing, goal) for thing in option])
-                           for option in goal.referents[index].options])  # fmt: skip
+            ways = (
+                _joined("all", [_one(step, thing, goal) for thing in option])
+                for option in goal.referents[index].options
+            )
+            demand = _joined("any", [*ways])
             if demand is None:
                 found.pop(goal.referents[index].options, None)
             else:
@@ -43,15 +46,7 @@ def _one(step: Step, thing: Thing, goal: Goal) -> Demand | None:
         if place.where is not None
         for end in things_in(goal.referents[place.where].options)
     ]
-    return _any([*ends])
-
-
-def _any(given: list[Demand | None]) -> Demand | None:
-    return _joined("any", given)
-
-
-def _all(given: list[Demand | None]) -> Demand | None:
-    return _joined("all", given)
+    return _joined("any", [*ends])
 
 
 def _joined(key: str, given: list[Demand | None]) -> Demand | None:

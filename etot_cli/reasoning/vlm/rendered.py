@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import threading
 import time
 from concurrent.futures import Future
 
@@ -33,14 +34,31 @@ class NominalOutcomes:
 
     def __init__(self) -> None:
         self._outcomes: dict[int, WorldOutcome] = {}
+        self._awaited: list[Future[Simulated]] = []
+        self._lock = threading.Lock()
+
+    def expect(self, simulated: Future[Simulated]) -> None:
+        """An action is being simulated there."""
+        with self._lock:
+            self._awaited.append(simulated)
 
     def remember(self, outcome: WorldOutcome) -> None:
         """An action has been simulated there."""
         self._outcomes[id(outcome.record)] = outcome
 
+    def outcome_of(self, record: RolloutRecord) -> WorldOutcome | None:
+        """What a record is of; None where that is another world."""
+        with self._lock:
+            arrived = [item for item in self._awaited if item.done()]
+            self._awaited = [item for item in self._awaited if item not in arrived]
+            for item in arrived:
+                if not item.cancelled() and item.exception() is None:
+                    self.remember(item.result().outcomes[0])
+        return self._outcomes.get(id(record))
+
     def knows(self, record: RolloutRecord) -> bool:
         """Whether a record is of the nominal world."""
-        return id(record) in self._outcomes
+        return self.outcome_of(record) is not None
 
 
 class RenderedFrames(NominalOutcomes):
@@ -92,7 +110,7 @@ class RenderedFrames(NominalOutcomes):
         self, record: RolloutRecord, count: int, *, marks: bool = False, hints: bool = True
     ) -> list[Picture]:
         """Before, key moments, after; empty for an action of another world."""
-        outcome = self._outcomes.get(id(record))
+        outcome = self.outcome_of(record)
         if outcome is None or count <= 0:
             return []
         trajectory = outcome.trajectory
@@ -174,30 +192,9 @@ class Watched:
         self, state: StateToken, action: Action, until_s: float = NEVER
     ) -> Future[Simulated]:
         """As the simulator's; the outcome can be looked at once it is there."""
-        inner = self._simulator.submit(state, action, until_s)
-        # A future of our own: whoever waits for it finds the outcome already remembered.
-        outer: Future[Simulated] = Future()
-
-        def arrived(done: Future[Simulated]) -> None:
-            if done.cancelled():
-                outer.cancel()
-            if not outer.set_running_or_notify_cancel():
-                return
-            error = done.exception()
-            if error is not None:
-                outer.set_exception(error)
-                return
-            simulated = done.result()
-            self._outcomes.remember(simulated.outcomes[0])
-            outer.set_result(simulated)
-
-        def abandoned(done: Future[Simulated]) -> None:
-            if done.cancelled():
-                inner.cancel()
-
-        outer.add_done_callback(abandoned)
-        inner.add_done_callback(arrived)
-        return outer
+        simulated = self._simulator.submit(state, action, until_s)
+        self._outcomes.expect(simulated)
+        return simulated
 
     def close(self) -> None:
         """As the simulator's."""

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.selection import select
+from etot_cli.reasoning.language.reference.space import carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
 from etot_cli.reasoning.language.words.lexicon import SIZES
 
@@ -99,7 +100,7 @@ def swap(context: Context, clause: SwapClause) -> None:
     if any(index in context.discourse.put for index in stay):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
-    if _carries(context, things[0], things[1]) or _carries(context, things[1], things[0]):
+    if carries(things[0], things[1], context.scene):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
     if clause.replaces:
         away = Put((themes[0],), (context.places.on_the_desk(),), removal=True)
@@ -116,9 +117,3 @@ def swap(context: Context, clause: SwapClause) -> None:
         Put((second,), (homes[0],)),
         Put((first,), (homes[1],)),
     ]
-
-
-def _carries(context: Context, below: Thing, above: Thing) -> bool:
-    state = context.scene.states[above.name]
-    around = [*state.on, *([state.inside] if state.inside else [])]
-    return any(item.partition(".")[0] == below.name for item in around)

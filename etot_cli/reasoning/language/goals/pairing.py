@@ -110,12 +110,23 @@ def by_color(context: Context, group: PutGroup) -> None:
     for thing in things:
         theme = context.single(thing, text)
         found = _of_color(context, thing, targets, group.destinations[0].targets[0].text)
-        referent = Resolved(tuple((target,) for target in found), noun=found[0].name)
-        where = context.discourse.add(referent, text, _ROLES[toward])
-        places = tuple(context.places.relations_to(toward, where, [theme]))
-        context.discourse.put |= {theme}
-        context.steps.append(Put((theme,), places))
-        context.discourse.last_places = places
+        any_of_them = Resolved(tuple((target,) for target in found), noun=found[0].name)
+        _put(context, [theme], toward, any_of_them, text, Grouping.ANY)
+
+
+def _put(
+    context: Context,
+    themes: Sequence[int],
+    toward: Toward,
+    resolved: Resolved,
+    text: str,
+    grouping: Grouping,
+) -> None:
+    where = context.discourse.add(resolved, text, _ROLES[toward])
+    places = tuple(context.places.relations_to(toward, where, themes))
+    context.discourse.put |= {*themes}
+    context.steps.append(Put(tuple(themes), places, grouping))
+    context.discourse.last_places = places
 
 
 def _places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[Thing]]:
@@ -214,8 +225,4 @@ def one_each(context: Context, group: PutGroup) -> None:
         if number != count:
             raise ReferenceProblem(text, f"there are {number} things for {count} places", 2)
     every = Resolved((tuple(targets),), definite=True, noun=text.split()[-1])
-    where = context.discourse.add(every, text, _ROLES[toward])
-    places = tuple(context.places.relations_to(toward, where, themes))
-    context.discourse.put |= {*themes}
-    context.steps.append(Put(tuple(themes), places, Grouping.SEPARATELY))
-    context.discourse.last_places = places
+    _put(context, themes, toward, every, text, Grouping.SEPARATELY)

@@ -149,9 +149,7 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
     if side not in ("top", "bottom"):
         ordered = space.by_side(side, things, scene)
         for one, other in pairwise(ordered):
-            if space.are_level(side, one, other, scene):
-                names = f"{one.name} and {other.name}"
-                raise ReferenceProblem(phrase, f"{names} are as far to that side", 2, word=side)
+            _check_apart(side, one, other, scene, phrase, side)
         return ordered
     if len({thing.name for thing in things}) == 1 and (things[0].part or things[0].board):
         # Parts are listed from the top down, boards from the bottom up.
@@ -202,9 +200,7 @@ def _nth(
     level = not (chosen[0].part or chosen[0].board or not side)
     for other in [thing for thing in things if level and thing not in chosen]:
         for found in chosen:
-            if space.are_level(side, found, other, scene):
-                why = f"{found.name} and {other.name} are as far to that side"
-                raise ReferenceProblem(phrase, why, 2, word=ordinal)
+            _check_apart(side, found, other, scene, phrase, ordinal)
     return chosen
 
 
@@ -290,11 +286,17 @@ def _at_side(
         return [middle]
     ordered = space.by_side(side, things, scene)
     leading = _leading(ordered, count, phrase)
-    next_one = ordered[len(leading) : len(leading) + 1]
-    if next_one and space.are_level(side, leading[-1], next_one[0], scene):
-        names = f"{leading[-1].name} and {next_one[0].name}"
-        raise ReferenceProblem(phrase, f"{names} are as far to that side", 2, word=side)
+    for other in ordered[len(leading) : len(leading) + 1]:
+        _check_apart(side, leading[-1], other, scene, phrase, side)
     return leading
+
+
+def _check_apart(
+    side: str, one: Thing, other: Thing, scene: SceneState, phrase: str, word: str
+) -> None:
+    if space.are_level(side, one, other, scene):
+        why = f"{one.name} and {other.name} are as far to that side"
+        raise ReferenceProblem(phrase, why, 2, word=word)
 
 
 def _leading(ordered: list[Thing], count: int | None, phrase: str) -> list[Thing]:

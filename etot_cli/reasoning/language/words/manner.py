@@ -6,15 +6,12 @@ OPEN_STATE = "[wide|all the way|fully|completely] open, opened"
 CLOSED_STATE = "[fully|completely|properly|all the way] (closed|shut)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
-UNLESS_OPEN = """
-    if [it is|they are] [still|currently] (closed|shut), unless (it is|they are) [already] open,
-    if (it is|they are) not [already] open[ed], if not [already] open[ed], if (necessary|needed)
+_UNLESS = """
+    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so},
+    if (it is|they are|) not [already] {so}, if (necessary|needed)
 """
-UNLESS_CLOSED = """
-    if [it is|they are] [still|currently] open, unless (it is|they are) [already] (closed|shut),
-    if (it is|they are) not [already] (closed|shut), if not [already] (closed|shut),
-    if (necessary|needed)
-"""
+UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
+UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
 EMPTIED = "empty, emptied [out], cleared [out]"
 STATES = "open, opened, closed, shut, ajar, empty, full, filled, toppled, fallen, tipped over"

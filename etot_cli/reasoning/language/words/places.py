@@ -96,12 +96,11 @@ ON_IT = "on"
 """Of a lid: on what was filled."""
 HERE = "inside, in there, on there, there, on top, in, into it"
 HOME = """
-    back [to its place], to (its|their|the) [original|old|previous] (place|places|position|spot),
-    back to (its|their) [original|old] (place|places|position|spot),
-    back in (its|their) (place|places|position|spot),
-    [back] in (its|their) (original|old|previous) (place|places|position|spot),
-    [back] (to|) where (it|they) (was|were|came from),
-    [back] to where (it|they) (was|were) before, to its original position,
+    back [to its place],
+    [back] to (its|their|the) [original|old|previous] (place|places|position|spot),
+    back in (its|their) [original|old|previous] (place|places|position|spot),
+    in (its|their) (original|old|previous) (place|places|position|spot),
+    [back] [to] where (it|they) (was|were) [before], [back] [to] where (it|they) came from,
     back where (it|they) belong[s]
 """
 ITS_SIDE: dict[Nearby, str] = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from etot_cli.reasoning.vlm.reading.jsons import find_object, looks_like_json, text_field
@@ -11,12 +11,12 @@ from etot_cli.reasoning.vlm.reading.steps import (
     Misread,
     RawStep,
     bare_step,
+    make_step,
     read_pose,
     read_verb,
     skip_connectors,
     step_at,
 )
-from etot_cli.reasoning.vlm.reading.steps import _step as make_step
 from etot_cli.reasoning.vlm.reading.text import Line, lines_of
 from etot_cli.skills.action import MAX_PLAN_ACTIONS
 
@@ -282,17 +282,13 @@ def _branch(branch: object) -> ReadPlan:
         steps = branch.get("steps", branch.get("actions", branch.get("plan")))
     if isinstance(steps, str):
         read = read_plans(steps) if "{" not in steps else ReadPlans(())
-        return ReadPlan(*_first(read), reason) if read.plans else ReadPlan((), ("no steps",))
+        return replace(read.plans[0], reason=reason) if read.plans else ReadPlan((), ("no steps",))
     if not isinstance(steps, list):
         return ReadPlan((), ("the steps are no list",), reason)
     block = _Block(reason)
     for item in steps[: MAX_PLAN_ACTIONS + 1]:
         block.add(_json_step(item))
     return ReadPlan(tuple(block.steps), tuple(dict.fromkeys(block.problems))[:5], reason[:200])
-
-
-def _first(read: ReadPlans) -> tuple[tuple[RawStep, ...], tuple[str, ...]]:
-    return read.plans[0].steps, read.plans[0].problems
 
 
 def _json_step(item: object) -> RawStep | Misread:
@@ -314,5 +310,5 @@ def _json_step(item: object) -> RawStep | Misread:
     step = make_step(head[0], [name for name in (head[1], *names) if name.strip()], note)
     pose = read_pose(text_field(item.get("pose")))
     if isinstance(step, RawStep) and pose is not None:
-        return RawStep(step.verb, step.target, pose, step.note, step.moved)
+        return replace(step, pose=pose)
     return step

@@ -124,7 +124,7 @@ def bare_step(text: str) -> RawStep | Misread | None:
     moved = _MOVE.match(text)
     if moved and read_verb(text.split()[0] + " " + moved["how"]):
         verb = Verb.PUT_ON if re.search(r"(?i)\bon", moved["how"]) else Verb.PUT_INTO
-        return _step(verb, [moved["what"], moved["where"]], note)
+        return make_step(verb, [moved["what"], moved["where"]], note)
     found = read_verb(text)
     if found is None:
         return None
@@ -137,7 +137,7 @@ def bare_step(text: str) -> RawStep | Misread | None:
         rest = rest.strip(" ,-()")
     if not rest:
         return Misread(f"{verb.value} without an object")
-    step = _step(verb, [rest], note)
+    step = make_step(verb, [rest], note)
     if isinstance(step, RawStep) and pose is not None:
         return RawStep(step.verb, step.target, pose, step.note)
     return step
@@ -190,7 +190,7 @@ def _finish(verb: Verb, arguments: list[str], rest: str, marked: bool) -> Found 
             if prose or (not marked and len(words(loose)) > _LOOSE_NOTE_WORDS):
                 return None
             note, rest = loose or None, ""
-    return Found(_step(verb, arguments, note), rest)
+    return Found(make_step(verb, arguments, note), rest)
 
 
 def _note_behind(rest: str) -> tuple[str | None, str]:
@@ -221,7 +221,8 @@ def skip_connectors(rest: str) -> str:
     )
 
 
-def _step(verb: Verb, arguments: list[str], note: str | None) -> RawStep | Misread:
+def make_step(verb: Verb, arguments: list[str], note: str | None) -> RawStep | Misread:
+    """An action of its parts as written: names, a pose among them, the remark beside it."""
     pose = None
     names: list[str] = []
     for argument in arguments:

@@ -12,6 +12,9 @@ from etot_cli.reasoning.vlm.reading.text import MAX_TEXT
 
 Word = Literal["yes", "no", "none"]
 
+_WORDS: dict[str, Word] = {
+    "yes": "yes", "true": "yes", "no": "no", "false": "no", "none": "none",
+}  # fmt: skip
 _KEYS = ("verdict", "answer", "result", "decision", "stabilizes", "success", "yes")
 _MARKER = re.compile(
     r"(?ix)"
@@ -51,12 +54,9 @@ def read_verdict(reply: str) -> ReadVerdict:
     found = [match[1].lower() for match in _markers(reply)]
     if not found:
         return ReadVerdict(None)
-    first, last = _word(found[0]), _word(found[-1])
-    shouted = [match[1].lower() for match in _markers(reply) if match["shout"]]
     # Where the asked-for form ("Yes!!!") occurs, other mentions are explanation.
-    if shouted:
-        first, last = _word(shouted[0]), _word(shouted[-1])
-        found = shouted
+    found = [match[1].lower() for match in _markers(reply) if match["shout"]] or found
+    first, last = _WORDS[found[0]], _WORDS[found[-1]]
     corrected = read_plans(reply).plans if last == "no" else ()
     return ReadVerdict(last, first, last, len(set(found)) > 1, corrected)
 
@@ -65,21 +65,6 @@ def _markers(reply: str) -> list[re.Match[str]]:
     return list(_MARKER.finditer(reply[-MAX_TEXT:]))
 
 
-def _word(text: str) -> Word:
-    if text == "yes":
-        return "yes"
-    return "no" if text == "no" else "none"
-
-
 def _as_word(value: object) -> Word | None:
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, str):
-        text = value.strip(" .!\"'").lower()
-        if text in ("yes", "true"):
-            return "yes"
-        if text in ("no", "false"):
-            return "no"
-        if text == "none":
-            return "none"
-    return None
+    text = str(value) if isinstance(value, bool | str) else ""
+    return _WORDS.get(text.strip(" .!\"'").lower())
