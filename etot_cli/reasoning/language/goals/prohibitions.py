@@ -14,10 +14,12 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Destination,
+    NounPhrase,
     Things,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import addresses
+from etot_cli.reasoning.language.reference.space import addresses, touches
+from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
 _KEEPS = {
@@ -58,6 +60,12 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     for referent in (context.discourse.referents[index] for index in indices):
         if referent.distinct_from and len(referent.options) > 1:
             raise ReferenceProblem(referent.text, "say which one", 3)
+    if clause.avoid is Avoid.MOVE:
+        homes = [context.home(thing) for thing in context.discourse.things(*indices)]
+        check_alone(context, clause.things.phrases, indices, homes)
+    for index in indices if clause.avoid is Avoid.CLOSE else ():
+        if not context.discourse.is_spoken(index):
+            context.discourse.as_it_stands(index, is_open)
     # "Without touching a cup" is about all of them.
     things = context.discourse.things(*indices)
     parted = role is Role.PART
@@ -76,6 +84,27 @@ def avoid(context: Context, clause: AvoidClause) -> None:
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
         return
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def check_alone(
+    context: Context, phrases: Sequence[NounPhrase], themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "only the cup" is where only it is to be: all else would have to go from there."""
+    own = {thing.name for thing in context.discourse.things(*themes)}
+    where = [place.where for place in places if place.where is not None]
+    there = [
+        name
+        for name, info in context.scene.infos.items()
+        for at in context.discourse.things(*where)
+        if info.movable and name not in own and touches(Thing(name), at, context.scene)
+    ]
+    for phrase in phrases if there else ():
+        if is_only(phrase.determiner):
+            others = (
+                f"{there[0]} and the {len(there) - 1} others" if there[2:] else " and ".join(there)
+            )
+            why = f"say where to put {others} that would be there, too"
+            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
 
 
 def _moves_anyway(context: Context, things: Things) -> bool:
@@ -137,14 +166,8 @@ def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> No
     now is meant; ``every``: all are.
     """
     holds = is_open if word == "open" else is_closed
-    referent = context.discourse.referents[index]
-    for option in referent.options[:1] if len(referent.options) == 1 and not every else ():
-        parts = [part for thing in option for part in parts_of(context.scene, thing)]
-        standing = [Thing(p.owner, p.name) for p in parts if holds(context.scene, p)]
-        if 0 < len(standing) < len(parts):
-            one = len(option) == 1
-            options = tuple((thing,) for thing in standing) if one else (tuple(standing),)
-            context.discourse.referents[index] = replace(referent, options=options)
+    if not every:
+        context.discourse.as_it_stands(index, holds)
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
             if holds(context.scene, part):

@@ -51,7 +51,12 @@ from etot_cli.reasoning.language.goals.placing import (
     spread,
     upright,
 )
-from etot_cli.reasoning.language.goals.prohibitions import keep_as_it_is, leave_out, rule_out
+from etot_cli.reasoning.language.goals.prohibitions import (
+    check_alone,
+    keep_as_it_is,
+    leave_out,
+    rule_out,
+)
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -70,6 +75,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
+from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
 
@@ -115,6 +121,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
+        if clause.stays or wherever:
+            check_alone(context, group.things.phrases, themes, places)
         check_taken(context, group, themes, places)
         check_poured(context, group, themes, places)
         if group.upright:
@@ -153,7 +161,7 @@ def ensure(context: Context, state: State) -> None:
                     all_of_them = quantity_of(phrase.determiner).every
                     keep_as_it_is(context, index, state.word, every=all_of_them)
                 context.steps.append(_made(index, opens=state.word == "open"))
-            if phrase.determiner.startswith(("only", "just")):
+            if is_only(phrase.determiner):
                 every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
                 for thing in context.phrases.meaning(every, Role.PART).options[0]:
                     if thing not in context.discourse.things(index):

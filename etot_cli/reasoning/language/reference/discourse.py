@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
+from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, PartInfo, SceneState
 
 
 @dataclass
@@ -143,6 +145,21 @@ class Discourse:
         again = any(same_noun(noun, resolved.noun) for noun in nouns)
         source = not nouns and any(place.where == referent for place in self.last_places)
         return earlier < now and (again or source)
+
+    def as_it_stands(self, referent: int, so: Callable[[SceneState, PartInfo], bool]) -> None:
+        """Of a chest of drawers that is spoken of, keeps the drawers that are so now; all, if none
+        or all of them are.
+        """
+        (option, *more) = self.referents[referent].options
+        parts = [part for thing in option for part in parts_of(self.scene, thing)]
+        now = tuple(Thing(part.owner, part.name) for part in parts if so(self.scene, part))
+        if not more and 0 < len(now) < len(parts):
+            options = tuple((thing,) for thing in now) if len(option) == 1 else (now,)
+            self.referents[referent] = replace(self.referents[referent], options=options)
+
+    def is_spoken(self, referent: int) -> bool:
+        """Whether a referent was mentioned more than once."""
+        return sum(mention.referent == referent for mention in self.mentions) > 1
 
     def mention_again(self, referent: int, role: Role) -> None:
         """Notes that a pronoun spoke of a referent."""

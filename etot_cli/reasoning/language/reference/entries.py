@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     COMMON_NOUNS,
+    COMPOUNDS,
     CONTAINER_NOUNS,
     HELPING_NOUNS,
     JOINT_NOUNS,
@@ -100,6 +101,13 @@ class Entry:
     def only_tells(self, word: str) -> bool:
         """Whether a word stands in its name before the noun and does not name it."""
         return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
+
+    def is_compound(self, noun: str) -> bool:
+        """Whether it is called by a noun only with the word before it ("trash can")."""
+        before = COMPOUNDS.get(singular(noun), frozenset())
+        return any(
+            w in before and matches_any(noun, (n,)) for c in self.called for w, n in pairwise(c)
+        )
 
     def holds(self) -> bool:
         """Whether it may be for something: a vessel, furniture, a holder or a tool."""

@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.reference.sifting import (
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
+    COMPOUNDS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
     KIND_NOUNS,
@@ -259,6 +260,9 @@ def _match_in(
         return Match((exactly[0][0],), named=named, whole=True)
     if number is not None:
         sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
+    if not any(word in COMPOUNDS.get(singular(head), ()) for word in adjectives):
+        plain = [item for item in sifted.graded if not item[0].is_compound(head)]
+        sifted.graded = plain or sifted.graded
     # Where some are called parcels a crate is none, whatever colour is said.
     called_so = [item for item in sifted.graded if item[1] in (EXACT, HEAD)]
     sifted.graded = called_so or sifted.graded

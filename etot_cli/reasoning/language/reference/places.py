@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import FILLED, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     matches_any,
 )
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
 from etot_cli.world.state import DESK, SceneState
 
@@ -130,6 +131,9 @@ class Places:
             if phrase.pronoun and toward is Toward.ON:
                 index = self._upon_it(phrase.text, index, themes)
             self._check_carried(phrase, index, themes)
+            drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
+            if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
+                self.discourse.as_it_stands(index, is_open)
             found += self._on_first(phrase, self.relations_to(toward, index, themes))
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)

@@ -60,8 +60,15 @@ TWINS: tuple[tuple[str, ...], ...] = (
      "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash", "garbage"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
+RUBBISH = word_set("trash rubbish garbage waste litter recycling")
+"""What is put where it belongs, called by the same word."""
 REFUSE = ("trash", "garbage")
 """Names of a bin and of what goes there."""
+COMPOUNDS: dict[str, frozenset[str]] = {
+    "can": RUBBISH | {"watering"}, "butter": word_set("peanut almond cashew cocoa"),
+    "cream": word_set("ice shaving hand"), "dog": word_set("hot"),
+}  # fmt: skip
+"""Nouns that with some word before them mean no such thing: a trash can is none of the cans."""
 PURPOSES = word_set(
     """
     coffee tea water milk beer wine juice soup salad fruit cereal sugar salt pepper flower
@@ -116,8 +123,6 @@ BINS = word_set(
     """
 )
 """Words of names of what things are thrown into when they are but put there."""
-RUBBISH = word_set("trash rubbish garbage waste litter recycling")
-"""What is put where it belongs, called by the same word."""
 JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "slide": ("drawer", "tray", "layer", "compartment", "level", "rack", "shelf"),
     "hinge": ("door", "lid", "flap", "cover"),
