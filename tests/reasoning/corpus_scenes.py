@@ -1126,3 +1126,23 @@ def sideboard() -> SceneState:
         item("mat_2", "box", (0.42, -0.10), size=FLAT, label="red mat", color="red"),
         item("mat_3", "box", (0.42, -0.35), size=FLAT, label="gray mat", color="gray"),
     )
+
+
+def break_room() -> SceneState:
+    """Cans, one of them for trash; a glass and reading glasses; a tray with two things on it."""
+    return scene(
+        item("waste", "bowl", (0.60, -0.40), size=(0.18, 0.18, 0.14), label="garbage can"),
+        item("bin", "bowl", (0.60, 0.45), size=(0.18, 0.18, 0.14), label="recycling bin"),
+        item("cola", "cylinder", (0.30, 0.45), size=(0.06, 0.06, 0.11), label="cola can"),
+        item("beans", "cylinder", (0.30, 0.35), size=(0.06, 0.06, 0.11), label="bean can"),
+        cup("goblet", (0.30, 0.22), label="wine glass"),
+        item("specs", "box", (0.30, 0.10), size=(0.07, 0.04, 0.02), label="reading glasses"),
+        item("tray", "box", (0.60, 0.05), size=(0.24, 0.30, 0.02), color="brown"),
+        cup("jug", (0.60, 0.12), on="tray"),
+        item("saucer", "cylinder", (0.60, -0.02), size=(0.10, 0.10, 0.01), on="tray"),
+        item("shelf", "box", (0.78, 0.05), size=(0.20, 0.40, 0.05), mass=9, label="window sill"),
+        item("plate_1", "cylinder", (0.42, -0.20), size=(0.14, 0.14, 0.015), label="plate"),
+        item("plate_2", "cylinder", (0.42, -0.45), size=(0.14, 0.14, 0.015), label="plate"),
+        item("fork_1", "box", (0.28, -0.12), size=(0.14, 0.02, 0.01), label="fork"),
+        item("fork_2", "box", (0.28, -0.30), size=(0.14, 0.02, 0.01), label="fork"),
+    )  # fmt: skip

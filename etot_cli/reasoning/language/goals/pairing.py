@@ -6,19 +6,24 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, islice
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing, things_in
+from scipy.optimize import linear_sum_assignment
+
+from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     NounPhrase,
+    PutClause,
     PutGroup,
     Toward,
 )
-from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.space import gap
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -85,13 +90,13 @@ def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE, Toward.TO: Role.PLACE}
 
 
-def is_by_color(group: PutGroup) -> bool:
+def _is_by_color(group: PutGroup) -> bool:
     """Whether a phrase of a group says that things and places match."""
     targets = [target for item in group.destinations for target in item.targets]
     return any(map(is_matching, (*group.things.phrases, *targets)))
 
 
-def by_color(context: Context, group: PutGroup) -> None:
+def _by_color(context: Context, group: PutGroup) -> None:
     """Adds a step for each thing, to the places of its colour."""
     phrases, text = group.things.phrases, group.things.text
     toward, targets = _places(context, group, text)
@@ -152,6 +157,50 @@ def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str)
     return found
 
 
+def add_pairs(context: Context, clause: PutClause, group: PutGroup) -> bool:
+    """Adds the steps of a clause in which each thing gets a place of its own; whether it is one."""
+    if clause.by_color or _is_by_color(group):
+        _by_color(context, group)
+    elif clause.one_each or _is_one_each(group):
+        _one_each(context, group)
+    elif _is_beside_each(group):
+        _beside_each(context, group)
+    else:
+        return False
+    return True
+
+
+def _is_beside_each(group: PutGroup) -> bool:
+    """Whether each of several landmarks is to get one thing ("a mug beside each plate")."""
+    beside = [item for where in group.destinations for item in where.beside]
+    each = any(is_distributive(np.determiner) for item in beside for np in item.phrases)
+    things = group.things.phrases
+    return each and len(things) == 1 and _is_one(things[0])
+
+
+def _beside_each(context: Context, group: PutGroup) -> None:
+    """Adds a step for each landmark, which gets the thing that is close to it.
+
+    Raises:
+        ReferenceProblem: there are fewer things, or more is said of the place.
+    """
+    (phrase,), (where, *more) = group.things.phrases, group.destinations
+    (beside, *others) = where.beside
+    if more or others or where.targets or len(beside.phrases) != 1:
+        raise ReferenceProblem(phrase.text, "say in a sentence of its own what goes where", 2)
+    marks = things_in(context.phrases.meaning(beside.phrases[0], Role.ANY).options)
+    resolved = context.phrases.meaning(phrase, Role.THEME)
+    things = [thing for thing in things_in(resolved.options) if thing not in marks]
+    if len(things) < len(marks):
+        why = f"there are {len(things)} for {len(marks)} places"
+        raise ReferenceProblem(phrase.text, why, 2)
+    away = [[gap(thing, mark, context.scene) for mark in marks] for thing in things]
+    for i, j in zip(*linear_sum_assignment(away), strict=True):
+        theme = context.single(things[i], phrase.text)
+        near = Near(beside.relation, (context.single(marks[j], beside.phrases[0].text),))
+        add_put(context, (theme,), (Place(Relation.ON, None, (near,)),), Grouping.ANY)
+
+
 def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
     """Whether there are as many places as things that are each to have one of their own.
 
@@ -183,7 +232,7 @@ def count_of_places(context: Context, group: PutGroup, places: Sequence[Place]) 
     return quantity_of(target.determiner).count or (len(there) if plural else 0)
 
 
-def is_one_each(group: PutGroup) -> bool:
+def _is_one_each(group: PutGroup) -> bool:
     """Whether every place is to get one of some things ("a ball in every cup")."""
     things, destinations = group.things.phrases, group.destinations
     return (
@@ -202,7 +251,7 @@ def _is_one(phrase: NounPhrase) -> bool:
     return quantity.count == 1 and not quantity.definite and not quantity.other
 
 
-def one_each(context: Context, group: PutGroup) -> None:
+def _one_each(context: Context, group: PutGroup) -> None:
     """Adds a step in which every place gets exactly one of the things."""
     text = group.destinations[0].targets[0].text if group.destinations[0].targets else ""
     toward, targets = _places(context, group, text)

@@ -100,9 +100,8 @@ def check_alone(
     ]
     for phrase in phrases if there else ():
         if is_only(phrase.determiner):
-            others = (
-                f"{there[0]} and the {len(there) - 1} others" if there[2:] else " and ".join(there)
-            )
+            more = f"the {len(there) - 1} others" if there[2:] else there[-1]
+            others = f"{there[0]} and {more}" if there[1:] else there[0]
             why = f"say where to put {others} that would be there, too"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
 

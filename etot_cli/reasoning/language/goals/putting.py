@@ -32,15 +32,12 @@ from etot_cli.reasoning.language.goals.choosing import (
 from etot_cli.reasoning.language.goals.closer import certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import (
-    by_color,
+    add_pairs,
     check_enough,
     count_of_places,
     distributed,
     elsewhere,
-    is_by_color,
     is_different,
-    is_one_each,
-    one_each,
 )
 from etot_cli.reasoning.language.goals.placing import (
     add_put,
@@ -90,11 +87,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
-        if clause.by_color or is_by_color(group):
-            by_color(context, group)
-            continue
-        if clause.one_each or is_one_each(group):
-            one_each(context, group)
+        if add_pairs(context, clause, group):
             continue
         context.tell_others(group.things, group.destinations)
         away = context.places.no_themes(group.destinations)

@@ -87,12 +87,13 @@ def _contents_with(having: str, denied: bool) -> Parser:
     return sequence(
         having,
         noun_phrase,
+        optional(sequence("and", noun_phrase), None),
         optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
         # "Without" before a bare noun may stand before anything.
-        build=lambda np, prep: (
+        build=lambda np, other, prep: (
             None
-            if denied and prep is Prep.WITH and not np.determiner
-            else Modifier(prep, (np,), denied=denied)
+            if denied and (other or (prep is Prep.WITH and not np.determiner))
+            else Modifier(prep, (np, other) if other else (np,), denied=denied)
         ),
     )
 

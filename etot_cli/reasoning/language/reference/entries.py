@@ -91,7 +91,10 @@ class Entry:
         if noun in self.exact:
             return EXACT
         if matches_any(noun, self.heads) or matches_any(noun.replace("_", ""), self.heads):
-            return HEAD
+            # Reading glasses are rather no glass; one of the "drawers" is a drawer.
+            levels = self.info is None or self.info.parts or self.info.boards
+            pair = not levels and is_plural_of(self.heads[0], (noun,))
+            return GENERIC if pair else HEAD
         if matches_any(noun, self.generic):
             return GENERIC
         if matches_any(noun, self.content):

@@ -176,7 +176,7 @@ def holds_at(
         ),
     }
     if prep in tests:
-        return first != ROBOT and tests[prep](first)
+        return first != ROBOT and all(map(tests[prep], landmarks))
     if prep in RELATIONS and any(landmark.name == DESK for landmark in landmarks):
         return False  # what is beside the desk is off it
     match prep:
