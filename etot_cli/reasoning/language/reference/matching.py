@@ -30,7 +30,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMPOUNDS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
-    HELPING_NOUNS,
     KIND_NOUNS,
     LEVELS,
     MATERIALS,
@@ -293,7 +292,7 @@ def _match_in(
     loose = best == CONTENT or (
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
-    if loose and (matches_any(head, HELPING_NOUNS) or any(map(is_object, entries))):
+    if loose and any(is_object(entry) for entry in entries):
         sifted.notes.append(f"read {head!r} as {names_of(entries)}")
     return Match(
         entries,
