@@ -23,10 +23,13 @@ NO_WORD = ""
 MAX_WORK = 4000
 """Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
 need some hundreds."""
+MAX_NESTED = 100
+"""Parsers within each other that are followed; sentences of the tests need up to 45, and the
+interpreter's own bound comes at some 250."""
 
 
 class TooManyReadings(Exception):
-    """The words can be put together in more ways than can be looked at."""
+    """The words can be put together in more ways, or more deeply, than can be looked at."""
 
 
 @dataclass
@@ -44,6 +47,7 @@ class Input:
     """Up to here some reading could follow the words."""
     _memo: dict[tuple[int, int], Sequence[Result]] = field(default_factory=dict)
     _work: int = 0
+    _nested: int = 0
 
     @cached_property
     def ahead(self) -> tuple[str, ...]:
@@ -55,7 +59,11 @@ class Input:
         key = (id(find), at)
         if key not in self._memo:
             self._memo[key] = ()  # nothing of the grammar begins with itself
+            self._nested += 1
+            if self._nested > MAX_NESTED:
+                raise TooManyReadings
             self._memo[key] = find(self, at)
+            self._nested -= 1
         return self._memo[key]
 
     def counted(self, found: Sequence[Result]) -> Sequence[Result]:
