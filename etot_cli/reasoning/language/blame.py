@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from etot_cli.reasoning.language.grammar.parsing import Input
+from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.reader import (
     SHOWN_WORDS,
     UnreadableError,

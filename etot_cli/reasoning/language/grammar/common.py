@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from etot_cli.reasoning.language.grammar import text
+from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import (
-    Input,
     Parser,
     Rule,
     either,

@@ -11,11 +11,10 @@ from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
-    Input,
     Parser,
-    Result,
     Rule,
     at_end,
     either,

@@ -9,74 +9,14 @@ the words that their readings may begin with, and are not asked where another on
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.input import NO_WORD, Find, Input, Result
 from etot_cli.reasoning.language.words.patterns import spellings
 
-Result = tuple[int, Any]
-Find = Callable[["Input", int], Sequence[Result]]
 First = frozenset[str] | None
 """Words that readings may begin with, NO_WORD for those of none; None where a test tells them."""
-NO_WORD = ""
-MAX_WORK = 4000
-"""Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
-need some hundreds."""
-MAX_NESTED = 100
-"""Parsers within each other that are followed; sentences of the tests need up to 45, and the
-interpreter's own bound comes at some 250."""
-
-
-class TooManyReadings(Exception):
-    """The words can be put together in more ways, or more deeply, than can be looked at."""
-
-
-@dataclass
-class Input:
-    """Words to be read, and what has been found out about them.
-
-    Args:
-        words: in order, lower case; a comma is the word ``~comma``.
-        nouns: words that the scene's things are called by.
-    """
-
-    words: tuple[str, ...]
-    nouns: frozenset[str] = frozenset()
-    reached: int = 0
-    """Up to here some reading could follow the words."""
-    _memo: dict[tuple[int, int], Sequence[Result]] = field(default_factory=dict)
-    _work: int = 0
-    _nested: int = 0
-
-    @cached_property
-    def ahead(self) -> tuple[str, ...]:
-        """The word at every position, NO_WORD at the end."""
-        return (*self.words, NO_WORD)
-
-    def recall(self, find: Find, at: int) -> Sequence[Result]:
-        """What is found at a position, worked out once."""
-        key = (id(find), at)
-        if key not in self._memo:
-            self._memo[key] = ()  # nothing of the grammar begins with itself
-            self._nested += 1
-            if self._nested > MAX_NESTED:
-                raise TooManyReadings
-            self._memo[key] = find(self, at)
-            self._nested -= 1
-        return self._memo[key]
-
-    def counted(self, found: Sequence[Result]) -> Sequence[Result]:
-        """Each result once; all of them count as work."""
-        once = tuple(dict.fromkeys(found))
-        self._work += len(once)
-        if self._work > MAX_WORK:
-            raise TooManyReadings
-        return once
-
-    def reach(self, end: int) -> None:
-        """Notes that the words up to ``end`` could be followed."""
-        self.reached = max(self.reached, end)
 
 
 def _remembered(find: Find) -> Find:

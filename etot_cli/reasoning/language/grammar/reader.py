@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
-from etot_cli.reasoning.language.grammar.parsing import Input, TooManyReadings
+from etot_cli.reasoning.language.grammar.input import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.spelling import (
     Correction,
