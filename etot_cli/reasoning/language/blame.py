@@ -46,6 +46,10 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
         words = words[:-1]
         if unread.reached >= len(words):
             return UnreadableError(shown(words), before, known.REASONS["what"])
+    for index in _switched(words):
+        return UnreadableError(
+            shown(words[index:]), _joined(before, spaced(words[:index])), _NO_SKILL
+        )
     for start, end, place in _ways(words, unread):
         mended = (*words[:start], *place, *words[end:])
         if fits(_joined(before, " ".join(mended).replace(f" {COMMA}", ",").strip(" ,"))):
@@ -53,6 +57,16 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
             text, why = _reason(unread, words, start, end, replaced=bool(place))
             return UnreadableError(text, _joined(before, spaced(words[:start])), why, without)
     return _unmended(unread, words, before)
+
+
+def _switched(words: tuple[str, ...]) -> Iterator[int]:
+    """Where something is turned or switched on or off ("turn it on"; "turn it on its side" not)."""
+    for at, word in enumerate(words):
+        if word in ("turn", "switch"):
+            for end in range(at + 1, len(words)):
+                last = words[end + 1 : end + 2] in ((), (COMMA,), ("and",), ("then",))
+                if words[end] in ("on", "off") and (last or end == at + 1):
+                    yield at
 
 
 def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tuple[str, ...]]]:
@@ -161,8 +175,7 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
         return known.REASONS["while"]
     if word in known.REASONS:
         return known.REASONS[word]
-    switched = word in ("turn", "switch") and following in (("on",), ("off",))
-    if (switched or word in known.OTHER_VERBS) and not named:
+    if word in known.OTHER_VERBS and not named:
         return _NO_SKILL
     if known.is_adverb(word):
         return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"

@@ -63,7 +63,8 @@ def _picked_out(
     noun = spoken.phrases[-1].words[-1:]
     found: list[Thing] = []
     for phrase in phrases:
-        full = phrase if phrase.words[-1:] == noun else _with_noun(phrase, noun, context)
+        own = {*map(singular, noun)} <= {*map(singular, phrase.words)}  # "vial 2" of the vials
+        full = phrase if own else _with_noun(phrase, noun, context)
         resolved = context.phrases.meaning(full, role)
         if len(resolved.options) != 1:
             raise ReferenceProblem(phrase.text, "say which one of them", 2)

@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     ORDINALS,
     SIDES,
     is_descriptive,
+    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -61,6 +62,15 @@ BETWEEN = sequence(
     optional(sequence("and", noun_phrase), None),
     build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
 )
+
+
+def _between(pair: tuple[NounPhrase, ...]) -> Modifier | None:
+    """What is between things; "between the plate" says half of it."""
+    alone = len(pair) == 1 and pair[0].determiner in nouns.THE_WORDS and pair[0].words
+    half = alone and pair[0].head != "one" and singular(pair[0].head) == pair[0].head
+    return None if half else Modifier(Prep.BETWEEN, pair)
+
+
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
@@ -69,7 +79,7 @@ PLAIN_MODIFIER = either(
         noun_phrase,
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
-    valued(BETWEEN, lambda pair: Modifier(Prep.BETWEEN, pair)),
+    sequence(BETWEEN, build=_between),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
     sequence(
         word(lambda given, text: text in ORDINALS),
@@ -191,7 +201,8 @@ def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | 
     """What is left out; or (``only``) in "but only the red one" all else is."""
     said = {nouns.is_only(np.determiner) for np in nps}
     left_out = tuple(map(_one_of_them, nps))
-    return Modifier(Prep.EXCEPT, left_out, denied=only) if said == {only} else None
+    fits = said == {only} and not any(np.without for np in nps)
+    return Modifier(Prep.EXCEPT, left_out, denied=only) if fits else None
 
 
 _only_ahead = Parser(lambda given, at: [(at, NOTHING)] if nouns.is_only(given.ahead[at]) else [])
@@ -219,7 +230,7 @@ CONTRASTED = quiet(
         separated(noun_phrase, "or, nor", most=3),
         build=lambda nps: (
             Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps)))
-            if all(np.determiner and np.words for np in nps)
+            if all(np.words and (np.determiner or np.head.isdigit()) for np in nps)
             else None
         ),
     )

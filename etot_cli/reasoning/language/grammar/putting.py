@@ -67,7 +67,7 @@ THROWN = quiet(
                 sequence(
                     THINGS,
                     optional("away, out"),
-                    sequence(INTO, build=lambda place: (place,)),
+                    sequence(either(INTO, ONTO), build=lambda place: (place,)),
                     build=PutGroup,
                 ),
                 LIST,

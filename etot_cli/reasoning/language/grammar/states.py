@@ -86,8 +86,24 @@ def _contains(verb: str) -> Parser:
     return sequence(noun_phrase, verb, NP_LIST, optional("in it, inside"), build=_holding)
 
 
+def _all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
+    """All of them, as a word beside the verb says."""
+    (first, *more) = nps
+    if said and not more and first.determiner in nouns.THE_WORDS:
+        return (replace(first, determiner="both" if said == "both" else "all the"),)
+    return nps
+
+
 STATE = either(
-    sequence(NP_LIST, verbs.BE, PREDICATE, build=state_of), _STAYS, _contains("contains, holds")
+    sequence(
+        NP_LIST,
+        verbs.BE,
+        optional(phrase("both, all"), ""),
+        PREDICATE,
+        build=lambda nps, said, predicate: state_of(_all_of(nps, said), predicate),
+    ),
+    _STAYS,
+    _contains("contains, holds"),
 )
 states = Rule(separated(STATE, LIST, most=6))
 
@@ -156,12 +172,7 @@ _TO_BE = optional("to (be|end up|go|stand|sit|lie)")
 
 
 def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> EnsureClause | None:
-    """What is to be so of all of them, as a word between noun and verb says."""
-    determiner = "both" if said == "both" else "all the"
-    (first, *more) = nps
-    if said and not more and first.determiner in nouns.THE_WORDS:
-        nps = (replace(first, determiner=determiner),)
-    return _ensured(state_of(nps, predicate))
+    return _ensured(state_of(_all_of(nps, said), predicate))
 
 
 ENSURE = either(

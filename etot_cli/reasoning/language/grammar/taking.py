@@ -75,7 +75,7 @@ PICK = sequence(
     verbs.PICK,
     THINGS,
     optional("up"),
-    optional(SOURCE, None),
+    optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
     optional(sequence(OPTIONAL_COMMA, optional("but"), POSES), None),
     build=_pick,
 )

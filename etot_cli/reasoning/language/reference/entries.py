@@ -128,10 +128,11 @@ class Entry:
         return not self.holds() and not other
 
     def is_pack_of(self, before: str, word: str) -> bool:
-        """Whether its label ends with two words and one for a pack of that ("soy sauce bottle")."""
+        """Whether its label is for a pack of that ("soy sauce bottle", "coke can")."""
         solid = self.info is not None and not self.info.container
-        named = self.called[0][-3:-1] == (before, word) and self.called[0][-1] in PACKS
-        return solid and named and word in PACKED
+        (*said, pack) = self.called[0]
+        named = (said == [word] and not before) or said[-2:] == [before, word]
+        return solid and named and pack in PACKS and word in PACKED
 
     def is_sort_of(self, word: str) -> bool:
         """Whether its label is a name and what it tastes of ("crispo vanilla")."""

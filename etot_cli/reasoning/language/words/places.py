@@ -49,7 +49,7 @@ SIDE = """
     (desk|table|scene|room|row),
     (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
     (on|at) the (left|right) of the (desk|table|scene),
-    on the far (left|right), in front, (furthest|farthest) (left|right|back),
+    (on|at) the far (left|right), in front, (furthest|farthest) (left|right|back),
     (furthest|farthest|closest|nearest|most) (to|on|at) the (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
     (at|from|on) the (top|bottom), on top

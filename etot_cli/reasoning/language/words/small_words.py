@@ -38,8 +38,8 @@ FRAMES = f"""
     i would be (glad|happy|grateful) if you (would|could)
 """
 SAME_AGAIN = """
-    do the same (with|for|to), [and] so (do|does|should|must), the same (goes|applies|holds) for,
-    likewise [for|with], same (with|for)
+    do the same (with|for|to), [and] so (do|does|should|must), as (do|does),
+    the same (goes|applies|holds) for, likewise [for|with], same (with|for)
 """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"

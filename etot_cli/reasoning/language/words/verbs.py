@@ -28,7 +28,7 @@ THROW_AWAY = "throw[ing] (away|out), discard[ing], dispos(e|ing) of"
 GATHER = "gather[ing], collect[ing], assembl(e|ing)"
 """With a place it is bringing things there, rather than picking up what is there."""
 THROW = f"throw[ing], toss[ing], chuck[ing], {THROW_AWAY}"
-"""Into a container it is putting; what is thrown elsewhere is to fly."""
+"""Into or onto a thing it is putting; what is thrown elsewhere is to fly."""
 FETCH = "bring[ing], tak(e|ing), fetch[ing], carry[ing], get[ting], mov(e|ing)"
 DISTRIBUTE = """
     distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
@@ -97,7 +97,7 @@ REORIENT = """
     re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
     re orientate
 """
-TURN = "turn[ing], stand[ing], set[ting], put[ting], bring[ing], make"
+TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "build[ing], mak(e|ing), creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
