@@ -1134,7 +1134,7 @@ def break_room() -> SceneState:
         item("waste", "bowl", (0.60, -0.40), size=(0.18, 0.18, 0.14), label="garbage can"),
         item("bin", "bowl", (0.60, 0.45), size=(0.18, 0.18, 0.14), label="recycling bin"),
         item("cola", "cylinder", (0.30, 0.45), size=(0.06, 0.06, 0.11), label="cola can"),
-        item("beans", "cylinder", (0.30, 0.35), size=(0.06, 0.06, 0.11), label="bean can"),
+        item("can_2", "cylinder", (0.30, 0.35), size=(0.06, 0.06, 0.11), label="tuna can"),
         cup("goblet", (0.30, 0.22), label="wine glass"),
         item("specs", "box", (0.30, 0.10), size=(0.07, 0.04, 0.02), label="reading glasses"),
         item("tray", "box", (0.60, 0.05), size=(0.24, 0.30, 0.02), color="brown"),
