@@ -60,7 +60,7 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     for referent in (context.discourse.referents[index] for index in indices):
         if referent.distinct_from and len(referent.options) > 1:
             raise ReferenceProblem(referent.text, "say which one", 3)
-    if clause.avoid is Avoid.MOVE:
+    if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in clause.things.phrases):
         homes = [context.home(thing) for thing in context.discourse.things(*indices)]
         check_alone(context, clause.things.phrases, indices, homes)
     for index in indices if clause.avoid is Avoid.CLOSE else ():
