@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -44,7 +44,8 @@ _FORBIDDEN = either(
         optional(small_words.TRAILING_THEN),
         build=_avoid,
     ),
-    sequence(phrase(verbs.PUT, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(phrase(f"{verbs.SET}, leav(e|ing)", Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
     sequence(
         either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),
         verbs.ANYTHING_ELSE,

@@ -66,7 +66,9 @@ class Meanings:
         """What a phrase means, without speaking of it."""
         discourse = self.discourse
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
-            indices = antecedents(discourse, "them", role, phrase.text)
+            # "One of it" is one of them.
+            pronoun = "them" if phrase.determiner else phrase.pronoun
+            indices = antecedents(discourse, pronoun, role, phrase.text)
             if any(len(discourse.referents[index].options) > 1 for index in indices):
                 names = [thing.name for thing in discourse.things(*indices)]
                 raise AmbiguousReference(phrase.text, names)

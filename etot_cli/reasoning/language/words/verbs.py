@@ -12,15 +12,17 @@ TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me), hand[ing] over
 """
 """They ask for more than picking up, which is all that is done."""
-SET_DOWN = """
-    put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], mov(e|ing),
-    stow[ing] [away],
+SHIFT = "mov(e|ing), relocat(e|ing), shift[ing]"
+"""Of what is not to be moved, "on the tray" tells which it is rather than where to."""
+SET = """
+    put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], stow[ing] [away],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
-    tuck[ing], position[ing], load[ing], relocat(e|ing), carry[ing], return[ing],
-    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing), shift[ing],
+    tuck[ing], position[ing], load[ing], carry[ing], return[ing],
+    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], stash[ing], plop[ping]
 """
+SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
@@ -118,10 +120,10 @@ TOUCH = """
     touch[ing], hit[ting], bump[ing] into, bump[ing], collid(e|ing) with, com(e|ing) near,
     contact[ing]
 """
-DISTURB = """
-    mov(e|ing), disturb[ing], push[ing], shift[ing], displac(e|ing), knock[ing] over, topple,
-    toppling,
-    tip[ping] over, lift[ing], relocat(e|ing), knock[ing]
+DISTURB = f"""
+    {SHIFT},
+    disturb[ing], push[ing], displac(e|ing), knock[ing] over, topple, toppling, tip[ping] over,
+    lift[ing], knock[ing]
 """
 ANYTHING_ELSE = """
     anything else, any other (object|thing|things|objects), other (objects|things),
