@@ -67,8 +67,8 @@ class Meanings:
         discourse = self.discourse
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             # "One of it" is one of them.
-            pronoun = "them" if phrase.determiner else phrase.pronoun
-            indices = antecedents(discourse, pronoun, role, phrase.text)
+            said = "them" if phrase.determiner else phrase.pronoun
+            indices = antecedents(discourse, said, role, phrase.text)
             if any(len(discourse.referents[index].options) > 1 for index in indices):
                 names = [thing.name for thing in discourse.things(*indices)]
                 raise AmbiguousReference(phrase.text, names)
