@@ -18,16 +18,24 @@ from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import INTO, NEARBY, ONTO, OVER, TO
 from etot_cli.world.state import DESK
 
-MAX_WORDS_TRIED = 320
-"""Words of all ways to mend a sentence that are tried: 32 ways of ten words, and few of a long one
-that takes long to read; together a third of a second."""
+MAX_WORK_TRIED = 5000
+"""Work of all ways to mend a sentence that are tried, each as dear as the sentence itself: a
+quarter of a second's, for dozens of ways of a short one and two of one that is hardly read in time."""
+_WORK_PER_WORD = 5
+"""What a word costs to hold against the scene, in results of the grammar's rules."""
 _PLACE = ("on", "the", DESK)
 """Where anything can go in every scene."""
 _PLACE_COSTS = 2.5
 """Words that may rather be left out than a place be put in: two are most often a phrase."""
 _NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
+_PLACED = {text.split()[0] for text in spellings(f"{INTO}, {ONTO}, {OVER}, {TO}")} | {
+    text.split()[0] for texts in NEARBY.values() for text in spellings(texts)
+}
+"""What a place begins with."""
 _MISSING = "something is missing, such as into or onto what"
 
 
@@ -89,7 +97,8 @@ def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tup
         for at in range(2, many + 1)
         if at == many or (words[at] not in unread.nouns and _ends_phrase(words[at - 1]))
     ]
-    for _, _, start, end, place in sorted([*ways, *places])[: MAX_WORDS_TRIED // many]:
+    tried = MAX_WORK_TRIED // (unread.work + _WORK_PER_WORD * many)
+    for _, _, start, end, place in sorted([*ways, *places])[:tried]:
         yield start, end, place
 
 
@@ -129,7 +138,9 @@ def _reason(
         if why := _cause(unread, words, index):
             return shown(words[index:end]), why
     if replaced:
-        plain = "it is not understood as a place; say into, onto or beside what"
+        like_place = words[start] in _PLACED
+        known_as = "it is not understood as a place" if like_place else "a place is expected here"
+        plain = f"{known_as}; say into, onto or beside what"
     else:
         plain = "the rest is understood without it"
     return shown(words[start:end]), plain

@@ -35,8 +35,9 @@ class Input:
     nouns: frozenset[str] = frozenset()
     reached: int = 0
     """Up to here some reading could follow the words."""
+    work: int = 0
+    """Results of all rules so far."""
     _memo: dict[tuple[int, int], Sequence[Result]] = field(default_factory=dict)
-    _work: int = 0
     _nested: int = 0
 
     @cached_property
@@ -59,8 +60,8 @@ class Input:
     def counted(self, found: Sequence[Result]) -> Sequence[Result]:
         """Each result once; all of them count as work."""
         once = tuple(dict.fromkeys(found))
-        self._work += len(once)
-        if self._work > MAX_WORK:
+        self.work += len(once)
+        if self.work > MAX_WORK:
             raise TooManyReadings
         return once
 
