@@ -24,7 +24,7 @@ from etot_cli.world.state import DESK
 
 MAX_WORK_TRIED = 5000
 """Work of all ways to mend a sentence that are tried, each as dear as the sentence itself: a
-quarter of a second's, for dozens of ways of a short one and two of one that is hardly read in time."""
+quarter of a second's, for dozens of ways of a short sentence and two of one that is hardly read."""
 _WORK_PER_WORD = 5
 """What a word costs to hold against the scene, in results of the grammar's rules."""
 _PLACE = ("on", "the", DESK)
