@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import gap
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK
 
 
 def is_matching(phrase: NounPhrase) -> bool:
@@ -184,13 +185,17 @@ def _beside_each(context: Context, group: PutGroup) -> None:
     Raises:
         ReferenceProblem: there are fewer things, or more is said of the place.
     """
-    (phrase,), (where, *more) = group.things.phrases, group.destinations
-    (beside, *others) = where.beside
-    if more or others or where.targets or len(beside.phrases) != 1:
+    (phrase,) = group.things.phrases
+    found = [item for where in group.destinations for item in where.beside]
+    beside = found[0]
+    targets = [target for where in group.destinations for target in where.targets]
+    if len(group.destinations) > 1 or len(found) > 1 or targets or len(beside.phrases) != 1:
         raise ReferenceProblem(phrase.text, "say in a sentence of its own what goes where", 2)
     marks = things_in(context.phrases.meaning(beside.phrases[0], Role.ANY).options)
     resolved = context.phrases.meaning(phrase, Role.THEME)
     things = [thing for thing in things_in(resolved.options) if thing not in marks]
+    if any(mark.name == DESK for mark in marks):
+        raise ReferenceProblem(beside.phrases[0].text, "nothing is beside the desk", 3)
     if len(things) < len(marks):
         why = f"there are {len(things)} for {len(marks)} places"
         raise ReferenceProblem(phrase.text, why, 2)
