@@ -178,6 +178,10 @@ class _Reader:
             self._add(load_task(problem(family, seed).write(self._folder)))
 
     def _add(self, task: Task) -> None:
+        if not task.success:
+            raise SpecError(
+                "no 'success' conditions, by which trials are judged; add them", file=task.file
+            )
         known = self._tasks.get(task.name)
         if known is not None and digest(known) != digest(task):
             raise SpecError(

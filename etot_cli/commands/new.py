@@ -117,14 +117,12 @@ def write_task(options: NewOptions) -> NewTask:
         )
     kept = options.file.exists()
     before = read_utf8(options.file, MAX_BYTES, "a task") if kept else None
-    success = [{"present": name} for name in document["objects"]]
-    write_atomically(options.file, _text(options.instruction, document, success))
+    write_atomically(options.file, _text(options.instruction, document, []))
     try:
         made = _look(options.file)
         demanded = [] if made.problem else demands(goal_of(options.instruction, made.state))
         if demanded:
-            text = _text(options.instruction, document, [*demanded, *success])
-            write_atomically(options.file, text)
+            write_atomically(options.file, _text(options.instruction, document, demanded))
             load_task(options.file)
         return made
     except EtotError as error:
@@ -183,14 +181,12 @@ def _known(objects: dict[str, Any], name: str, source: Path) -> None:
 def _text(instruction: str, scene: dict[str, Any], success: Sequence[dict[str, Any]]) -> str:
     head = (
         "# A task of your own. Metres, kilograms, degrees; x ahead of the robot, y to its left.\n"
-        "# 'success' is what the result is checked against; the planner never sees it. It begins\n"
-        "# with what the instruction demands as it was understood: check that, and add to it.\n"
+        "# 'success' is what the result is checked against; the planner never sees it. In it is\n"
+        "# what the instruction demands as it was understood: check that, and add to it.\n"
     )
-    document = {
-        "instruction": instruction,
-        "scene": scene,
-        "success": [*success],
-    }
+    document: dict[str, Any] = {"instruction": instruction, "scene": scene}
+    if success:
+        document["success"] = [*success]
     text = yaml.safe_dump(
         document, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100
     )

@@ -242,7 +242,7 @@ def _write(twin: Twin, options: Options, folder: Path) -> tuple[dict[str, str], 
     if options.settle and not twin.settled:
         settle_twin(twin, folder)
     if options.instruction:
-        write_atomically(folder / TASK, _task_text(twin, options.instruction))
+        write_atomically(folder / TASK, _task_text(options.instruction))
         files["task"] = TASK
     if not cv2.imwrite(str(folder / OVERLAY), draw_overlay(color, twin.solids, twin.seen.view)):
         raise EtotError(f"cannot write {folder / OVERLAY}")
@@ -283,19 +283,11 @@ def _hull_instead(file: Path) -> None:
     hull.export(file)
 
 
-def _task_text(twin: Twin, instruction: str) -> str:
-    """A task file: the instruction and the scene. Success is not known; nothing may be lost."""
-    document = {
-        "instruction": instruction,
-        "scene": SCENE,
-        "worlds": WORLDS,
-        "success": [
-            {"present": name} for name, entry in twin.document["objects"].items()
-            if entry["kind"] not in assembly.FURNITURE
-        ] or [{"present": next(iter(twin.document["objects"]))}],
-    }  # fmt: skip
+def _task_text(instruction: str) -> str:
+    """A task file: the instruction and the scene. What success is, is not known."""
+    document = {"instruction": instruction, "scene": SCENE, "worlds": WORLDS}
     head = (
-        "# Made by etot reconstruct. 'success' only says that nothing may be lost: add yours.\n"
+        "# Made by etot reconstruct. What the end is checked against can be added as 'success'.\n"
         f"# Masses and friction are guesses: plans are tried in {WORLDS} worlds that vary them.\n"
     )
     return head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True)

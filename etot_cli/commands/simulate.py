@@ -253,7 +253,7 @@ def _open_loop(options: SimulateOptions, run: _Run) -> OpenLoopModel | None:
 
 
 def _conditions(task: Task | None, final: SceneState | None) -> SuccessConditionsModel | None:
-    if task is None or final is None:
+    if task is None or final is None or not task.success:
         return None
     conditions = [
         ConditionModel(condition=describe(condition), held=holds(condition, final))

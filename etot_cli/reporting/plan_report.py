@@ -182,12 +182,12 @@ def understood_model(
 
 
 def success_model(conditions: Sequence[Condition], final: SceneState | None) -> SuccessModel | None:
-    """A task's conditions in the scene after a plan; None without a plan.
+    """A task's conditions in the scene after a plan; None without either.
 
     Raises:
         SpecError: a condition names something that the scene does not have.
     """
-    if final is None:
+    if final is None or not conditions:
         return None
     found = [
         HoldingModel(condition=describe(item), holds=holds(item, final)) for item in conditions

@@ -14,6 +14,7 @@ from etot_cli.specs.problems import first_error, validate
 from etot_cli.specs.references import task_problems
 from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
+from etot_cli.specs.wording import describe
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -54,8 +55,12 @@ def load_task(path: str | Path) -> Task:
             over = Node({"variation": variation}, scene_node.place)
             scene_node = merge(scene_node, over)
         keys["scene"] = _named(scene_node, scene_file)
-    node = Node(keys, root.place)
+    told = "instruction" in keys or "goal" not in keys
+    node = Node(keys if told else {**keys, "instruction": Node("goal", root.place)}, root.place)
     task = validate(Task, node)
+    if not told:
+        words = ", ".join(map(describe, task.goal or ()))
+        task = task.model_copy(update={"instruction": words})
     scene_node = keys["scene"]
     scene = resolve_files(task.scene, scene_node, scene_file.parent)
     added = resolve_added(task.disturbance, node, scene_file.parent)

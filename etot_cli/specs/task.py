@@ -95,11 +95,11 @@ class Task(Spec):
     name: Title
     """Letters, digits, ``_``, ``.`` and ``-``, at most 64."""
     instruction: Annotated[str, Field(min_length=1, max_length=2000)]
-    """What to do, in a sentence; this is what the planner gets."""
+    """What to do, in a sentence; this is what the planner gets. May be left out beside a `goal`."""
     scene: Scene
     """A scene file, relative to the task's, or a scene written out."""
-    success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)]
-    """What must hold at the end; the evaluator alone sees it."""
+    success: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] = ()
+    """What must hold at the end; the evaluator alone sees it. `bench` needs it."""
     goal: Annotated[tuple[Condition, ...], Field(min_length=1, max_length=64)] | None = None
     """Replaces the instruction, for those who want to be formal."""
     disturbance: (

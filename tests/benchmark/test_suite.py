@@ -139,6 +139,13 @@ def test_a_task_is_known_by_what_is_in_it(tmp_path: Path) -> None:
     assert digest(other) != digest(one)
 
 
+def test_a_task_that_says_not_what_success_is(tmp_path: Path) -> None:
+    path = write(tmp_path, "one")
+    path.write_text(TASK.format(name="one", diameter=0.05).partition("success")[0])
+    with pytest.raises(SpecError, match=r"one\.yaml: no 'success' conditions"):
+        names(path, folder=tmp_path)
+
+
 def test_nothing_to_run(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     with pytest.raises(EtotError, match="no task files"):

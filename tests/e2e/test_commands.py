@@ -11,6 +11,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+import yaml
 
 from tests.measure.expectations import NAIVE_PLANS, TASKS, is_right_plan
 from tests.program import etot
@@ -40,6 +41,27 @@ def checked(printed: str, out: Path) -> dict:
     jsonschema.validate(report, schema)
     assert report == json.loads((out / "report.json").read_text())
     return report
+
+
+def test_a_scene_and_what_is_wanted_are_enough(tmp_path: Path) -> None:
+    """No name, no success conditions, and of instruction and goal only one."""
+    ball = {"kind": "sphere", "at": [0.4, -0.1], "diameter": 0.06, "mass": 0.05}
+    bowl = {"kind": "bowl", "at": [0.4, 0.2], "diameter": 0.16, "height": 0.06, "mass": 0.2}
+    scene = {"objects": {"ball": ball, "bowl": bowl}}
+    for number, wanted in enumerate(
+        ({"goal": [{"inside": ["ball", "bowl"]}]}, {"instruction": "Put the ball in the bowl."})
+    ):
+        task = tmp_path / f"task_{number}.yaml"
+        task.write_text(yaml.safe_dump(wanted | {"scene": scene}))
+        done = etot("plan", task, "--json", "--out", tmp_path / str(number))
+        assert done.returncode == 0, done.stderr
+        report = checked(done.stdout, tmp_path / str(number))
+        assert report["plan"] == ["[PICK UP, ball]", "[PUT INTO, bowl]"]
+        assert report["success"] is None
+        assert report["task"]["instruction"]
+    done = etot("execute", task, "--json", "--out", tmp_path / "execute")
+    assert done.returncode == 0, done.stderr
+    assert [trial["success"] for trial in json.loads(done.stdout)["trials"]] == [True]
 
 
 @pytest.mark.parametrize("task", ["task3", *(slow(task) for task in TASKS if task != "task3")])

@@ -247,7 +247,7 @@ success:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("name: x", "task.yaml:1: missing key 'instruction', text (and 2 more)"),
+        ("name: x", "task.yaml:1: missing key 'instruction', text (and 1 more)"),
         ("file: x", "task.yaml:1: file: unknown key 'file'; allowed keys: name, instruction,"),
         ("variations: x", "unknown key 'variations' (did you mean 'variation'?)"),
         (TASK, "task.yaml:6: success: found nothing, expected a list, each entry a mapping"),
