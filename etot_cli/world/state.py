@@ -73,6 +73,8 @@ class ObjectInfo:
     boards: tuple[str, ...] = ()
     """Names of further surfaces below its top (a shelf's boards), from bottom to top; an action
     calls one ``object.board``."""
+    mouth: float = 0.0
+    """Clear width of that opening [m]; 0 where there is none."""
     plain_color: bool = True
     """``color`` is its colour itself, not that of a neighbour (cyan, which has no word here)."""
 

@@ -1146,3 +1146,21 @@ def break_room() -> SceneState:
         item("fork_1", "box", (0.28, -0.12), size=(0.14, 0.02, 0.01), label="fork"),
         item("fork_2", "box", (0.28, -0.30), size=(0.14, 0.02, 0.01), label="fork"),
     )  # fmt: skip
+
+
+def greenhouse() -> SceneState:
+    """A bench with a pot on its left side and one beside it, two crates, one of them not empty."""
+    return scene(
+        item("bench", "box", (0.55, -0.20), size=(0.20, 0.34, 0.03), color="brown"),
+        cup("pot_1", (0.55, -0.10), size=(0.07, 0.07, 0.08), label="pot", on="bench", z=0.2),
+        cup("pot_2", (0.50, 0.06), size=(0.07, 0.07, 0.08), label="pot"),
+        item("crate_1", "bowl", (0.60, 0.48), size=(0.20, 0.20, 0.10), label="crate A"),
+        item("crate_2", "bowl", (0.60, 0.25), size=(0.20, 0.20, 0.10), label="crate B"),
+        item("bulb", "sphere", (0.60, 0.48), size=(0.04,) * 3, on="crate_1", inside="crate_1"),
+        item("label", "box", (0.30, 0.10), size=(0.06, 0.03, 0.005), label="plant label"),
+        item("seeds", "box", (0.30, 0.25), size=(0.05, 0.05, 0.04), label="seed box"),
+        item("tile", "box", (0.30, -0.02), size=(0.15, 0.15, 0.01), color="red"),
+        item("mat", "box", (0.30, -0.42), size=(0.20, 0.26, 0.01), color="green"),
+        item("shears", "box", (0.30, -0.20), size=(0.18, 0.05, 0.02), label="shears"),
+        item("flask_1", "cylinder", (0.30, 0.40), size=(0.06, 0.06, 0.2), label="water bottle"),
+    )

@@ -49,6 +49,7 @@ def item(
         elongated=kind == "pen",
         parts=parts,
         boards=boards,
+        mouth=size[0] - 0.006 if kind in ("cup", "bowl") else 0.0,
         plain_color=plain_color,
     )
     opening = dict(openness or {})

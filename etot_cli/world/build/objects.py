@@ -10,7 +10,7 @@ import mujoco
 from etot_cli.errors import WorldError
 from etot_cli.specs import scene as specs
 from etot_cli.specs.objects import ROLLING_DEFAULT, is_fastened
-from etot_cli.specs.placement import size_of
+from etot_cli.specs.placement import inner_diameter, size_of
 from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
 from etot_cli.world.build.material import Look
 from etot_cli.world.colors import is_basic, nearest_basic, rgb
@@ -120,6 +120,7 @@ def entry_of(
     """What is known of an object, its mass excepted, which the compiled model tells."""
     fixed = is_fastened(spec)
     behind_parts = {part.info.address for part in parts if part.info.container}
+    open_tops = [r.half[:2] for r in regions if r.address in {name} - behind_parts]
     boards = [surface.address.partition(".")[2] for surface in surfaces]
     info = ObjectInfo(
         name=name,
@@ -129,11 +130,16 @@ def entry_of(
         size=(float(size[0]), float(size[1]), float(size[2])),
         mass=0.0,
         movable=not fixed and not isinstance(spec, specs.FURNITURE),
-        container=bool({region.address for region in regions} & {name} - behind_parts),
+        container=bool(open_tops),
         surface=bool(surfaces),
         elongated=axis is not None and size[0] > 3 * size[1],
         parts=tuple(part.info for part in parts),
         boards=tuple(board for board in boards if board),
+        mouth=(
+            inner_diameter(spec)
+            if isinstance(spec, specs.Cup)  # a conical one is wider above than inside
+            else min((2 * min(half) for half in open_tops), default=0.0)
+        ),
         plain_color=spec.color is None or is_basic(spec.color),
     )
     upright = not isinstance(spec, specs.Sphere | specs.Pen | specs.Capsule)

@@ -134,8 +134,10 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         else:
             add_puts(context, places_of, grouping)
         context.discourse.last_places = places
-        if clause.ruled_out:
-            rule_out(context, themes, clause.ruled_out)
+        where = [place.where for place in places if place.where is not None]
+        last = group.things == clause.groups[-1].things
+        if clause.ruled_out and (last or len(context.discourse.things(*where)) > 1):
+            rule_out(context, themes, clause.ruled_out)  # what has but one place goes there
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)

@@ -75,6 +75,12 @@ PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
         EXACTLY,
+        one_of(places.ON_SIDE),
+        noun_phrase,
+        build=lambda prep, np: Modifier(prep, (np,), ("on",)),
+    ),
+    sequence(
+        EXACTLY,
         f"{places.ON_TOP_OF}, (from|off [of]) the top of",
         noun_phrase,
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),

@@ -91,15 +91,18 @@ class Entry:
         if noun in self.exact:
             return EXACT
         if matches_any(noun, self.heads) or matches_any(noun.replace("_", ""), self.heads):
-            # Reading glasses are rather no glass; one of the "drawers" is a drawer.
-            levels = self.info is None or self.info.parts or self.info.boards
-            pair = not levels and is_plural_of(self.heads[0], (noun,))
-            return GENERIC if pair else HEAD
+            # Reading glasses are rather no glass.
+            return GENERIC if self.is_pair() and is_plural_of(self.heads[0], (noun,)) else HEAD
         if matches_any(noun, self.generic):
             return GENERIC
         if matches_any(noun, self.content):
             return CONTENT
         return None
+
+    def is_pair(self) -> bool:
+        """Whether it is one thing called by a plural; one of the "drawers" is a drawer."""
+        levels = self.info is None or self.info.parts or self.info.boards
+        return not levels and singular(self.heads[0]) != self.heads[0]
 
     def only_tells(self, word: str) -> bool:
         """Whether a word stands in its name before the noun and does not name it."""

@@ -6,10 +6,11 @@ from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.lexicon import singular
-from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.reasoning.language.words.places import ON_SIDE, Prep
 from etot_cli.world.state import SceneState
 
 RANKED = frozenset(
@@ -36,11 +37,13 @@ def related(
     count: int | None,
     scene: SceneState,
     notes: list[str],
+    text: str,
 ) -> tuple[list[Thing], list[Thing]]:
     """Those of the things that a modifier is true of, or that fit it best, and besides the best
     fitting the others that it is true of as well.
 
-    ``notes`` gets what was chosen where several would do, or none by the relation's definition.
+    ``notes`` gets what was chosen where several would do, or none by the relation's definition;
+    ``text`` is the whole phrase, for messages.
     """
     prep = modifier.prep
     if prep is Prep.OF and all(map(is_one, modifier.phrases)):
@@ -74,6 +77,16 @@ def related(
             (things, []) if modifier.denied else ([], [])
         )  # it says where something goes, not which fridge
     landmark_things = [mark for several in landmarks for mark in several]
+    upon = [
+        thing
+        for thing in fitting
+        if prep in ON_SIDE and modifier.words
+        if any(space.rests_on(thing, mark, scene) for mark in landmark_things)
+    ]
+    if upon and plainly:  # "the pot on the left side of the bench"
+        raise AmbiguousReference(text, [thing.name for thing in (*upon, *plainly)])
+    if upon:
+        return [thing for thing in things if (thing in upon) != modifier.denied], []
     supports = [thing for thing in things if space.is_support(thing, scene)]
     borne = any(space.rests_on(m, thing, scene) for m in landmark_things for thing in supports)
     if prep in space.RELATIONS and borne and not (plainly or modifier.denied):
@@ -83,11 +96,10 @@ def related(
         return [thing for thing in things if thing not in fitting], []
     if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
         # "The block under the blue one" of a tower is the one that bears it.
-        bearing = [mark for several in landmarks for mark in several]
         touching = [
             thing
             for thing in fitting
-            for mark in bearing
+            for mark in landmark_things
             if space.touches(*((mark, thing) if prep is Prep.UNDER else (thing, mark)), scene)
         ]
         return touching or fitting, []
@@ -115,7 +127,7 @@ def related(
         chosen = [thing for thing in things if thing in chosen]
     others = [thing for thing in order if thing not in chosen]
     if chosen and prep in space.RELATIONS and (others or not plainly):
-        beside = " and ".join(mark.name for several in landmarks for mark in several)
+        beside = " and ".join(mark.name for mark in landmark_things)
         names = " and ".join(thing.name for thing in chosen)
         names += f" rather than {' or '.join(thing.name for thing in others)}" if others else ""
         roughly = "" if plainly else ROUGHLY

@@ -276,6 +276,13 @@ def _match_in(
     entries = tuple(entry for entry, grade in sifted.graded if grade == best)
     if sifted.unknown:
         raise not_understood(sifted.unknown[0], entries, phrase)
+    pairs = tuple(entry for entry in entries if entry.is_pair() and head == entry.heads[0])
+    if 0 < len(pairs) < len(entries):
+        # Beside one wine glass "the glasses" are the reading glasses.
+        if len(entries) - len(pairs) > 1:
+            raise ReferenceProblem(phrase, f"it may mean {names_of(entries)}", 2, word=head)
+        entries = pairs
+        sifted.notes.append(f"read {head!r} as {names_of(pairs)}")
     if matches_any(head, THING_NOUNS):
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:

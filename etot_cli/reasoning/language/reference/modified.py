@@ -72,7 +72,9 @@ def modified(
         ways = {
             tuple(found): tuple(more)
             for landmarks in landmark_sets(modifier)
-            for found, more in [related(modifier, things, landmarks, quantity, count, scene, notes)]
+            for found, more in [
+                related(modifier, things, landmarks, quantity, count, scene, notes, phrase.text)
+            ]
             if found
         }
         if len(ways) > 1 and unclear < len(waiting):

@@ -160,7 +160,7 @@ class Resolver:
             match = parts_of(match, words, phrase, self._vocabulary)
         unnamed = noun is None or matches_any(noun, THING_NOUNS)
         nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
-        vague = nameless or matches_any(words[-1], THING_NOUNS)
+        vague = matches_any(words[-1], THING_NOUNS) and (unnamed or not phrase.is_elliptic)
         mere = [m for m in phrase.modifiers if m.prep is Prep.WITH and not (m.denied or m.words)]
         if (nameless and match.selectors) or (vague and mere):  # "the thing with the letter"
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)

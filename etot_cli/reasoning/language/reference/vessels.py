@@ -10,9 +10,6 @@ from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.lexicon import holds_things
 from etot_cli.world.state import DESK, SceneState
 
-LID = 0.95
-"""What is at least so wide, as a share of a vessel's outer width, lies on its rim."""
-
 COVER = 1.5
 """What is wider than so many times a vessel is no cover of it: a plate on a mug."""
 
@@ -22,16 +19,23 @@ def _width(thing: Thing, scene: SceneState) -> float:
     return math.inf if thing.name == DESK else max(scene.infos[thing.name].size[:2])
 
 
+def _sinks(thing: Thing, mouth: float, scene: SceneState) -> bool:
+    """Whether a thing as it lies goes through a round mouth [m]."""
+    if thing.name == DESK:
+        return True
+    info = scene.infos[thing.name]
+    return (math.hypot if info.kind == "box" else max)(*info.size[:2]) < mouth
+
+
 def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
     """Whether things stay on top of another one and do not sink into its mouth."""
     if below.name == DESK or below.board is not None:
         return True
     info = scene.infos[below.name]
-    if info.surface or not info.container:
-        return True
-    mouth = LID * min(info.size[:2])
-    return all(
-        thing.name != DESK and max(scene.infos[thing.name].size[:2]) >= mouth for thing in things
+    return (
+        info.surface
+        or not info.container
+        or not any(_sinks(thing, info.mouth, scene) for thing in things)
     )
 
 

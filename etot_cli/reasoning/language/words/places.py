@@ -54,9 +54,16 @@ SIDE = """
     in back, at the very (left|right|front|back), in the row,
     (at|from|on) the (top|bottom), on top
 """
+ON_SIDE: dict[Prep, str] = {
+    Prep.LEFT: "(on|at) the left [hand] [side] of",
+    Prep.RIGHT: "(on|at) the right [hand] [side] of",
+}
+"""Beside something, or on that half of it."""
+_LEFT = "to the left [hand] [side] of, left of, to the left from"
+_RIGHT = "to the right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
-    Nearby.LEFT: "(to|on|at) the left [hand] [side] of, left of, to the left from",
-    Nearby.RIGHT: "(to|on|at) the right [hand] [side] of, right of, to the right from",
+    Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
+    Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
     Nearby.FRONT: "in front of",
     Nearby.BEHIND: "behind, in back of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
@@ -71,8 +78,8 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.OF: "of, belonging to",
     Prep.NEAR: NEARBY[Nearby.NEAR],
     Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at",
-    Prep.LEFT: NEARBY[Nearby.LEFT],
-    Prep.RIGHT: NEARBY[Nearby.RIGHT],
+    Prep.LEFT: _LEFT,
+    Prep.RIGHT: _RIGHT,
     Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond",
     Prep.FRONT: NEARBY[Nearby.FRONT],
     Prep.UNDER: "[from] (underneath|under|below|beneath)",
