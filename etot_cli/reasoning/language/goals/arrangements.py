@@ -3,30 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.space import carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
 from etot_cli.reasoning.language.words.lexicon import SIZES
+
+AS_WIDE_M = 0.001
+"""Widths that differ by no more are the same: a reconstruction measures no finer."""
 
 
 def tower(context: Context, clause: TowerClause) -> None:
     """Everything upon each other, from the bottom up; the bottom one stays where it is."""
     context.tell_others(clause.things, clause.base)
     themes = context.phrases.things(clause.things, Role.THEME)
-    things = [thing for index in themes for thing in context.only(index, "say which ones to stack")]
     text = clause.things.text
+    indices = _any_of(context, themes, clause)
+    things = [context.discourse.things(index)[0] for index in indices]
+    if not indices:
+        things = [*context.discourse.things(*themes)]
+        if len(things) > 1:
+            things = _upward(context, things, clause, text, listed=len(themes) > 1)
+        indices = [context.single(thing, thing.name) for thing in things]
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
-    if len(things) > 1:
-        things = _upward(context, things, clause, text, listed=len(themes) > 1)
-    indices = [context.single(thing, thing.name) for thing in things]
     bottom = indices[0]
     if clause.base:
         places = context.places.of(clause.base, indices)
@@ -34,10 +42,36 @@ def tower(context: Context, clause: TowerClause) -> None:
         under = places[0].where
         if len(things) == 1 and len(places) == 1 and under is not None:
             bottom = under
-    for below, above in pairwise(indices):
-        lower, upper = things[indices.index(below)], things[indices.index(above)]
+    for (below, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
         context.steps.append(Put((above,), (_upon(context, lower, upper, below),)))
     context.discourse.stacks[context.discourse.clause] = bottom
+
+
+def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> list[int]:
+    """A referent for each of the things to be stacked, where it is open which they are.
+
+    They are a choice as long as it makes no difference which of them lies below.
+    """
+    discourse, infos = context.discourse, context.scene.infos
+    said = [discourse.referents[index] for index in themes]
+    first = next((referent for referent in said if len(referent.options) > 1), None)
+    if first is None:
+        return []
+    count = len(first.options[0])
+    if count == len(themes) == 1:
+        return [*themes]
+    pool = things_in(first.options)
+    widths = {max(infos[thing.name].size[:2]) for thing in pool}
+    ordered = clause.upward is not None or clause.bottom or clause.middle or clause.top
+    if len(themes) > 1 or ordered or max(widths) - min(widths) > AS_WIDE_M:
+        raise ReferenceProblem(first.text, "say which ones to stack", 2)
+    found: list[int] = []
+    for _ in range(count):
+        one = discourse.add(Resolved(tuple((thing,) for thing in pool)), first.text, Role.THEME)
+        referent = replace(discourse.referents[one], distinct_from=tuple(found))
+        discourse.referents[one] = referent
+        found.append(one)
+    return found
 
 
 def _upon(context: Context, thing: Thing, upper: Thing, index: int) -> Place:

@@ -97,7 +97,8 @@ def _check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
                 raise ReferenceProblem(goal.referents[pick.what].text, why, 4)
     held: int | None = None
     for item in said:
-        if held is not None and item.steps and item.order is Order.THEN:
+        further = any(not (isinstance(step, Pick) and step.what == held) for step in item.steps)
+        if held is not None and further and item.order is Order.THEN:
             why = "it is in the hand by then; say where it is to go before"
             raise ReferenceProblem(goal.referents[held].text, why, 4)
         picked = [step.what for step in item.steps if isinstance(step, Pick) and step in goal.steps]

@@ -154,6 +154,8 @@ def _said(node: object) -> Iterator[str]:
             yield from (_DENIAL, "other", "any", "after", "afterwards")
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
+        case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):
+            yield "bottom" if side is Nearby.AT_FRONT else "top"
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects):

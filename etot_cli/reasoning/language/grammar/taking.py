@@ -63,14 +63,15 @@ POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
 
 
-def _pick(before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
-    if before and after:
+def _pick(ahead: Any, before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
+    if (before and after) or (ahead and source):
         return None
     poses = dict.fromkeys(before or after or ())
-    return PickClause(things.taken_from(source), tuple(poses))
+    return PickClause(things.taken_from(ahead or source), tuple(poses))
 
 
 PICK = sequence(
+    optional(sequence("in, inside, on, from", noun_phrase, OPTIONAL_COMMA), None),
     optional(sequence(POSES, OPTIONAL_COMMA), None),
     verbs.PICK,
     THINGS,

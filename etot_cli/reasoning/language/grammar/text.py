@@ -43,8 +43,10 @@ def normalized(text: str) -> str:
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
     text = re.sub(r"\band/or\b", "or", text)
-    text = re.sub(rf"(?<=\w)[{_HYPHENS}]most\b", "most", text)
-    text = re.sub(rf"\b(left|right)[{_HYPHENS}]hand(?:ed)?\b", r"\1", text)
+    text = re.sub(
+        rf"\b(left|right|top|bottom|front|back|upper|lower)[{_HYPHENS} ]most\b", r"\1most", text
+    )
+    text = re.sub(rf"\b(left|right)(?:[{_HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1", text)
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
     text = re.sub(rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]]), text)
     text = re.sub(r"\bnothing but\b", "only", text)

@@ -18,8 +18,7 @@ STATES = "open, opened, closed, shut, ajar, empty, full, filled, toppled, fallen
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
-    in a (tower|stack|pile),
-    into a (tower|stack|pile), onto each other
+    (in|into) a [vertical|single] (tower|stack|pile), onto each other
 """
 BOTTOM_UP = """
     (from the|from) bottom (up|to top|to the top), bottom (first|up),

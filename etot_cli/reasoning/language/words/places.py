@@ -65,7 +65,7 @@ NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
     Nearby.FRONT: "in front of",
-    Nearby.BEHIND: "behind, in back of",
+    Nearby.BEHIND: "[to] behind, in back of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: "[far] away from, far from",
@@ -122,14 +122,27 @@ _SIDES = {
     Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear)"),
 }
 """How they are called before a word for an end or edge, and without one."""
-_ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border"}
+_ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border", (Nearby.AT_CORNER,): "corner"}
 _QUARTERS = {
-    (Nearby.AT_LEFT, Nearby.AT_FRONT): ("front left|left front", "near left"),
-    (Nearby.AT_RIGHT, Nearby.AT_FRONT): ("front right|right front", "near right"),
-    (Nearby.AT_LEFT, Nearby.AT_BACK): ("back left|left back|rear left", "far left"),
-    (Nearby.AT_RIGHT, Nearby.AT_BACK): ("back right|right back|rear right", "far right"),
+    (Nearby.AT_LEFT, Nearby.AT_FRONT): (
+        "front left|left front",
+        "near left|lower left|bottom left",
+    ),
+    (Nearby.AT_RIGHT, Nearby.AT_FRONT): (
+        "front right|right front",
+        "near right|lower right|bottom right",
+    ),
+    (Nearby.AT_LEFT, Nearby.AT_BACK): (
+        "back left|left back|rear left",
+        "far left|upper left|top left",
+    ),
+    (Nearby.AT_RIGHT, Nearby.AT_BACK): (
+        "back right|right back|rear right",
+        "far right|upper right|top right",
+    ),
 }
-"""How they are called, and how their corners are called besides: "far left" alone is a side."""
+"""How they are called, and how their corners are called besides: "far left" alone is a side,
+and "the top left" of a shelf is on its top."""
 REGION_OF_IT = {
     **{
         (side, *edge): f"{said} ({named})"
