@@ -72,6 +72,15 @@ def test_a_hand_that_dips_goes_no_further_around_what_is_too_wide() -> None:
     assert len([*pick._variants(GraspSet((fitting,), (wide,), fitting.width))]) > 1
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_filled_cup_is_taken_by_its_outside(seed: int) -> None:
+    """What lies in it leaves no finger room at its rim, all around."""
+    cup = CUP | {"diameter": 0.062, "height": 0.06}
+    ball = {"kind": "sphere", "diameter": 0.034, "mass": 0.01, "inside": "cup"}
+    state = episode(seed, cup=cup, ball=ball).must("[PICK UP, cup] (vertical)")
+    assert state.states["ball"].inside == "cup"
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_thing_on_furniture_is_picked_up(seed: int) -> None:
     unit = UNIT | {"yaw_deg": -90, "drawers": drawers()}

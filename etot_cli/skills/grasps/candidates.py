@@ -8,8 +8,10 @@ fingers and there is room for a finger on either side of it.
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import NamedTuple
 
 import mujoco
@@ -57,6 +59,9 @@ TOO_WIDE_TRIES = 1.35
 MAX_RANKED = 48
 """Grasps that are kept, of several hundred that are found mostly: those whose whole way is looked
 at."""
+LEAST_ALIKE = 12
+"""Of these, walls and whole widths from above, and walls through a mouth, at least as far as there
+are any: what stands in a cup keeps the fingers from all of its rim, and not from its outside."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 
 
@@ -134,6 +139,7 @@ class _Pinch(NamedTuple):
     pose: GraspPose
     score: float
     friction: float
+    wall: bool
 
     def grasp(self, opening: float) -> Grasp:
         """The grasp, with the pads ``opening`` apart for the approach [m]."""
@@ -157,8 +163,11 @@ class _Found:
         interval: Interval,
         pose: GraspPose,
         score: float,
+        wall: bool = False,
     ) -> None:
-        """Takes note of a grasp of what lies on an interval, unless it meets that too obliquely."""
+        """Takes note of a grasp of what lies on an interval, a single ``wall`` or all of the thing,
+        unless it meets that too obliquely.
+        """
         if interval.squareness < SQUARE:
             return
         cosine, width = min(interval.squareness, 1.0), interval.width
@@ -170,11 +179,19 @@ class _Found:
             into = self._wide
         else:
             return
-        into.append(_Pinch(point, approach, closing, width, pose, score, friction))
+        into.append(_Pinch(point, approach, closing, width, pose, score, friction, wall))
 
     def ranked(self) -> GraspSet:
         """The best of them."""
-        best = sorted(self.fitting, key=lambda pinch: pinch.score)[:MAX_RANKED]
+        fitting = sorted(self.fitting, key=lambda pinch: pinch.score)
+        ranks: dict[object, count[int]] = defaultdict(count)
+        # Hands from the side come last anyhow, and have their turn when they are asked for.
+        ranks[GraspPose.HORIZONTAL, False] = count(LEAST_ALIKE)
+        ahead = sorted(
+            (next(ranks[pinch.pose, pinch.wall]) >= LEAST_ALIKE, index)
+            for index, pinch in enumerate(fitting)
+        )
+        best = [fitting[index] for index in sorted(index for _, index in ahead[:MAX_RANKED])]
         wide = sorted(self._wide, key=lambda pinch: (pinch.width, pinch.score))[:MAX_RANKED]
         widths = (pinch.width for pinch in (*self.fitting, *self._wide))
         return GraspSet(
@@ -227,11 +244,11 @@ def _from_above(
         closing = levels[number].closing
         if rim and interval.squareness < SQUARE:
             slanted.append(Slanted(middle, closing, score))
-        found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score)
+        found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score, rim)
     for wall in across_walls(solids, data, name, slanted):
         found.add(
             wall.middle, wall.approach, wall.closing, wall.interval,
-            GraspPose.VERTICAL, wall.score + LEAN_COST * wall.lean,
+            GraspPose.VERTICAL, wall.score + LEAN_COST * wall.lean, wall=True,
         )  # fmt: skip
 
 
@@ -326,7 +343,9 @@ def _through_mouth(
         for wall, is_rim in _choices(line, []):
             if is_rim:
                 middle = point + closing * (wall.start + wall.end) / 2
-                found.add(middle, approach, closing, wall, GraspPose.HORIZONTAL, MOUTH_COST)
+                found.add(
+                    middle, approach, closing, wall, GraspPose.HORIZONTAL, MOUTH_COST, wall=True
+                )
 
 
 def tilted(grasp: Grasp, angle: float) -> Grasp:

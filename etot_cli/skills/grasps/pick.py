@@ -188,7 +188,9 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
         for rank, grasp in enumerate(ranked)
         for tilt in (0.0, *tilts[grasp.pose])
     ]
-    for *_, rank, tilt in sorted(order)[:MAX_PREPARED]:
+    # Were only the best looked at, one lean of all walls of a cup would do for all its outside.
+    kept = sorted(order, key=lambda item: (item[-1] != 0.0, item))[:MAX_PREPARED]
+    for *_, rank, tilt in sorted(kept):
         yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
 
 
