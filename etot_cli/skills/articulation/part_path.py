@@ -323,11 +323,13 @@ def backed_out(
     try:
         while steps > 0:
             travel.place(found.values[steps - 1])
-            retreat = way_back(belief, found.rows[steps - 1])
-            if retreat is not None and not belief.checker.hits(
-                retreat[SHORT_RETREAT - 1], clearance=CONTACT_CLEARANCE, hand_only=True
-            ):
-                break
+            back = way_back(belief, found.rows[steps - 1])
+            if back is not None:
+                # Beside the part it may be close; further out it stops before what it would meet.
+                met = (belief.checker.hits(row, clearance=CONTACT_CLEARANCE) for row in back[1:])
+                retreat = back[: next((i for i, hits in enumerate(met, 1) if hits), len(back))]
+                if len(retreat) >= SHORT_RETREAT:
+                    break
             steps -= BACK_OUT_STEPS
         else:
             return None
