@@ -240,7 +240,7 @@ def test_who_keeps_the_arm_from_a_door_is_named_or_swept_away() -> None:
 def test_a_hand_stops_before_what_it_would_back_into(seed: int) -> None:
     """The chest is behind the hand once it lets go of the door half-way, to push it on."""
     chest = {"kind": "drawer_unit", "at": [0.483, -0.204], "yaw_deg": -157,
-             "size": [0.23, 0.184, 0.16], "mass": 2.0, "drawers": drawers(handle=STOUT)}  # fmt: skip
+             "size": [0.23, 0.184, 0.16], "drawers": drawers(handle=STOUT)}  # fmt: skip
     door = {"hinge": "right", "handle": STOUT | {"width": 0.1, "vertical": True}}
     cabinet = {"kind": "cabinet", "at": [0.503, 0.352], "yaw_deg": -133, "size": [0.25, 0.30, 0.26],
                "mass": 8.0, "door": door}  # fmt: skip
