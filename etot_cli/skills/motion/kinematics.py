@@ -93,16 +93,17 @@ class Arm:
             height: of the tool point, base frame [m].
         """
         key = round(height, 2)
+
+        def reaches(radius: float) -> bool:
+            target = Pose(np.array([radius, 0.0, key]), np.diag([1.0, -1.0, -1.0]))
+            return self.reach(target, self.home, tries=2).reached
+
         if key not in self._comfortable:
-            down = np.diag([1.0, -1.0, -1.0])
-            radii = np.arange(RADIUS_STEP, self.spec.reach, RADIUS_STEP)
-            reached = [
-                radius
-                for radius in radii
-                if self.reach(Pose(np.array([radius, 0.0, key]), down), self.home, tries=2).reached
-            ]
-            middle = (reached[0] + reached[-1]) / 2 if reached else self.spec.reach / 2
-            self._comfortable[key] = float(middle)
+            middle = self.spec.reach / 2
+            radii = np.arange(RADIUS_STEP, self.spec.reach, RADIUS_STEP).tolist()
+            # Only the nearest and the farthest count.
+            ends = [next(filter(reaches, order), middle) for order in (radii, radii[::-1])]
+            self._comfortable[key] = sum(ends) / 2
         return self._comfortable[key]
 
     def forward(self, joints: Vector) -> Pose:

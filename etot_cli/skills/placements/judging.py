@@ -160,6 +160,7 @@ class Judge:
         axes, cell = self._support.axes, self.relief.cell
         self._undersides = Undersides(belief, attached, axes, cell, stamps)
         self._on_desk = self._support.owner is None
+        self._gap = DESK_GAP if self._on_desk else GAP
         self._extents: dict[bytes, tuple[Vector, Vector]] = {}
 
     def grid(self) -> Cells:
@@ -184,15 +185,13 @@ class Judge:
 
     def may_stand(self, rotation: Vector, cells: Cells) -> Cells:
         """Those of cells (m, 2) where the object may stand as far as a few points of its underside
-        tell. On the desk all: most of it is free.
+        tell.
         """
-        if self._on_desk:
-            return cells
         few = self._undersides.of_object(rotation).outline(OUTLINE)
         bottom = self._extent(rotation)[0][2]
         lift = resting_heights(self.relief, few, cells) + bottom - self.relief.floor
         gap = least(self._free, 1.0, few, cells) - self.relief.cell
-        stands = (lift <= FLAT) & (gap >= GAP) & self._is_off_edge(few, cells)
+        stands = (lift <= FLAT) & (gap >= self._gap) & self._is_off_edge(few, cells)
         return np.asarray(cells[stands])
 
     def judge(self, rotation: Vector, cells: Cells) -> Judged:
@@ -231,7 +230,7 @@ class Judge:
         support, relief = self._support, self.relief
         rest, lift, drop = turned.rest, turned.lift, turned.drop
         stands = (np.abs(lift) <= FLAT) & self._is_off_edge(turned.object, turned.cells)
-        clear = turned.gap >= (DESK_GAP if self._on_desk else GAP)
+        clear = turned.gap >= self._gap
         kind = np.full(len(rest), -1)
         if support.is_container and not support.from_front and not self._is_drawer:
             kind[:] = Quality.LOOSE

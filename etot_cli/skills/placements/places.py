@@ -168,6 +168,8 @@ class PlaceFinder:
     ) -> dict[int, float]:
         """Extra cost of places that leave no room for another of its kind [m]."""
         relief = self._relief
+        # All beyond the floor is blocked; a rim of one cell stands for it.
+        floor = tuple(slice(at.min() - 1, at.max() + 2) for at in np.nonzero(relief.on_floor))
         blocked = relief.occupied | ~relief.on_floor
         bins: dict[tuple[int, int], float] = {}
         size = max(int(BIN / relief.cell), 1)
@@ -184,7 +186,8 @@ class PlaceFinder:
                 keep &= (rows < after.shape[0]) & (columns < after.shape[1])
                 after[rows[keep], columns[keep]] = True
                 half = min(np.ptp(footprint, axis=0)) * relief.cell / 2
-                left = float(free_distance(after, relief.cell).max()) / max(half, relief.cell)
-                bins[key] = NO_ROOM_COST * (left < NEXT_ROOM)
+                room = NEXT_ROOM * max(half, relief.cell)
+                left = free_distance(after[floor], relief.cell, room).max()
+                bins[key] = NO_ROOM_COST * (left < room)
             costs.setdefault(index, bins.get(key, NO_ROOM_COST))
         return costs

@@ -73,8 +73,7 @@ class Relief:
     @cached_property
     def on_floor(self) -> NDArray[np.bool_]:
         """(a, b) cells that belong to the floor."""
-        index = np.indices(self.heights.shape).reshape(2, -1).T
-        local = np.asarray((index - self.middle) * self.cell, dtype=np.float64)
+        local = _grid(self.middle, self.cell)
         return np.asarray(self.support.inside(local).reshape(self.heights.shape))
 
     @cached_property
@@ -136,22 +135,18 @@ def relief(belief: Belief, support: Support, absent: Collection[str]) -> Relief:
     owners = np.full(heights.shape, -1)
     names = tuple(world.entries)
     desk = world.scene.desk
-    index = np.indices(heights.shape).reshape(2, -1).T
-    places = support.center[:2] + ((index - counts) * cell) @ support.axes
-    over_desk = (np.abs(places - desk.center) <= np.array(desk.size) / 2).all(axis=1)
-    heights[over_desk.reshape(heights.shape)] = desk.top
+    places = support.center[:2] + _grid(counts, cell) @ support.axes
+    (x, y), (width, depth) = np.abs(places - desk.center).T, np.array(desk.size) / 2
+    heights.ravel()[(x <= width) & (y <= depth)] = desk.top
     ceiling = support.center[2] + support.room if support.from_front else np.inf
     solids = belief.solids
     standing = shapes_of(data, standing_geoms(belief, absent), np.zeros(3))
     for number, window, low, high in canvas.cuts(solids, standing):
         # A roof is no obstacle to what comes in under it.
-        counts_here = (high > low) & (low < ceiling - BUMP)
-        higher = counts_here & (high > heights[window])
-        heights[window] = np.where(higher, high, heights[window])
+        higher = (high > low) & (low < ceiling - BUMP) & (high > heights[window])
         owner = world.geom_object[standing[number].geom]
-        owners[window] = np.where(
-            higher, names.index(owner) if owner in names else -1, owners[window]
-        )
+        np.copyto(heights[window], high, where=higher)
+        np.copyto(owners[window], names.index(owner) if owner in names else -1, where=higher)
     reserved = np.zeros(heights.shape, dtype=bool)
     if support.owner is None:
         reserved = canvas.covered(solids, swept_shapes(belief))
@@ -159,6 +154,12 @@ def relief(belief: Belief, support: Support, absent: Collection[str]) -> Relief:
         # Whatever goes in passes over all that is nearer to the front, where the index is larger.
         heights = np.maximum.accumulate(heights[::-1], axis=0)[::-1]
     return Relief(support, cell, heights, owners, names, reserved)
+
+
+def _grid(counts: Cells, cell: float) -> Vector:
+    """All cells (n, 2) with so many (2,) on either side of the middle one, from there [m]."""
+    index = np.indices(tuple(2 * counts + 1)).reshape(2, -1)
+    return np.asarray(((index - counts[:, None]) * cell).T)
 
 
 def standing_geoms(belief: Belief, absent: Collection[str]) -> list[int]:

@@ -58,9 +58,8 @@ class Support:
 
     def inside(self, local: Vector) -> Vector:
         """Whether points (m, 2) of the floor's frame lie on it, (m,)."""
-        if self.is_round:
-            return np.asarray(np.hypot(local[:, 0], local[:, 1]) <= self.half[0] + 1e-9)
-        return np.asarray((np.abs(local) <= self.half + 1e-9).all(axis=1))
+        (x, y), (width, depth) = np.abs(local).T, self.half + 1e-9
+        return np.asarray(np.hypot(x, y) <= width if self.is_round else (x <= width) & (y <= depth))
 
 
 def surface_support(belief: Belief, address: str) -> Support | None:
