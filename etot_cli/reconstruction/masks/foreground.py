@@ -29,9 +29,6 @@ LEAST_TALL = 0.006
 """Lower things are folds and stains [m]."""
 THINNEST = 7.0
 """Thinner things are fringes [px]."""
-FEET = 45
-"""An object's lower part may be hidden from depth up to this far below the rest [px]. No mask of 17
-captures changes its overlap with the truth by 0.003 where it is halved or doubled."""
 COVERED = 0.6
 """What stands on the desk with its foot out of sight hides so much of its own footprint."""
 _CELLS = 400
@@ -85,14 +82,12 @@ def with_feet(
     desk = np.median(color[seen.desk], axis=0)
     spread = np.percentile(np.linalg.norm(color[seen.desk] - desk, axis=1), 90)
     other = np.linalg.norm(color - desk, axis=2) > max(OTHER_COLOR, 1.5 * float(spread))
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FEET + 1,) * 2)
-    near = cv2.dilate((raised & above_desk).astype(np.uint8), kernel) > 0
     # A foot is as low as the desk: beyond the desk's edge a lost reading is the floor's.
     v, u = np.nonzero(~np.isfinite(seen.height))
     places = seen.view.on_plane(np.column_stack([u, v]).astype(np.float64), seen.desk_top)[:, :2]
     known = above_desk.copy()
     known[v, u] = np.isfinite(places[:, 0]) & _over_desk(seen, np.nan_to_num(places, nan=1e6))
-    extra = opened(other & near & known & ~raised & ~shade, 3)
+    extra = opened(other & known & ~raised & ~shade, 3)
     labels = label_components(extra, 20)
     grown = cv2.dilate(raised.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
     touching = np.unique(labels[grown & (labels > 0)])
