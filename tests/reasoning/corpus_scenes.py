@@ -1162,5 +1162,10 @@ def greenhouse() -> SceneState:
         item("tile", "box", (0.30, -0.02), size=(0.15, 0.15, 0.01), color="red"),
         item("mat", "box", (0.30, -0.42), size=(0.20, 0.26, 0.01), color="green"),
         item("shears", "box", (0.30, -0.20), size=(0.18, 0.05, 0.02), label="shears"),
+        item("twine", "box", (0.18, 0.00), size=CUBE, label="twine", color="orange"),
+        ball("orange_1", (0.18, 0.20), label="orange", color="orange"),
+        ball("orange_2", (0.18, -0.20), label="orange", color="orange"),
+        item("in_tray", "box", (0.62, -0.52), size=FLAT, label="in tray"),
+        item("spade", "box", (0.62, -0.52), size=(0.12, 0.05, 0.01), on="in_tray", z=0.16),
         item("flask_1", "cylinder", (0.30, 0.40), size=(0.06, 0.06, 0.2), label="water bottle"),
     )

@@ -96,11 +96,19 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         names = ", ".join(thing.name for thing in there)
         which = "one" if stays else "none"
         discourse.notes.append(f"{referent.text!r} is {which} that is there already ({names})")
-    for index in fixed if stays else ():
-        # "Leave the lily in the vase": of several vases the one that it is in.
+    for index in fixed:
+        # "Leave the lily in the vase": of several the one that it is in; it is put in another.
         around, left = discourse.referents[index], discourse.things(theme)
-        here = [o for o in around.options if all(touches(one, o[0], context.scene) for one in left)]
-        discourse.referents[index] = replace(around, options=tuple(here) or around.options)
+        told = tuple(
+            option
+            for option in around.options
+            if all(touches(one, option[0], context.scene) for one in left) == stays
+        )
+        if told and told != around.options and (stays or index in discourse.undecided):
+            discourse.referents[index] = replace(around, options=told)
+            if not stays:
+                names = " or ".join(thing.address for option in told for thing in option)
+                discourse.notes.append(f"{around.text!r} is one that it is not at yet ({names})")
 
 
 def leave_among(context: Context, themes: Sequence[int]) -> None:

@@ -60,12 +60,12 @@ _FIXED = """
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
-    back on [the] top of,    right (next|behind|beside|in front),
+    back on [the] top of, right (next|behind|beside|in front), not both [of them],
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
-    (near|close|next|closer|nearer) to, near the,
+    (near|close|next|closer|nearer) to, near (the|each other|one another),
     s (top|surface), in any order, only then
 """
 """Phrases in which such words say something else, or nothing of their own."""
@@ -86,9 +86,10 @@ _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 def unaccounted(words: Iterable[str], reading: tuple[Spoken, ...]) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
-    plain = _SAY_NOTHING.sub(" ", " ".join(words))
+    text = " ".join(words)
+    plain = _SAY_NOTHING.sub(" ", text)
     left = Counter(_traces(reading))
-    if _NOT_BOTH.search(plain) and any(isinstance(said.clause, AvoidClause) for said in reading):
+    if _NOT_BOTH.search(text) and any(isinstance(said.clause, AvoidClause) for said in reading):
         return "both"  # one of them may go there
     for word in plain.split():
         kinds = _kinds(word)
@@ -179,7 +180,7 @@ def _said(node: object) -> Iterator[str]:
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
-            yield from ("either", "any", "both", "not") if either else ()
+            yield from ("either", "any", "both") if either else ()
             yield from ("both", _ORDER) if len(phrases) > 1 else ()
         case _:
             return

@@ -47,7 +47,7 @@ EXTRA = sequence(
         BY_COLOR,
         phrase(manner.ONE_EACH, ("each", ())),
         phrase("each, apiece", ("apart", ())),
-        phrase("[but|though|and] not both [of them]", ("one", ())),
+        phrase(manner.NOT_BOTH, ("one", ())),
         sequence(
             either(
                 phrase("(that|which) is [currently]", False),

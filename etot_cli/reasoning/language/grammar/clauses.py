@@ -62,7 +62,7 @@ from etot_cli.reasoning.language.grammar.taking import (
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 WANTED = either(
-    sequence(verbs.WANT, ALL_THINGS, verbs.DONE, DESTINATIONS, build=put_to),
+    sequence(verbs.LET, ALL_THINGS, verbs.LET_BE, DESTINATIONS, build=put_to),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(ALL_THINGS, verbs.MODAL, SOURCE, build=RemoveClause),
     sequence(verbs.WANT, ALL_THINGS, "[to be] (picked up|lifted [up])", build=PickClause),

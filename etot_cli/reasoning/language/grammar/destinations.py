@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
-from etot_cli.reasoning.language.words import nouns, places, small_words
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
@@ -59,6 +59,7 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
     return (Beside(relation, nps),)
 
 
+_CLOSE_BY = f"{places.NEARBY[Nearby.NEXT_TO]}, {places.NEARBY[Nearby.NEAR]}"
 _NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR})
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
@@ -67,8 +68,8 @@ _SIDE_OF_IT = one_of(
 )
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
 _ABREAST = valued(
-    phrase("side by side, next to each other, next to one another", Nearby.NEXT_TO),
-    lambda relation: _beside(relation, EACH_OTHER),
+    either("side by side", sequence(_CLOSE_BY, "each other, one another")),
+    lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
 )
 BESIDE = spanned(
     either(
@@ -93,7 +94,12 @@ BESIDE = spanned(
         ),
         _ABREAST,
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
-        sequence(_REGION, optional(sequence("of, belonging to", noun_phrase), None), build=_region),
+        sequence(
+            EXACTLY,
+            _REGION,
+            optional(sequence("of, belonging to", noun_phrase), None),
+            build=_region,
+        ),
     ),
     lambda text, found: tuple(replace(item, text=text) for item in found),
 )
@@ -152,13 +158,18 @@ destination = Rule(
         ),
     )
 )
+_any_of_them = separated(destination, small_words.OR, most=5)
 DESTINATIONS = Rule(
     either(
-        separated(destination, small_words.OR, most=5),
+        _any_of_them,
         sequence(
-            small_words.EITHER,
-            separated(destination, small_words.OR, most=5),
-            build=lambda found: found if len(found) > 1 else None,
+            small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
+        ),
+        sequence(
+            _any_of_them,
+            OPTIONAL_COMMA,
+            manner.NOT_BOTH,
+            build=lambda found: found if sum(len(item.targets) for item in found) > 1 else None,
         ),
     )
 )

@@ -51,9 +51,10 @@ SIDE = phrase(places.SIDE)
 
 
 def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
-    """A relation to a thing; "at the top" names a side and no thing."""
+    """A relation to a thing; "at the top" names a side and no thing, nor does "each other"."""
     side = np.words and all(text in SIDES or text in LEVELS for text in np.words)
-    return None if prep is Prep.NEXT_TO and side else Modifier(prep, (np,))
+    mutual = np.text in ("each other", "one another")
+    return None if mutual or (prep is Prep.NEXT_TO and side) else Modifier(prep, (np,))
 
 
 BETWEEN = sequence(

@@ -317,7 +317,7 @@ THINGS = Rule(
         sequence(alternatives(noun_phrase, 5), build=_one_of),
         sequence(
             alternatives(noun_phrase, 1),
-            "~comma but not both ~comma",
+            "~comma [but] not both ~comma",
             build=lambda nps: _one_of(nps) if nps[1:] else None,
         ),
     )

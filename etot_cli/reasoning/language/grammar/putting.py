@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    valued,
     variants,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -59,6 +60,7 @@ def _away(text: str, things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.INSIDE, (trash,)),))
 
 
+_THEREIN = valued(phrase("inside, in there, in"), lambda text: Destination(Toward.HERE, word=text))
 THROWN = quiet(
     either(
         sequence(
@@ -67,7 +69,7 @@ THROWN = quiet(
                 sequence(
                     THINGS,
                     optional("away, out"),
-                    sequence(either(INTO, ONTO), build=lambda place: (place,)),
+                    sequence(either(INTO, ONTO, _THEREIN), build=lambda place: (place,)),
                     build=PutGroup,
                 ),
                 LIST,

@@ -160,7 +160,7 @@ IF_NOT_SO = quiet(
     sequence(
         "if",
         NP_LIST,
-        verbs.BE,
+        f"{verbs.BE}, 's",
         OPEN_OR_CLOSED,
         either(COMMA, sequence(OPTIONAL_COMMA, "then")),
         _PLAIN_MOVE,
@@ -168,7 +168,7 @@ IF_NOT_SO = quiet(
     )
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
-_TO_BE = optional("to (be|end up|go|stand|sit|lie)")
+_TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
 
 
 def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> EnsureClause | None:

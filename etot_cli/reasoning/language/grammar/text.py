@@ -50,6 +50,7 @@ def normalized(text: str) -> str:
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
     text = re.sub(rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]]), text)
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
     text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
     pieces = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"

@@ -14,6 +14,7 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, parts_of, radius
+from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
@@ -108,10 +109,14 @@ def with_what_lies_on_them(
 
 
 def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
-    """Whether a thing lies inside a landmark."""
+    """Whether a thing lies inside a landmark, or on what things are said to be "in"."""
     if thing.name == DESK:
         return False
-    return any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
+    info = scene.infos.get(landmark.name)
+    tray = info is not None and matches_any(info.label.split()[-1], OPEN_SURFACES)
+    return (tray and rests_on(thing, landmark, scene)) or any(
+        is_inside(scene, thing.name, address) for address in addresses(landmark, scene)
+    )
 
 
 def touches(upper: Thing, lower: Thing, scene: SceneState) -> bool:

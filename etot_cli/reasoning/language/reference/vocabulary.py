@@ -172,8 +172,10 @@ class Vocabulary:
         of milk", "yellow and white mug") stand as one word each, in either number.
         """
         for before in dict.fromkeys(w for entry in self.objects for w in entry.numbered()):
-            # "Box two" where boxes have numbers; "the box one by one" is none of them.
-            number = rf"\b({re.escape(before)}) ({'|'.join(NUMBERS)})\b"
+            # "Box two" where boxes have numbers; "the box one by one" is none of them, nor is "the
+            # orange one".
+            counted = [word for word in NUMBERS if word != "one" or not is_descriptive(before)]
+            number = rf"\b({re.escape(before)}) ({'|'.join(counted)})\b"
             no_count = r"(?! (?:by|at|after|of|per|(?:in )?each)\b)"
             text = re.sub(number + no_count, lambda said: f"{said[1]} {NUMBERS[said[2]]}", text)
         for head in dict.fromkeys(h for entry in self.objects for h in entry.heads if "_" not in h):

@@ -46,6 +46,7 @@ ONE_EACH = """
     one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
     one to each, one in each one
 """
+NOT_BOTH = "[but|though|and] not both [of them]"
 BY_COLOR = """
     by [their] (color|colour), according to [their] (color|colour), sorted by (color|colour),
     matched by (color|colour)

@@ -14,7 +14,9 @@ WITHOUT_MEANING = """
     [please and] thank you, thanks [a lot], cheers, that is all,
     (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
     i (do not|don t) (care|mind) [which] [one], whichever, if you can,
-    if possible, at all times, properly, neatly, directly, straight
+    if possible, at all times, properly, neatly, directly, straight,
+    without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
+    without (dropping|breaking) (it|them)
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -63,7 +65,7 @@ TRAILING_LAST = """
 TRAILING_THEN = "afterwards, afterward, after that, next, then, later"
 INSTEAD = "instead, instead of (it|them|that|those)"
 """What is asked for takes the place of what is taken away, or is not to be done."""
-AND = "and [also], as well as, along with, together with, plus"
+AND = "and [also|likewise], as well as, along with, together with, plus"
 OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
@@ -74,7 +76,7 @@ THEN_JOINTS = """
 """
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
-EXACTLY = "right, directly, immediately, just, straight"
+EXACTLY = "right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you]"
 AFTER = "(once|after|when|as soon as) [you have|having|you]"

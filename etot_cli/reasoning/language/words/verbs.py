@@ -15,8 +15,9 @@ TO_SOMEBODY = """
 SHIFT = "mov(e|ing), relocat(e|ing), shift[ing]"
 """Of what is not to be moved, "on the tray" tells which it is rather than where to."""
 SET = """
-    put[ting] [away], plac(e|ing), pick [up] and place, insert[ing], set[ting], stow[ing] [away],
-    stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing], stick[ing], slip[ping],
+    put[ting] [away|down|back], plac(e|ing) [down], pick [up] and place, insert[ing],
+    set[ting] [down|back], stow[ing] [away], sit[ting] [down], park[ing],
+    stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing] [down], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], carry[ing], return[ing],
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
@@ -60,16 +61,20 @@ NOTHING_IS = """
     (nothing should|nothing must|there should|there must) be (|nothing|left|nothing left) (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
-MODAL = """
+_BROUGHT = """
+    put|placed|moved|brought|taken|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
+    put away|put down|put back|set down|laid down
+"""
+_BEING = "standing|lying|sitting|located|resting"
+MODAL = f"""
     (should|must|shall) (be|end up|get|finally be|then be|go|stand|sit|lie),
     (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
-    (put|placed|moved|brought|stored|dropped|transferred),
-    (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed),
-    (should|must) be (standing|lying|sitting|located|stored)
+    ({_BROUGHT}|{_BEING}),
+    (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed)
 """
 CAN = "can, could, may"
-BE_PUT = "[please] be [put|placed|moved|brought|stored|transferred]"
+BE_PUT = f"[please] be [{_BROUGHT}]"
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like,
@@ -87,10 +92,11 @@ STAY = """
 """
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
-DONE = """
-    [to be] (put|placed|moved|brought|taken|set|stored|dropped|inserted|transferred)
-"""
+DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
+LET = "have, let, get"
+LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
+"""Between them is what is to go somewhere."""
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
