@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask, View
+from etot_cli.reconstruction.masks.labels import disc, grown, shrunk
 
 NEIGHBOURS = ((1, 0), (-1, 0), (0, 1), (0, -1))
 MARGIN = 0.004
@@ -143,8 +144,7 @@ def observe(
         if (front & border).sum() > HIDING * border.sum():
             hiding |= other
     # Masks drawn by hand or by a model leave a seam between things that touch.
-    seam = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 1,) * 2)
-    occluder = cv2.dilate(occluder.astype(np.uint8), seam) > 0
+    occluder = grown(occluder, SEAM, as_disc=True)
     edges = []
     total = 0
     v, u = np.nonzero(mask)
@@ -163,13 +163,11 @@ def observe(
         | (found[:, 1] < 2) | (found[:, 1] > height - 3)
     )  # fmt: skip
     found = found[~near_border]
-    reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * FREE_RING + 1,) * 2)
-    grown = cv2.dilate(mask.astype(np.uint8), reach) > 0
+    beside = grown(mask, FREE_RING, as_disc=True)
     close = cv2.dilate(mask.astype(np.uint8), ring) > 0
     hiding |= occluder
-    free = _pixels(grown & ~close & ~hiding) + corner
-    kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
-    sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
+    free = _pixels(beside & ~close & ~hiding) + corner
+    sure = shrunk(mask, erosion)
     # Pixels at the edge say no more than the edge itself, and the mask may err there.
     within = sure if sure.any() else mask
     inside = _pixels(within) + corner
@@ -228,7 +226,7 @@ def _spread(nearness: Array, mask: Mask, kernel: object) -> Array:
     """
     read = np.isfinite(nearness)
     masked = np.where(mask & read, nearness, 0.0).astype(np.float32)
-    far = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * LOST + 1,) * 2)
+    far = disc(LOST)
     spread = np.full(mask.shape, np.inf)
     for reach, allowed in ((far, ~read), (kernel, True)):
         total = cv2.filter2D(masked, -1, np.asarray(reach, np.float32))

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.view import Mask
-from etot_cli.reconstruction.masks.labels import label_components
+from etot_cli.reconstruction.masks.labels import disc, label_components
 
 THIN = 0.4
 """What is thinner than this share of a thing's thickest place stands out of it: handles measure 0.1
@@ -23,10 +23,9 @@ def without_protrusions(mask: Mask) -> Mask | None:
     """A mask (h, w) without what stands out of it; None where nothing does."""
     inscribed = float(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5).max())
     size = int(mask.sum())
-    # A disc, so that what stands out does not hang on how the thing is turned. Its side is odd:
-    # OpenCV's opening moves a mask by a pixel otherwise.
-    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(THIN * inscribed) + 1,) * 2)
-    thick = cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_OPEN, disc) > 0
+    # A disc, so that what stands out does not hang on how the thing is turned.
+    thin_at_most = disc(round(THIN * inscribed))
+    thick = cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_OPEN, thin_at_most) > 0
     thin = label_components(mask & ~thick, round(LEAST_SHARE * size))
     body = mask & (thin == 0)
     if not (1 - MOST_SHARE) * size < body.sum() < size:

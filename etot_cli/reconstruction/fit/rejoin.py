@@ -19,6 +19,7 @@ from etot_cli.reconstruction.fit.observation import LOST, convex_hull_mask
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
 from etot_cli.reconstruction.fit.second_look import MOST_LOOKS, doubtful, explain_better
 from etot_cli.reconstruction.fit.supports import CONVINCING, fit_all, fit_alone
+from etot_cli.reconstruction.masks.labels import disc, grown
 from etot_cli.reconstruction.objects import Segment, Solid
 from etot_cli.reconstruction.shapes.catalog import NO_FURNITURE
 from etot_cli.reconstruction.shapes.upright import Cylinder
@@ -58,10 +59,10 @@ def rejoin(
 
 def _pairs(solids: list[Solid]) -> Iterator[tuple[list[Solid], Segment]]:
     """Solids side by side, one of them doubtful, and the segment that may stand in for both."""
-    reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM + 1,) * 2)
+    reach = disc(SEAM)
     tried: list[set[str]] = []
     for solid in doubtful(solids):
-        near = cv2.dilate(solid.segment.mask.astype(np.uint8), reach) > 0
+        near = grown(solid.segment.mask, SEAM, as_disc=True)
         for other in solids:
             names = {solid.name, other.name}
             if other is solid or other.segment.named or names in tried:

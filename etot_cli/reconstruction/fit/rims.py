@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Set
 from dataclasses import replace
 
-import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
@@ -23,6 +22,7 @@ from etot_cli.reconstruction.fit.pose import (
     residuals_of,
 )
 from etot_cli.reconstruction.fit.solver import minimize
+from etot_cli.reconstruction.masks.labels import grown
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.upright import TYPICAL_FLOOR, TYPICAL_WALL, Cup, Cylinder
@@ -151,7 +151,7 @@ def _clear_of(seen: Observation, mask: Mask) -> Observation:
     """Without the edge along a vessel: there the near rim may hide a part of what lies in it."""
     if not len(seen.edges):
         return seen
-    near = cv2.dilate(mask.astype(np.uint8), np.ones((2 * SEAM + 1,) * 2, np.uint8)) > 0
+    near = grown(mask, SEAM)
     u, v = (np.round(seen.edges[:, index]).astype(int) for index in (0, 1))
     return replace(seen, edges=seen.edges[~near[v, u]])
 

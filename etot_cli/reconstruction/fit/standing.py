@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import View
 from etot_cli.reconstruction.fit.observation import LOST, Observation
 from etot_cli.reconstruction.fit.pose import Fit
+from etot_cli.reconstruction.masks.labels import grown
 from etot_cli.reconstruction.objects import DESK, Segment, Solid
 from etot_cli.reconstruction.shapes.base import convex_distance, rotate
 from etot_cli.reconstruction.shapes.furniture import OpenUnit
@@ -52,8 +52,7 @@ def possible_supports(
         done: the objects that were fitted before it.
     """
     found = [Support(DESK, "on", seen.desk_top)]
-    reach = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * NEIGHBOUR + 1,) * 2)
-    near = cv2.dilate(segment.mask.astype(np.uint8), reach) > 0
+    near = grown(segment.mask, NEIGHBOUR, as_disc=True)
     for solid in done:
         if not (near & solid.segment.mask).any():
             continue

@@ -15,6 +15,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.pose import Fit
+from etot_cli.reconstruction.masks.labels import grown
 
 OFF = 0.01
 """Readings at least this far from the surface are not the object's [m]."""
@@ -74,7 +75,7 @@ def find_strays(seen: Calibrated, mask: Mask, fit: Fit) -> Strays | None:
 
 def _nearer(seen: Calibrated, stray: Mask, rest: Mask) -> bool:
     """Whether stray pixels are in front of the rest of the mask beside them."""
-    ring = (cv2.dilate(stray.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0) & rest
+    ring = grown(stray, 3) & rest
     beside = seen.depth[ring & (seen.depth > 0)]
     own = seen.depth[stray & (seen.depth > 0)]
     return bool(len(beside) and len(own) and np.median(own) < np.median(beside))

@@ -17,6 +17,7 @@ from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
 from etot_cli.reconstruction.free_form.surface_nets import without_pinches
 from etot_cli.reconstruction.free_form.symmetry import find_mirrors
+from etot_cli.reconstruction.masks.labels import shrunk
 
 CELLS = 52
 """Cells along the longest side."""
@@ -108,9 +109,7 @@ def carve(seen: Calibrated, mask: Mask, others: Mask, base: float) -> Carved | N
 
 def _points(seen: Calibrated, mask: Mask, base: float, erosion: int) -> Array:
     """Surface points (n, 3) of an object; with noise, those at the mask's edge are left out."""
-    kernel = np.ones((2 * erosion + 1,) * 2, np.uint8)
-    sure = cv2.erode(mask.astype(np.uint8), kernel) > 0
-    points = seen.cloud[sure]
+    points = seen.cloud[shrunk(mask, erosion)]
     points = points[np.isfinite(points[:, 2])]
     points = points[points[:, 2] > base + 0.001]
     if len(points) < LEAST_POINTS:

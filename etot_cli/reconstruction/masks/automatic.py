@@ -6,7 +6,6 @@ a level top, and where colours meet that are not one surface; edges are then dra
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated, flattened
@@ -29,7 +28,7 @@ from etot_cli.reconstruction.masks.fragments import (
     join_fragments,
     without_crumbs,
 )
-from etot_cli.reconstruction.masks.labels import grow_labels, label_components
+from etot_cli.reconstruction.masks.labels import grow_labels, grown, label_components
 from etot_cli.reconstruction.masks.tops import part_by_tops
 from etot_cli.reconstruction.objects import Segment
 
@@ -101,5 +100,5 @@ def _stands(seen: Calibrated, piece: Mask, pieces: list[Mask]) -> bool:
     low = int((heights < HOVERING).sum())
     if low > 0.02 * len(heights) or low >= LEAST_PIXELS or hides_its_foot(seen, piece):
         return True
-    grown = cv2.dilate(piece.astype(np.uint8), np.ones((2 * TEAR + 1,) * 2, np.uint8)) > 0
-    return any((grown & other).any() for other in pieces if other is not piece)
+    near = grown(piece, TEAR)
+    return any((near & other).any() for other in pieces if other is not piece)

@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import ONE_COLOR, OTHER_COLOR
 from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.labels import disc
 from etot_cli.reconstruction.masks.readings import Readings, settled_by_depth, sure_readings
 
 INNER = 4
@@ -87,14 +88,13 @@ def _refine(
     x0, x1 = max(columns.min() - MARGIN, 0), min(columns.max() + MARGIN + 1, width)
     window = (slice(y0, y1), slice(x0, x1))
     own = mask[window].astype(np.uint8)
-    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * INNER + 1,) * 2)
-    ring = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * OUTER + 1,) * 2)
-    filled = cv2.morphologyEx(own, cv2.MORPH_CLOSE, disc)
-    core = cv2.erode(filled, disc)
+    inner = disc(INNER)
+    filled = cv2.morphologyEx(own, cv2.MORPH_CLOSE, inner)
+    core = cv2.erode(filled, inner)
     if core.sum() < 0.15 * own.sum():
         core = cv2.erode(filled, np.ones((3, 3), np.uint8))
     core[doubtful[window]] = 0
-    reach = cv2.dilate(filled, ring)
+    reach = cv2.dilate(filled, disc(OUTER))
     foreign: Any = np.zeros_like(own)
     for other in others:
         foreign |= cv2.erode(other[window].astype(np.uint8), np.ones((5, 5), np.uint8))

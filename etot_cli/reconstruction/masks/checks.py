@@ -8,7 +8,7 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.masks.foreground import LEAST_HEIGHT, TALLEST, is_thing, raised_pixels
-from etot_cli.reconstruction.masks.labels import label_components
+from etot_cli.reconstruction.masks.labels import grown, label_components
 from etot_cli.reconstruction.objects import Segment
 
 LEAST_READINGS = 30
@@ -60,8 +60,7 @@ def unmasked(seen: Calibrated, segments: list[Segment]) -> list[str]:
     threshold = max(UNMASKED_HEIGHT, 8 * seen.noise)
     raised, above_desk = raised_pixels(seen, threshold, noisy=True)
     known = np.any([*(segment.mask for segment in segments), *seen.aside], axis=0)
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * AROUND + 1,) * 2)
-    left = raised & above_desk & (cv2.dilate(known.astype(np.uint8), kernel) == 0)
+    left = raised & above_desk & ~grown(known, AROUND, as_disc=True)
     labels = label_components(left, UNMASKED_PIXELS)
     found: list[str] = []
     for index in range(1, int(labels.max()) + 1):

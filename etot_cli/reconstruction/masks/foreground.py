@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import OTHER_COLOR
 from etot_cli.reconstruction.capture.view import Array, Mask
-from etot_cli.reconstruction.masks.labels import label_components, opened
+from etot_cli.reconstruction.masks.labels import disc, grown, label_components, opened
 
 LEAST_HEIGHT = 0.001
 """Foreground rises at least this far above the desk where depth is exact [m]."""
@@ -69,7 +69,7 @@ def _over_desk(seen: Calibrated, places: Array) -> Mask:
     corners = ((seen.outline - low) / cell).round().astype(np.int32)
     cv2.fillConvexPoly(grid, cv2.convexHull(corners), 1)
     reach = max(1, round(BEYOND / float(cell.min())))
-    grid = cv2.dilate(grid, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
+    grid = cv2.dilate(grid, disc(reach))
     # Far away is clipped to the grid's border, which is free.
     index = np.clip((places - low) / cell, 0, _CELLS - 1).astype(np.int64)
     return np.asarray(grid[index[:, 1], index[:, 0]] > 0)
@@ -89,8 +89,7 @@ def with_feet(
     known[v, u] = np.isfinite(places[:, 0]) & _over_desk(seen, np.nan_to_num(places, nan=1e6))
     extra = opened(other & known & ~raised & ~shade, 3)
     labels = label_components(extra, 20)
-    grown = cv2.dilate(raised.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
-    touching = np.unique(labels[grown & (labels > 0)])
+    touching = np.unique(labels[grown(raised, 2) & (labels > 0)])
     return np.asarray(raised | np.isin(labels, touching[touching > 0]))
 
 

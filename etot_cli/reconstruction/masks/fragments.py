@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.capture.surfaces import ONE_COLOR
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.reconstruction.fit.observation import convex_hull_mask
+from etot_cli.reconstruction.masks.labels import grown
 
 TEAR = 13
 """Lost readings tear things apart by this much: an edge of each piece, with the displacement of
@@ -99,7 +100,7 @@ def without_crumbs(parts: list[Mask], least: int) -> list[Mask]:
     order = sorted(parts, key=lambda part: -int(part.sum()))
     kept: list[Mask] = []
     for part in order:
-        near = cv2.dilate(part.astype(np.uint8), _disc(TEAR)) > 0
+        near = grown(part, TEAR, as_disc=True)
         at = next((index for index, large in enumerate(kept) if (near & large).any()), None)
         if part.sum() >= least or at is None:
             kept.append(part)
@@ -114,21 +115,16 @@ def _is_fringe(fringe: Mask, thing: Mask, color: NDArray[np.float32]) -> bool:
     if share > MOST_FRINGE:
         large, small = (fringe, thing) if share > 1 else (thing, fringe)
         return bool(share < MOST_HALF) and _one_thing(large, small, color)
-    beside = (cv2.dilate(thing.astype(np.uint8), _disc(TEAR)) > 0) & fringe
+    beside = grown(thing, TEAR, as_disc=True) & fringe
     gap = np.linalg.norm(np.median(color[thing], axis=0) - np.median(color[fringe], axis=0))
     return bool(gap < ONE_COLOR) and bool(beside.sum() > ALONG * fringe.sum())
-
-
-def _disc(radius: int) -> NDArray[np.uint8]:
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2)
-    return np.asarray(kernel, np.uint8)
 
 
 def _one_thing(
     large: Mask, small: Mask, color: NDArray[np.float32], others: Sequence[Mask] = ()
 ) -> bool:
     """Whether two masks are of one thing; ``others`` may stand in front of the gap between."""
-    near = cv2.dilate(small.astype(np.uint8), _disc(TEAR)) > 0
+    near = grown(small, TEAR, as_disc=True)
     beside = near & large
     if not beside.any():
         return False
@@ -153,7 +149,7 @@ def _one_thing(
     alike = np.linalg.norm(color[between] - tone, axis=1) < ONE_COLOR
     # What has the colour of something else that borders on the gap only hides what is there.
     hidden = np.zeros(len(alike), dtype=bool)
-    rim = cv2.dilate(between.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    rim = grown(between, 2)
     for other in others:
         if (other & rim).any():
             tint = np.median(color[other], axis=0)

@@ -54,6 +54,22 @@ def nearest_label(labels: Labels) -> Labels:
     return np.asarray(table[cells], np.int32)
 
 
+def disc(radius: int) -> NDArray[np.uint8]:
+    """A round kernel (2 radius + 1, 2 radius + 1); its odd side moves no mask by a pixel."""
+    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2), np.uint8)
+
+
+def grown(mask: Mask, radius: int, *, as_disc: bool = False) -> Mask:
+    """The mask (h, w) and all up to ``radius`` pixels beside it, aslant too or all round."""
+    kernel = disc(radius) if as_disc else np.ones((2 * radius + 1,) * 2, np.uint8)
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), kernel) > 0)
+
+
+def shrunk(mask: Mask, radius: int) -> Mask:
+    """The mask (h, w) without what is up to ``radius`` pixels from its edge."""
+    return ~grown(~mask, radius)
+
+
 def opened(mask: Mask, size: int) -> Mask:
     """The mask (h, w) without what is thinner than ``size`` pixels."""
     if size < 2:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array, Mask
-from etot_cli.reconstruction.masks.labels import label_components, opened
+from etot_cli.reconstruction.masks.labels import grown, label_components, opened
 
 FLAT = 0.003
 """Heights up to this are the desk's [m]."""
@@ -66,8 +66,7 @@ def sure_readings(seen: Calibrated) -> Readings:
         flat = (seen.desk & ~raised) | (seen.height < -FLAT)
     # One reading alone is noise.
     raised = opened(raised, 2)
-    near = np.ones((2 * DISPLACED + 1,) * 2, np.uint8)
-    by_raised, by_desk = (cv2.dilate(x.astype(np.uint8), near) > 0 for x in (raised, flat))
+    by_raised, by_desk = grown(raised, DISPLACED), grown(flat, DISPLACED)
     lost = opened(~np.isfinite(seen.height), THINNEST)
     return Readings(raised & ~by_desk, flat & ~by_raised, lost, seen.height)
 

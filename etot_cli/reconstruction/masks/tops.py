@@ -12,6 +12,7 @@ from etot_cli.reconstruction.masks.foreground import TALLEST
 from etot_cli.reconstruction.masks.fragments import join_fragments
 from etot_cli.reconstruction.masks.labels import (
     grow_labels,
+    grown,
     label_components,
     nearest_label,
     opened,
@@ -68,12 +69,12 @@ def part_by_tops(seen: Calibrated, surfaces: Surfaces, piece: Mask, *, noisy: bo
         if not labels.any() or not _falls_away(seen, top, top_height):
             continue
         reach = REACH_NOISY if noisy else REACH
-        grown = cv2.dilate(top.astype(np.uint8), np.ones((2 * reach + 1,) * 2, np.uint8)) > 0
+        near = grown(top, reach)
         taken: list[Mask] = []
         for index in range(1, int(labels.max()) + 1):
             thing = labels == index
             tall = float(np.percentile(seen.height[thing], 95)) - top_height
-            if (thing & grown).sum() > 0.02 * thing.sum() and tall > ON_TOP:
+            if (thing & near).sum() > 0.02 * thing.sum() and tall > ON_TOP:
                 taken.append(thing)
         if not taken:
             continue

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
@@ -18,6 +17,7 @@ from etot_cli.reconstruction.capture.view import Array, Mask, View
 from etot_cli.reconstruction.fit.observation import Observation, observed
 from etot_cli.reconstruction.fit.pose import FINE
 from etot_cli.reconstruction.fit.refine import least_sigma
+from etot_cli.reconstruction.masks.labels import grown
 from etot_cli.reconstruction.registration.model import Model
 from etot_cli.reconstruction.registration.raster import Window, coarse_depth, window_around
 from etot_cli.reconstruction.shapes.base import rotate
@@ -95,15 +95,10 @@ def mismatch(target: Target, model: Model, params: Array) -> float:
         off = np.abs(predicted - target.depth) / target.tolerance
         before = predicted < target.depth - target.tolerance
     # Cells on an outline belong half to either side: only what lies beyond their neighbours counts.
-    missing = np.where(_grown(shown), 0.0, 1.0)
+    missing = np.where(grown(shown, 1), 0.0, 1.0)
     own_cost = np.where(shown, np.clip(np.nan_to_num(off, nan=0.0), 0.0, 1.0), missing)
     # Outside the mask the mesh must be hidden; where no depth tells, another object may hide it.
     unread = np.isnan(target.depth)
-    stray = shown & ~_grown(target.own) & np.where(unread, ~target.others, before)
+    stray = shown & ~grown(target.own, 1) & np.where(unread, ~target.others, before)
     total = float(own_cost[target.own].sum() + stray.sum())
     return total / max(int(target.own.sum()), 1)
-
-
-def _grown(cells: Mask) -> Mask:
-    """Cells and their eight neighbours."""
-    return np.asarray(cv2.dilate(cells.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
