@@ -27,9 +27,9 @@ from etot_cli.errors import EtotError, SpecError
 from etot_cli.reporting.bench_csv import write_csv
 from etot_cli.reporting.bench_report import (
     BenchReport,
-    method_models,
+    BenchTaskModel,
+    MethodModel,
     row_models,
-    task_models,
     trial_rows,
 )
 from etot_cli.reporting.provenance import Stopwatch, versions
@@ -246,8 +246,10 @@ def _report(
         versions=versions(),
         timing=watch.timing(),
         inputs=[*run.inputs],
-        tasks=task_models(run.selection.tasks, run.digests),
-        methods=method_models(run.methods),
+        tasks=[
+            BenchTaskModel.of(task, digest=run.digests[task.name]) for task in run.selection.tasks
+        ],
+        methods=[MethodModel.of(method) for method in run.methods],
         trials_per_cell=len(run.draws),
         reasoner=options.reasoner,
         engine=EngineName(options.engine).value,

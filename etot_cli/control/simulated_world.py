@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from itertools import islice
 
 import mujoco
 
 from etot_cli.control.physics_world import Performed, PhysicsWorld
 from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief, Twin, build_twin
-from etot_cli.skills.motion.motion import Motion
 from etot_cli.skills.motions import plan_motions
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.specs.scene import Scene
@@ -67,7 +66,7 @@ class SimulatedWorld(PhysicsWorld):
         belief = self.believe(start, str(action))
         first: Performed | None = None
         steps, simulated_s = 0, 0.0
-        for motion in _first(plan_motions(belief, action), ATTEMPTS):
+        for motion in islice(plan_motions(belief, action), ATTEMPTS):
             if isinstance(motion, SkillOutcome):
                 tried, again = self.not_tried(start, motion), False
             else:
@@ -81,9 +80,3 @@ class SimulatedWorld(PhysicsWorld):
         assert first is not None  # there is a motion, or the reason why there is none
         record = replace(kept.record, steps=steps, simulated_s=round(simulated_s, 4))
         return replace(kept, record=record)
-
-
-def _first(motions: Iterator[Motion | SkillOutcome], count: int) -> Iterator[Motion | SkillOutcome]:
-    """The first motions, none worked out before it is asked for."""
-    for _, motion in zip(range(count), motions, strict=False):
-        yield motion

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from etot_cli.benchmark.methods.catalogue import Method
 from etot_cli.benchmark.statistics.paired import Paired, holm
 from etot_cli.benchmark.statistics.table import averages, cells, comparisons
 from etot_cli.benchmark.trial import TrialResult
@@ -20,7 +19,6 @@ from etot_cli.reporting.models import (
     VersionsModel,
     rounded,
 )
-from etot_cli.specs.task import Task
 
 DECIMALS = 4
 """Of rates: a trial in ten thousand."""
@@ -189,8 +187,7 @@ def row_models(
         fields = asdict(item)
         means.append(AverageModel.model_validate({**fields.pop("costs"), **fields}))
     first = [name for name in methods if name == "etot"] + [n for n in methods if n != "etot"]
-    found = comparisons(results, first)
-    return rows, means, paired_models([(c.first, c.second, c.pairs) for c in found])
+    return rows, means, paired_models(comparisons(results, first))
 
 
 def paired_models(found: Iterable[tuple[str, str, Paired]]) -> list[PairedModel]:
@@ -215,13 +212,3 @@ def trial_rows(results: Iterable[TrialResult]) -> list[TrialRowModel]:
         )
         for item in results
     ]
-
-
-def method_models(methods: Iterable[Method]) -> list[MethodModel]:
-    """The methods as they stand in reports."""
-    return [MethodModel.model_validate(method) for method in methods]
-
-
-def task_models(tasks: Iterable[Task], digests: Mapping[str, str]) -> list[BenchTaskModel]:
-    """The tasks as they stand in reports."""
-    return [BenchTaskModel.of(task, digest=digests[task.name]) for task in tasks]

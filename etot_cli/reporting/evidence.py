@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import dist
+from typing import Annotated
 
 from pydantic import Field
 
@@ -15,6 +16,7 @@ from etot_cli.reporting.models import (
     Model,
     Seconds,
     action_fields,
+    rounded,
 )
 from etot_cli.skills.action import Action
 from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord, owner_of
@@ -35,9 +37,9 @@ class MovedModel(Model):
     """An object that is not where, or as, it was before an action."""
 
     object: str
-    moved_m: Metres
+    moved_m: Annotated[Metres, rounded(4)]
     """Distance between its centres before and after [m]."""
-    largest_m: Metres
+    largest_m: Annotated[Metres, rounded(4)]
     """Largest displacement on the way [m]."""
     before: str
     """Where it was, in words, e.g. ``on desk``."""
@@ -51,9 +53,9 @@ class ContactModel(Model):
     """Simulated time within the action."""
     first: str
     second: str
-    peak_force_n: float = Field(ge=0.0)
+    peak_force_n: Annotated[float, Field(ge=0.0), rounded(2)] = Field(validation_alias="peak_force")
     """Largest normal force [N]."""
-    impulse_ns: float = Field(ge=0.0)
+    impulse_ns: Annotated[float, Field(ge=0.0)] = Field(validation_alias="impulse")
     """Normal force integrated over the action [N s]."""
 
 
@@ -101,8 +103,8 @@ def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedMod
             found.append(
                 MovedModel(
                     object=name,
-                    moved_m=round(moved, 4),
-                    largest_m=round(largest, 4),
+                    moved_m=moved,
+                    largest_m=largest,
                     before=whereabouts(before),
                     after=whereabouts(after),
                 )
@@ -144,13 +146,7 @@ def contact_models(record: RolloutRecord, blamed: Iterable[str]) -> list[Contact
     ]
     touching.sort(key=lambda event: (not ends(event) & culprits, -event.impulse))
     return [
-        ContactModel(
-            time_s=round(max(event.time_s, 0.0), 3),
-            first=event.first,
-            second=event.second,
-            peak_force_n=round(event.peak_force, 2),
-            impulse_ns=round(event.impulse, 4),
-        )
+        ContactModel.of(event)
         for event in sorted(touching[:MAX_CONTACTS], key=lambda event: event.time_s)
     ]
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -109,7 +108,7 @@ def build_world(
     robot = load_robot(scene.robot, scene.directory)
     mj, drafts = _drafted(scene, robot)
     if loose_furniture:
-        for name, (entry, _) in drafts.items():
+        for name, entry in drafts.items():
             mj.body(name).mocap = not entry.free
     if dressed:
         from etot_cli.world.build.dressing import dress
@@ -121,12 +120,14 @@ def build_world(
         raise WorldError(f"the scene does not compile: {error}") from error
     _scale_masses(model, scene)
     entries = {}
-    for name, (entry, spec) in drafts.items():
+    for name, entry in drafts.items():
+        spec = scene.objects[name]
         if isinstance(spec, specs.Mjcf):
             parts, regions, surfaces = mjcf_parts(model, spec, name)
             size = _extents(model, name)
             entry = entry_of(name, spec, parts, regions, surfaces, size)
-        entries[name] = _with_mass(entry, model)
+        mass = float(model.body(entry.body).subtreemass[0])
+        entries[name] = replace(entry, info=replace(entry.info, mass=mass))
     index = robot_index(model, robot)
     actuate(model, index, scene.actuation)
     return World(scene, model, index, entries, _addresses(model, entries, index))
@@ -144,7 +145,7 @@ def scene_spec(scene: specs.Scene, *, robot: bool = True) -> mujoco.MjSpec:
 
 def _drafted(
     scene: specs.Scene, robot: RobotSpec | None
-) -> tuple[mujoco.MjSpec, dict[str, tuple[ObjectEntry, Any]]]:
+) -> tuple[mujoco.MjSpec, dict[str, ObjectEntry]]:
     mj = mujoco.MjSpec()
     set_options(mj)
     add_surroundings(mj, scene)
@@ -173,13 +174,6 @@ def _scale_masses(model: mujoco.MjModel, scene: specs.Scene) -> None:
         changed = True
     if changed:
         mujoco.mj_setConst(model, mujoco.MjData(model))
-
-
-def _with_mass(entry: ObjectEntry, model: mujoco.MjModel) -> ObjectEntry:
-    from dataclasses import replace
-
-    mass = float(model.body(entry.body).subtreemass[0])
-    return replace(entry, info=replace(entry.info, mass=mass))
 
 
 def _extents(model: mujoco.MjModel, name: str) -> tuple[float, float, float]:

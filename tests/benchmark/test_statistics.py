@@ -113,8 +113,8 @@ def test_a_table_of_trials() -> None:
     assert first.rate == pytest.approx((0.8 + 1.0) / 2)
     assert first.costs["nodes"] == pytest.approx((40 + 10) / 15)
     assert dict(second.failures) == {"execution": 10}
-    (comparison,) = comparisons(results, ["a", "b"])
-    assert comparison.pairs == Paired(both=0, first_only=9, second_only=0, neither=2)
+    ((_, _, pairs),) = comparisons(results, ["a", "b"])
+    assert pairs == Paired(both=0, first_only=9, second_only=0, neither=2)
 
 
 @settings(max_examples=20)

@@ -62,15 +62,6 @@ class Average:
     """Mean per trial [s]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
-    """Two methods of one run on the same trials."""
-
-    first: str
-    second: str
-    pairs: Paired
-
-
 def cells(
     results: Iterable[TrialResult], methods: Sequence[str], tasks: Sequence[str]
 ) -> list[Cell]:
@@ -120,16 +111,17 @@ def averages(table: Iterable[Cell], results: Iterable[TrialResult]) -> list[Aver
     return found
 
 
-def comparisons(results: Iterable[TrialResult], methods: Sequence[str]) -> list[Comparison]:
-    """The first method against every other one, trial by trial."""
+def comparisons(
+    results: Iterable[TrialResult], methods: Sequence[str]
+) -> list[tuple[str, str, Paired]]:
+    """The first method against every other one, trial by trial: both names, and what came of it."""
     outcomes: dict[str, dict[object, bool]] = {}
     for result in results:
         key = (result.key.task, result.key.number, result.seed)
         outcomes.setdefault(result.key.method, {})[key] = result.success
     present = [method for method in methods if method in outcomes]
     return [
-        Comparison(present[0], other, paired(outcomes[present[0]], outcomes[other]))
-        for other in present[1:]
+        (present[0], other, paired(outcomes[present[0]], outcomes[other])) for other in present[1:]
     ]
 
 

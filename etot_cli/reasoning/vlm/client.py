@@ -41,7 +41,6 @@ class ChatClient:
     Args:
         settings: endpoint and limits.
         sleep: waits between retries [s].
-        jitter: for the waits; it decides no result.
 
     Raises:
         EtotError: the cassette to replay cannot be used.
@@ -53,7 +52,6 @@ class ChatClient:
         settings: VlmSettings,
         *,
         sleep: Callable[[float], None] = time.sleep,
-        jitter: random.Random | None = None,
     ) -> None:
         self.settings = settings
         self.redact = Redactor(settings.secrets)
@@ -61,7 +59,6 @@ class ChatClient:
         self.url = completions_url(settings.url)
         self.model = settings.model
         self._sleep = sleep
-        self._jitter = jitter or random.Random()
         self._wire: Wire | None = None
         self._lock = threading.Lock()
         self._terms = Terms(settings)
@@ -190,7 +187,7 @@ class ChatClient:
         if problem.wait_s is not None:
             return min(problem.wait_s, self.settings.retry_after_cap_s)
         full = min(self.settings.backoff_s * 2.0**retries, MAX_BACKOFF_S)
-        return full * self._jitter.uniform(0.5, 1.0)
+        return full * random.uniform(0.5, 1.0)  # decides no result
 
     def _give_up(self, problem: Problem, retries: int, why: str = "") -> ServiceError:
         where = public_url(self.url)

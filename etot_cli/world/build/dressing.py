@@ -132,11 +132,11 @@ def _room(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
         for side_y in (-1, 1):
             x = desk.center[0] + side_x * (half_x - INSET_M - LEG_M / 2)
             y = desk.center[1] + side_y * (half_y - INSET_M - LEG_M / 2)
-            _seen(world, "box", (LEG_M / 2, LEG_M / 2, (FLOOR_DEPTH - 0.03) / 2),
+            _seen(world, (LEG_M / 2, LEG_M / 2, (FLOOR_DEPTH - 0.03) / 2),
                   (x, y, floor + (FLOOR_DEPTH - 0.03) / 2), paint, "timber")  # fmt: skip
     wall = min(-WALL_BEHIND_M, desk.center[0] - half_x - WALL_BEHIND_M)
-    _seen(world, "box", (0.02, 4.0, 1.6), (wall, 0.0, floor + 1.6), (1.0, 0.99, 0.96), "plastered")
-    _seen(world, "box", (0.008, 4.0, 0.05), (wall + 0.028, 0.0, floor + 0.05),
+    _seen(world, (0.02, 4.0, 1.6), (wall, 0.0, floor + 1.6), (1.0, 0.99, 0.96), "plastered")
+    _seen(world, (0.008, 4.0, 0.05), (wall + 0.028, 0.0, floor + 0.05),
           (0.97, 0.97, 0.96), "matte")  # fmt: skip
     for geom in mj.geoms:
         if geom.name == DESK:
@@ -147,13 +147,11 @@ def _room(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
 
 def _seen(
     world: Any,
-    shape: str,
     size: tuple[float, float, float],
     position: tuple[float, float, float],
     color: tuple[float, float, float],
     material: str,
 ) -> None:
-    assert shape == "box"
     geom = world.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=list(size), pos=list(position))
     geom.rgba = [*color, 1.0]
     geom.material = material

@@ -21,10 +21,8 @@ DEFAULT_COLOR = (0.62, 0.64, 0.66)
 """Where a scene gives no colour: a light grey, seen against wood and against shadow."""
 
 
-def add_object(
-    mj: mujoco.MjSpec, scene: specs.Scene, name: str, spec: Any
-) -> tuple[ObjectEntry, Any]:
-    """Adds an object to the model to be; returns what is known of it, and its specification."""
+def add_object(mj: mujoco.MjSpec, scene: specs.Scene, name: str, spec: Any) -> ObjectEntry:
+    """Adds an object to the model to be; returns what is known of it."""
     body = mj.worldbody.add_body(name=name)
     fixed = is_fastened(spec)
     if not fixed:
@@ -70,8 +68,7 @@ def add_object(
     if fixed:
         body.pos = _fixed_position(scene, name, spec, size)
         body.quat = list(resting_quaternion(spec))
-    entry = entry_of(name, spec, parts, regions, surfaces, size, axis)
-    return entry, spec
+    return entry_of(name, spec, parts, regions, surfaces, size, axis)
 
 
 def _look(spec: Any) -> Look:

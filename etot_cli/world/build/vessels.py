@@ -32,13 +32,9 @@ def add_cup(mj: mujoco.MjSpec, body: Any, spec: specs.Cup, look: Look, name: str
     share = floor_volume / (floor_volume + wall_volume)
     floor_mass = None if spec.mass is None else spec.mass * share
     stave_mass = None if spec.mass is None else spec.mass * (1 - share) / STAVES
-    seen = look
-    hidden = Look(
-        (*look.rgba[:3], 0.0), look.friction, look.rolling, look.slippery, density=look.density
-    )
     add_geom(
         body,
-        seen.with_mass(floor_mass),
+        look.with_mass(floor_mass),
         mujoco.mjtGeom.mjGEOM_CYLINDER,
         [foot - 0.0005, spec.floor / 2, 0],
         pos=[0, 0, -half + spec.floor / 2],
@@ -48,11 +44,10 @@ def add_cup(mj: mujoco.MjSpec, body: Any, spec: specs.Cup, look: Look, name: str
         mesh = mj.add_mesh(name=f"{name}/stave{index}")
         mesh.uservert = vertices.ravel().tolist()
         geom = add_geom(
-            body, hidden.with_mass(stave_mass), mujoco.mjtGeom.mjGEOM_MESH, [0, 0, 0],
+            body, look.with_mass(stave_mass), mujoco.mjtGeom.mjGEOM_MESH, [0, 0, 0],
             mesh=f"{name}/stave{index}",
         )  # fmt: skip
         geom.group = SEEN_GROUPS
-        geom.rgba = list(look.rgba)
     _add_shell(mj, body, spec, look, name, rim, foot)
 
 
