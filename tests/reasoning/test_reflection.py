@@ -416,13 +416,14 @@ def test_what_was_opened_only_for_what_goes_first_now_stays_closed() -> None:
     assert revision(step) == f"{fill} [OPEN, cupboard] {store} [CLOSE, cupboard]"
 
 
-def test_an_upper_drawer_that_stands_open_is_closed_meanwhile() -> None:
+@pytest.mark.parametrize("openness", [1.0, 0.5])
+def test_an_upper_drawer_that_stands_open_is_closed_meanwhile(openness: float) -> None:
     state = scenes.scene(
-        scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0, "lower": 0.0}),
+        scenes.drawers("chest", (0.5, 0.0), {"upper": openness, "lower": 0.0}),
         scenes.ball("nut", (0.3, -0.3)),
     )
     plan = "[OPEN, chest.lower] [PICK UP, nut] [PUT INTO, chest.lower] [CLOSE, chest.lower]"
-    before = held(changed(state, chest={"openness": {"upper": 1.0, "lower": 1.0}}), "nut")
+    before = held(changed(state, chest={"openness": {"upper": openness, "lower": 1.0}}), "nut")
     for reason in (CauseKind.NO_ROOM, CauseKind.BLOCKED):
         step = failed(state, plan, 2, cause(reason, "chest", "nut"), before)
         # It stood open at the start, so it does in the end.

@@ -106,12 +106,21 @@ class _Case:
 
     def serves(self, actions: Actions, aim: Purpose) -> bool:
         """Whether a branch is for the same; a part that was only to stand as at first, and cannot
-        be opened again, may stay closed.
+        be opened again, may stay closed, and one that stood half-open may be opened wide.
         """
-        new, target = purpose(actions, self.failed.start), self.action.target
-        if self.action.verb is Verb.OPEN and target not in dict(aim.parts):
-            new = replace(new, parts=new.parts - {(target, Verb.CLOSE)})
-        return new == aim
+        start = self.failed.start
+        new, asked = purpose(actions, start), dict(aim.parts)
+        opened = (
+            (start.part(address), address) for address, last in new.parts if last is Verb.OPEN
+        )
+        means = {
+            (address, Verb.OPEN)
+            for part, address in opened
+            if address not in asked and part is not None and not is_closed(start, part)
+        }
+        if self.action.verb is Verb.OPEN and self.action.target not in asked:
+            means.add((self.action.target, Verb.CLOSE))
+        return replace(new, parts=new.parts - means) == aim
 
     def corrections(self) -> Iterator[Correction]:
         """Possible corrections, the most promising first."""
