@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -97,6 +97,9 @@ class Surroundings:
         """
         resolved = self._phrases.meaning(phrase, Role.ANY)
         things = set(things_in(resolved.options))
+        inside = region.text.split()[0] in ("in", "into")
+        if inside and any(can_be(thing, Role.CONTAINER, self._scene) for thing in things):
+            raise ReferenceProblem(region.text, "no part of what is inside can be asked for", 2)
         anywhere = (Nearby.AT_CENTRE, Nearby.AT_EDGE, Nearby.AT_CORNER)
         if region.relation in anywhere or all(thing.name == DESK for thing in things):
             return
