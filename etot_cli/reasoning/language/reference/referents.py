@@ -182,11 +182,26 @@ class Phrases(Meanings):
             self.discourse.mention_again(holder, role)
             return (holder,)
         resolved = self.meaning(phrase, role)
+        if role is Role.THEME and not phrase.modifiers and phrase.words[-1:] == (resolved.noun,):
+            resolved = self._as_before(resolved)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
         several = resolved.every and not whole
         index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
         self._note_landmarks(phrase, resolved.options)
         return (index,)
+
+    def _as_before(self, resolved: Resolved) -> Resolved:
+        """After "take the pen from the mug" "the pen" is that one, even where another one is
+        labelled "pen" and nothing more.
+        """
+        one = resolved.definite and len(resolved.options) == 1
+        for mention in reversed(self.discourse.mentions) if one else ():
+            options = self.discourse.referents[mention.referent].options
+            said = mention.clause < self.discourse.clause and mention.noun == resolved.noun
+            if said and mention.adjectives == resolved.adjectives and not mention.several:
+                alone = all(len(option) == 1 for option in (*options, *resolved.options))
+                return replace(resolved, options=options) if alone else resolved
+        return resolved
 
     def _both(self, role: Role, text: str, excluded: Sequence[int]) -> tuple[int, ...]:
         """The two things that were spoken of one by one, be it as places ("… and close both")."""
