@@ -398,6 +398,21 @@ def test_what_lies_in_a_closed_drawer_is_uncovered() -> None:
     assert plans("Pick up the plum.", state) == ["[OPEN, chest] [PICK UP, plum]"]
 
 
+def test_the_one_just_spoken_of_rather_than_the_one_labelled_so() -> None:
+    scene = scenes.scene(
+        scenes.item("marker", "pen", (0.3, 0.2), size=(0.14, 0.012, 0.012), color="red"),
+        scenes.item("green_marker", "pen", (0.3, -0.1), size=(0.14, 0.012, 0.012), inside="mug"),
+        scenes.cup("mug", (0.3, -0.1)),
+        scenes.item("plate", "box", (0.5, 0.0), size=(0.2, 0.2, 0.01)),
+    )  # fmt: skip
+    assert plans("Take the marker out of the mug. Put the marker on the plate.", scene) == [
+        "[PICK UP, green_marker] [PUT ON, plate]"
+    ]
+    assert plans("Put the green marker on the plate and the marker in the mug.", scene) == [
+        "[PICK UP, green_marker] [PUT ON, plate] [PICK UP, marker] [PUT INTO, mug]"
+    ]
+
+
 def test_boards_of_a_shelf() -> None:
     state = scenes.scene(
         scenes.item("rack", "shelf", (0.6, 0.3), boards=("low", "mid", "high")),

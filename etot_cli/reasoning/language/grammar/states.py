@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
-from etot_cli.reasoning.language.words import manner, nouns, verbs
+from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 _NONE = ("no", "none of the")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
@@ -141,8 +141,43 @@ _PLAIN_MOVE = either(
         )
     ),
 )
+
+
+def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
+    """In "grasp the handle of the drawer and open it" that is the drawer."""
+    again = bool(moved.things.phrases[0].pronoun)
+    if again != bool(handled):
+        return None
+    return replace(moved, things=Things(handled)) if again else moved
+
+
+def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """What has the handle of "the drawer handle" and "the drawer's handle"."""
+    if np.head != "handle":
+        return None
+    return (
+        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
+    )
+
+
+_HANDLED = either(
+    phrase("the handle, its handle", ()),
+    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
+    sequence(noun_phrase, build=_handled),
+)
+_BY_HANDLE = either(
+    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
+    sequence(
+        verbs.PICK,
+        _HANDLED,
+        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
+        _PLAIN_MOVE,
+        build=_by_handle,
+    ),
+)
 MOVE = either(
     _PLAIN_MOVE,
+    quiet(_BY_HANDLE),
     sequence(
         _PLAIN_MOVE,
         OPTIONAL_COMMA,
