@@ -15,11 +15,12 @@ from etot_cli.cli.exits import INTERRUPTED, NO, OK
 from etot_cli.cli.interrupts import uninterrupted
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from etot_cli.planning.result import SearchObserver
     from etot_cli.reporting.bench_progress import TrialBar, TrialLines
     from etot_cli.reporting.bench_report import BenchReport
     from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
-    from etot_cli.reporting.live import LiveView
     from etot_cli.reporting.log import PlainLog
     from etot_cli.reporting.models import Model, Report
     from etot_cli.reporting.printer import Printer
@@ -75,7 +76,6 @@ class Session:
         if quiet and verbose:
             raise typer.BadParameter("-q and -v exclude each other")
         from etot_cli.reporting.files import claim_folder
-        from etot_cli.reporting.style import Verbosity
 
         claim = claim_folder(command, subject.stem, out, force=force)
         self.folder = claim.path
@@ -83,30 +83,28 @@ class Session:
         weakref.finalize(self, claim.release)
         self._subject = subject
         self._json = json
-        self._verbosity = Verbosity(1 + verbose - quiet)
+        self._quiet, self._detailed = quiet, verbose
 
     @contextmanager
     def search_observer(self) -> Iterator[SearchObserver | None]:
         """Shows a search: the growing tree on a terminal, else a line per verdict, or nothing."""
-        live = self._live_view()
-        if live is None:
+        console = self._animated()
+        if console is None:
             yield self.log()
-        else:
-            with live:
-                yield live
+            return
+        from etot_cli.reporting.live import LiveView
+
+        with LiveView(console, f"etot plan {self._subject}", detailed=self._detailed) as view:
+            yield view
 
     @contextmanager
     def execution_observer(self) -> Iterator[ExecutionLog | ExecutionView | None]:
         """Shows trials: in place on a terminal, else a line per event, or nothing."""
         from etot_cli.reporting.execute_live import ExecutionLog, ExecutionView
-        from etot_cli.reporting.style import Verbosity, make_console
 
-        console = make_console(sys.stderr)
-        detailed = self._verbosity is Verbosity.VERBOSE
-        if self._verbosity is Verbosity.QUIET:
-            yield None
-        elif self._json or not console.is_terminal or console.is_dumb_terminal:
-            yield ExecutionLog(sys.stderr, detailed=detailed)
+        console = self._animated()
+        if console is None:
+            yield None if self._quiet else ExecutionLog(sys.stderr, detailed=self._detailed)
         else:
             with ExecutionView(console, f"etot execute {self._subject}") as view:
                 yield view
@@ -114,11 +112,8 @@ class Session:
     def log(self) -> PlainLog | None:
         """Plain progress lines on standard error; None when quiet."""
         from etot_cli.reporting.log import PlainLog
-        from etot_cli.reporting.style import Verbosity
 
-        if self._verbosity is Verbosity.QUIET:
-            return None
-        return PlainLog(sys.stderr, detailed=self._verbosity is Verbosity.VERBOSE)
+        return None if self._quiet else PlainLog(sys.stderr, detailed=self._detailed)
 
     def save(self, report: AnyReport) -> Path:
         """Writes the report, to another place where its folder does not take it.
@@ -164,11 +159,8 @@ class Session:
     @contextmanager
     def progress(self, what: str) -> Iterator[Progress]:
         """A bar with the time left on a terminal; silence elsewhere."""
-        from etot_cli.reporting.style import Verbosity, make_console
-
-        console = make_console(sys.stderr)
-        animated = console.is_terminal and not console.is_dumb_terminal and not self._json
-        if self._verbosity is Verbosity.QUIET or not animated:
+        console = self._animated()
+        if console is None:
             yield lambda done, total: None
             return
         from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
@@ -183,13 +175,10 @@ class Session:
     def trial_observer(self) -> Iterator[TrialBar | TrialLines | None]:
         """Shows a benchmark: a bar with the time left on a terminal, else a line per trial."""
         from etot_cli.reporting.bench_progress import TrialBar, TrialLines
-        from etot_cli.reporting.style import Verbosity, make_console
 
-        console = make_console(sys.stderr)
-        if self._verbosity is Verbosity.QUIET:
-            yield None
-        elif self._json or not console.is_terminal or console.is_dumb_terminal:
-            yield TrialLines(sys.stderr)
+        console = self._animated()
+        if console is None:
+            yield None if self._quiet else TrialLines(sys.stderr)
         else:
             with TrialBar(console) as bar:
                 yield bar
@@ -205,7 +194,7 @@ class Session:
             show: prints it with what it is given.
         """
         from etot_cli.reporting.printer import Printer
-        from etot_cli.reporting.style import make_console
+        from etot_cli.reporting.style import Verbosity, make_console
 
         with uninterrupted():
             if self._json:
@@ -213,23 +202,19 @@ class Session:
                 if report.interrupted:
                     print(f"interrupted; what was found so far: {path}", file=sys.stderr)
             else:
-                show(Printer(make_console(sys.stdout), self._verbosity))
+                verbosity = Verbosity(1 + self._detailed - self._quiet)
+                show(Printer(make_console(sys.stdout), verbosity))
         if report.interrupted:
             return INTERRUPTED
         return OK if report.status in POSITIVE else NO
 
-    def _live_view(self) -> LiveView | None:
-        from etot_cli.reporting.style import Verbosity, make_console
+    def _animated(self) -> Console | None:
+        """Standard error where pictures that move are to be shown there."""
+        from etot_cli.reporting.style import make_console
 
-        if self._json or self._verbosity is Verbosity.QUIET:
-            return None
         console = make_console(sys.stderr)
-        if not console.is_terminal or console.is_dumb_terminal:
-            return None
-        from etot_cli.reporting.live import LiveView
-
-        detailed = self._verbosity is Verbosity.VERBOSE
-        return LiveView(console, f"etot plan {self._subject}", detailed=detailed)
+        still = self._quiet or self._json or console.is_dumb_terminal
+        return None if still or not console.is_terminal else console
 
 
 def print_json(report: Model) -> None:
