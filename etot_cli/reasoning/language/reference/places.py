@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
 from etot_cli.world.state import DESK, SceneState
 
+_ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
 _DESK = Resolved(((Thing(DESK),),), noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
@@ -89,10 +90,11 @@ class Places:
                 near = self._surroundings.near(destination.beside, themes)
                 found = [Place(Relation.ON, surface, near)]
             else:
+                role = _ROLES.get(destination.toward, Role.PLACE)
                 found = [
                     place
-                    for phrase in destination.targets
-                    for place in self._targets(destination, phrase, themes)
+                    for phrase in self._phrases.one_of(destination.targets, role)
+                    for place in self._targets(destination, phrase, role, themes)
                 ]
                 within = [place for place in found if place.relation is Relation.INSIDE]
                 inside = bool(within)
@@ -110,10 +112,9 @@ class Places:
         return tuple(places)
 
     def _targets(
-        self, destination: Destination, phrase: NounPhrase, themes: Sequence[int]
+        self, destination: Destination, phrase: NounPhrase, role: Role, themes: Sequence[int]
     ) -> list[Place]:
         toward = destination.toward
-        role = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}.get(toward, Role.PLACE)
         bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
         targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
         spoken = any(item.role in targets for item in self.discourse.mentions)

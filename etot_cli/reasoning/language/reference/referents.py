@@ -10,7 +10,7 @@ from functools import partial
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import antecedents, openable
@@ -32,6 +32,11 @@ _OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
 """What follows the last of several things and is said of that one, or is dealt with elsewhere."""
 
 
+def _shared(phrase: NounPhrase) -> tuple[Modifier, ...]:
+    """What follows the last of several things and may be said of all."""
+    return tuple(item for item in phrase.modifiers if item.prep not in _OF_ITS_OWN)
+
+
 class Phrases(Meanings):
     """Turns phrases into referents of a discourse, which grows."""
 
@@ -48,12 +53,11 @@ class Phrases(Meanings):
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             self._check_apart(things, found)
             return list(dict.fromkeys(index for indices in found for index in indices))
+        said = self.one_of(things.phrases, role)
         phrases = [
             # "The purple cup or a green one"
             phrase.called(before.head) if phrase.head == "one" else phrase
-            for phrase, before in zip(
-                things.phrases, (things.phrases[0], *things.phrases), strict=False
-            )
+            for phrase, before in zip(said, (said[0], *said), strict=False)
         ]
         resolved = [self.meaning(phrase, role) for phrase in phrases]
         options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
@@ -97,6 +101,35 @@ class Phrases(Meanings):
                 raise ReferenceProblem(phrase.text, "it was named before; say what of it", 2)
             named |= own
 
+    def one_of(self, phrases: tuple[NounPhrase, ...], role: Role) -> tuple[NounPhrase, ...]:
+        """Alternatives: with one article, "a pot or pan on the desk" is whichever stands there.
+
+        Raises:
+            AmbiguousReference: the last one does, and others need not.
+        """
+        *before, last = phrases
+        shared = _shared(last)
+        alone = any(np.modifiers or np.pronoun or not np.words for np in before)
+        if not before or alone or last.determiner or not shared:
+            return phrases
+        told = (*(replace(np, modifiers=shared) for np in before), last)
+        there = tuple(np for np in told if self._options([np], role))
+        if last in there:
+            ways = [self._options(found, role) for found in (there, phrases)]
+            end = last.text.removeprefix(" ".join(last.words)).strip()
+            self._check_same(phrases[0].text, ways, f"{end!r} may be said of this, too:")
+        return there or phrases
+
+    def _options(
+        self, phrases: Sequence[NounPhrase], role: Role
+    ) -> tuple[tuple[Thing, ...], ...]:
+        """What any of some phrases means."""
+        found: list[tuple[Thing, ...]] = []
+        for phrase in phrases:
+            with suppress(ReferenceProblem):
+                found += self.meaning(phrase, role).options
+        return tuple(found)
+
     def _check_shared(self, things: Things, role: Role) -> None:
         """In "the cup and the ball on the tray" the cup may be the one on the tray, too.
 
@@ -112,7 +145,7 @@ class Phrases(Meanings):
                 # "The apple and orange juice": the apple, or its juice?
                 alike = replace(first, words=(*first.words, singular(phrase.words[-1])))
                 self._check_alike(first, alike, role, " ".join(alike.words))
-        shared = tuple(item for item in last.modifiers if item.prep not in _OF_ITS_OWN)
+        shared = _shared(last)
         if not shared:
             return
         for phrase in before:
@@ -124,14 +157,16 @@ class Phrases(Meanings):
 
     def _check_alike(self, phrase: NounPhrase, alike: NounPhrase, role: Role, text: str) -> None:
         """Whether a phrase means the same with the words that another one has."""
-        try:
-            plain, also = (self.meaning(item, role).options for item in (phrase, alike))
-        except ReferenceProblem:
-            return
-        if set(plain) != set(also):
-            ways = [[thing.name for thing in things_in(found)] for found in (also, plain)]
-            named = [", ".join(dict.fromkeys(names)) for names in ways]
-            raise AmbiguousReference(phrase.text, named, f"{text!r} may be meant, too:")
+        ways = [self._options([item], role) for item in (alike, phrase)]
+        if all(ways):
+            self._check_same(phrase.text, ways, f"{text!r} may be meant, too:")
+
+    def _check_same(
+        self, text: str, ways: Sequence[tuple[tuple[Thing, ...], ...]], why: str
+    ) -> None:
+        if len({*map(frozenset, ways)}) > 1:
+            named = [dict.fromkeys(thing.name for thing in things_in(found)) for found in ways]
+            raise AmbiguousReference(text, [", ".join(names) for names in named], why)
 
     def refer(
         self,
