@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.text import normalized
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
     DESK_NOUNS,
     KIND_NOUNS,
     LEVELS,
@@ -137,7 +138,7 @@ def _mentions(text: str, scene: SceneState, names: _Names) -> list[_Mention]:
     words = re.findall(r"[^\W_]+", text.casefold())
     found: list[tuple[int, _Mention]] = []
     for at, word in enumerate(words):
-        if is_descriptive(word):
+        if is_descriptive(word) and word not in COMMON_NOUNS:
             continue
         best: tuple[int, ObjectInfo, str] | None = None
         for info in scene.infos.values():

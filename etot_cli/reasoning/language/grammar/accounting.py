@@ -160,7 +160,8 @@ def _said(node: object) -> Iterator[str]:
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects):
-            yield from ("both", "each", "all") if len(subjects) > 1 else ()
+            each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
+            yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"

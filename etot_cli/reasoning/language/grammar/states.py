@@ -86,7 +86,7 @@ def _contains(verb: str) -> Parser:
     return sequence(noun_phrase, verb, NP_LIST, optional("in it, inside"), build=_holding)
 
 
-def _all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
+def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     """All of them, as a word beside the verb says."""
     (first, *more) = nps
     if said and not more and first.determiner in nouns.THE_WORDS:
@@ -100,7 +100,7 @@ STATE = either(
         verbs.BE,
         optional(phrase("both, all"), ""),
         PREDICATE,
-        build=lambda nps, said, predicate: state_of(_all_of(nps, said), predicate),
+        build=lambda nps, said, predicate: state_of(all_of(nps, said), predicate),
     ),
     _STAYS,
     _contains("contains, holds"),
@@ -207,7 +207,7 @@ _TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
 
 
 def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> EnsureClause | None:
-    return _ensured(state_of(_all_of(nps, said), predicate))
+    return _ensured(state_of(all_of(nps, said), predicate))
 
 
 ENSURE = either(

@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     sequence,
 )
+from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
     Clause,
@@ -111,7 +112,9 @@ REMOVE = either(
 
 def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
     modifier = Modifier(where, (np,), CLEARED if where is Prep.FROM else ())
-    return NounPhrase("all", ("objects",), (modifier,), text=f"everything in {np.text}")
+    upon = where is Prep.ON or np.words[-1:] in _DESKS
+    text = f"everything {'on' if upon else 'in'} {np.text}"
+    return NounPhrase("all", ("objects",), (modifier,), text=text)
 
 
 def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
@@ -130,7 +133,15 @@ EMPTY = either(
     sequence("empty[ing] [out], unload[ing]", THINGS, optional(DESTINATIONS, None), build=_emptied),
     sequence(phrase(verbs.TIDY), THINGS, optional("away, up"), DESTINATIONS, build=_tidied),
     sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
-    sequence(ALL_THINGS, verbs.MODAL, manner.EMPTIED, build=_emptied),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+        ),
+        optional(phrase("both, all"), ""),
+        manner.EMPTIED,
+        build=lambda things, said: _emptied(Things(all_of(things.phrases, said))),
+    ),
     sequence(verbs.NOTHING_IS, ALL_THINGS, build=_emptied),
     sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED, build=_emptied),
 )

@@ -87,11 +87,7 @@ def modified(
             raise AmbiguousReference(phrase.text, sorted(named))
         found = [thing for way in ways for thing in way]
         if not found:
-            raise ReferenceProblem(
-                phrase.text,
-                f"this is true of none of what it could mean ({names_of_things(things)})",
-                1,
-            )
+            raise ReferenceProblem(*_untrue(phrase, modifier, things), 1)
         bare = modifier.denied and (
             modifier.prep in (Prep.WITH, Prep.FROM)
             or (modifier.prep in HOLDING and is_one(modifier.phrases[0]))
@@ -104,6 +100,16 @@ def modified(
             found = space.with_what_lies_on_them(found, things, scene)
         things, others = found, next(iter(ways.values()))
     return things, others
+
+
+def _untrue(phrase: NounPhrase, modifier: Modifier, things: Sequence[Thing]) -> tuple[str, str]:
+    """The words that are true of nothing, and why; a place may stand apart from what is there."""
+    landmark = next((np.text for np in modifier.phrases), phrase.text)
+    if modifier.words == CLEARED:
+        return landmark, "there is nothing in or on it"
+    if modifier.prep is Prep.FROM and landmark not in phrase.text:
+        return landmark, f"{phrase.text!r} is not there"
+    return phrase.text, f"this is true of none of what it could mean ({names_of_things(things)})"
 
 
 def _check_cleared(

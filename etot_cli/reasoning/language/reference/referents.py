@@ -120,9 +120,7 @@ class Phrases(Meanings):
             self._check_same(phrases[0].text, ways, f"{end!r} may be said of this, too:")
         return there or phrases
 
-    def _options(
-        self, phrases: Sequence[NounPhrase], role: Role
-    ) -> tuple[tuple[Thing, ...], ...]:
+    def _options(self, phrases: Sequence[NounPhrase], role: Role) -> tuple[tuple[Thing, ...], ...]:
         """What any of some phrases means."""
         found: list[tuple[Thing, ...]] = []
         for phrase in phrases:
