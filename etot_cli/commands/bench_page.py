@@ -9,7 +9,6 @@ from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.bench_page import bench_page
 from etot_cli.reporting.page.compare_page import compare_page
 from etot_cli.reporting.page.trial_page import SUFFIX
-from etot_cli.reporting.provenance import versions
 
 PAGE_NAME = "report.html"
 
@@ -37,5 +36,5 @@ def write_compare_page(report: CompareReport, folder: Path) -> Path:
         EtotError: the file system refuses.
     """
     path = folder / PAGE_NAME
-    write_atomically(path, compare_page(report, versions()))
+    write_atomically(path, compare_page(report))
     return path

@@ -72,9 +72,12 @@ class OffscreenRenderer:
             self._context = None
 
     def look(self, data: mujoco.MjData, camera: mujoco.MjvCamera | str) -> None:
-        """Takes over what is to be drawn: ``data`` with its kinematics done, seen by ``camera``,
-        one of the model's by its name.
+        """Takes over what is to be drawn: the configuration of ``data``, seen by ``camera``, one of
+        the model's by its name.
         """
+        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_comPos(self._model, data)  # lights and cameras may follow a body's mass
+        mujoco.mj_camlight(self._model, data)
         if isinstance(camera, str):
             index, camera = self._model.camera(camera).id, mujoco.MjvCamera()
             camera.type, camera.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, index

@@ -56,23 +56,15 @@ class PictureRenderer:
         """Frees what the graphics driver holds; idempotent."""
         self._renderer.close()
 
-    def take(
-        self,
-        qpos: NDArray[Any],
-        outlined: Sequence[str] = (),
-    ) -> Image:
+    def take(self, qpos: NDArray[Any], outlined: Sequence[str] = ()) -> Image:
         """A picture (height, width, 3) of a configuration (nq,).
 
         Args:
             qpos: the configuration.
             outlined: objects to outline and name.
         """
-        model, data = self._world.model, self._data
-        data.qpos[:] = qpos
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_camlight(model, data)
-        self._renderer.look(data, self._camera)
+        self._data.qpos[:] = qpos
+        self._renderer.look(self._data, self._camera)
         image = self._renderer.soft_color(self._samples)
         if outlined:
             _, geoms = self._renderer.depth_and_geoms()

@@ -99,15 +99,12 @@ class WorldRenderer:
 
     def visible_pixels(self, qpos: NDArray[Any]) -> dict[str, NDArray[np.bool_]]:
         """For every object that is seen, the mask (height, width) of its pixels."""
+        owners = np.array(self.world.geom_object)
         geoms = self.geoms(qpos)
-        owners = self.world.geom_object
-        masks = {}
-        for name in self.world.entries:
-            ids = [index for index, owner in enumerate(owners) if owner == name]
-            mask = np.isin(geoms, ids)
-            if mask.any():
-                masks[name] = mask
-        return masks
+        masks = {
+            name: np.isin(geoms, np.flatnonzero(owners == name)) for name in self.world.entries
+        }
+        return {name: mask for name, mask in masks.items() if mask.any()}
 
     def close(self) -> None:
         """Frees what the graphics driver holds; idempotent."""
@@ -115,9 +112,6 @@ class WorldRenderer:
 
     def _place(self, qpos: NDArray[Any]) -> None:
         self._data.qpos[:] = qpos
-        mujoco.mj_kinematics(self._model, self._data)
-        mujoco.mj_comPos(self._model, self._data)
-        mujoco.mj_camlight(self._model, self._data)
         self._renderer.look(self._data, self._camera)
 
     def _whole_desk(self) -> mujoco.MjvCamera:

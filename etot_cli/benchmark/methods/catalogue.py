@@ -58,14 +58,6 @@ def _search(*without: Ablation) -> Callable[[Means], Planner]:
     return make
 
 
-def _imagined(means: Means) -> Planner:
-    return SearchPlanner(means.imagined, means.thinking, means.limits)
-
-
-def _at_once(means: Means) -> Planner:
-    return at_once(means.thinking)
-
-
 def _by_steps(means: Means) -> Planner:
     return by_steps(means.thinking, means.world)
 
@@ -79,7 +71,7 @@ METHODS = {
     for method in (
         Method(
             "rekep", "ReKep", "one plan from the scene, no world model",
-            False, Foresight.NONE, _at_once,
+            False, Foresight.NONE, lambda means: at_once(means.thinking),
         ),
         Method(
             "rekep_cot", "ReKep, thinking", "one plan after thinking about hazards",
@@ -108,7 +100,8 @@ METHODS = {
         ),
         Method(
             "etot_kinematic", "kinematic model", "tree search over a model without contact",
-            True, Foresight.IMAGINED, _imagined,
+            True, Foresight.IMAGINED,
+            lambda means: SearchPlanner(means.imagined, means.thinking, means.limits),
         ),
     )
 }  # fmt: skip

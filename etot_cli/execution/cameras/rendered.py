@@ -96,8 +96,6 @@ class RenderedCamera:
         self._data.qpos[:] = state.qpos
         if model.nmocap:
             self._data.mocap_pos[:], self._data.mocap_quat[:] = state.mocap_pos, state.mocap_quat
-        mujoco.mj_kinematics(model, self._data)
-        mujoco.mj_camlight(model, self._data)
         self._renderer.look(self._data, CAMERA_NAME)
         color = self._renderer.color()
         depth, _ = self._renderer.depth_and_geoms()

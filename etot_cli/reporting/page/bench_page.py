@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping
 
 from etot_cli.reporting.bench_report import BenchReport, PairedModel, TrialRowModel
-from etot_cli.reporting.bench_table import chance, significantly_worse
+from etot_cli.reporting.bench_table import chance, points
 from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.style import counted
 
@@ -67,7 +67,7 @@ def bench_page(report: BenchReport, pages: Mapping[str, str]) -> str:
         means=report.averages,
         titles=titles,
         asked=any(item.model_calls for item in report.averages),
-        pairs=[_pair(pair, titles) for pair in report.comparisons],
+        pairs=[pair_row(pair, titles) for pair in report.comparisons],
         repeat=_repeat(report),
     )
 
@@ -87,17 +87,17 @@ def _row(trial: TrialRowModel, pages: Mapping[str, str]) -> list[object]:
     return [found[key] for key in keys]
 
 
-def _pair(pair: PairedModel, titles: dict[str, str]) -> dict[str, object]:
+def pair_row(pair: PairedModel, titles: Mapping[str, str]) -> dict[str, object]:
+    """A comparison as a row of a table; ``titles``: of the methods that have one."""
     low, high = pair.ci95
     return {
-        "first": titles[pair.first],
-        "second": titles[pair.second],
-        "difference": f"{100 * pair.difference:+.0f}",
-        "interval": f"{100 * low:+.0f} to {100 * high:+.0f}",
+        "first": titles.get(pair.first, pair.first),
+        "second": titles.get(pair.second, pair.second),
+        "difference": points(pair.difference),
+        "interval": f"{points(low)} to {points(high)}",
         "better": pair.second_only,
         "worse": pair.first_only,
         "p": chance(pair).removeprefix("= "),
-        "significant": significantly_worse(pair),
     }
 
 

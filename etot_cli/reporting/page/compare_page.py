@@ -3,28 +3,16 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass
 
 from etot_cli.reporting.bench_report import CompareReport, PairedModel
-from etot_cli.reporting.bench_table import chance, points, significantly_worse
-from etot_cli.reporting.models import VersionsModel
+from etot_cli.reporting.bench_table import significantly_worse
 from etot_cli.reporting.page.assemble import assemble
+from etot_cli.reporting.page.bench_page import pair_row
 from etot_cli.reporting.style import counted
 
 
-@dataclass(frozen=True, slots=True)
-class _Head:
-    status: str
-    versions: VersionsModel
-
-
-def compare_page(report: CompareReport, versions: VersionsModel) -> str:
-    """The page as text.
-
-    Args:
-        report: the comparison.
-        versions: of what made it.
-    """
+def compare_page(report: CompareReport) -> str:
+    """The page as text."""
     worse = [pair.second for pair in report.comparisons if significantly_worse(pair)]
     return assemble(
         "compare.html.j2",
@@ -35,7 +23,7 @@ def compare_page(report: CompareReport, versions: VersionsModel) -> str:
         title="benchmark: two runs compared",
         subject="",
         heading=f"{counted(len(report.comparisons), 'method')}, before and after",
-        head=_Head("failure" if worse else "success", versions),
+        head=report,
         lead=f"significantly worse: {', '.join(worse)}"
         if worse
         else "no method got significantly worse",
@@ -51,16 +39,11 @@ def compare_page(report: CompareReport, versions: VersionsModel) -> str:
 def _pair(pair: PairedModel) -> dict[str, object]:
     low, high = pair.ci95
     return {
-        "second": pair.second,
+        **pair_row(pair, {}),
         "status": "failure" if significantly_worse(pair) else "success",
-        "difference": points(pair.difference),
-        "interval": f"{points(low)} to {points(high)}",
         # Where they lie on a scale from -100 to +100 points [%].
         "low": 50 + 50 * low,
         "high": 50 + 50 * high,
         "middle": 50 + 50 * pair.difference,
-        "better": pair.second_only,
-        "worse": pair.first_only,
         "trials": pair.both + pair.first_only + pair.second_only + pair.neither,
-        "p": chance(pair).removeprefix("= "),
     }

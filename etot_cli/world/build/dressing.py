@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.specs import scene as specs
+from etot_cli.world.build.material import add_visual
 from etot_cli.world.build.surroundings import FLOOR_DEPTH
 from etot_cli.world.colors import rgb
 from etot_cli.world.robot_index import ROBOT_PREFIX
@@ -132,11 +133,11 @@ def _room(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
         for side_y in (-1, 1):
             x = desk.center[0] + side_x * (half_x - INSET_M - LEG_M / 2)
             y = desk.center[1] + side_y * (half_y - INSET_M - LEG_M / 2)
-            _seen(world, (LEG_M / 2, LEG_M / 2, (FLOOR_DEPTH - 0.03) / 2),
+            _box(world, (LEG_M / 2, LEG_M / 2, (FLOOR_DEPTH - 0.03) / 2),
                   (x, y, floor + (FLOOR_DEPTH - 0.03) / 2), paint, "timber")  # fmt: skip
     wall = min(-WALL_BEHIND_M, desk.center[0] - half_x - WALL_BEHIND_M)
-    _seen(world, (0.02, 4.0, 1.6), (wall, 0.0, floor + 1.6), (1.0, 0.99, 0.96), "plastered")
-    _seen(world, (0.008, 4.0, 0.05), (wall + 0.028, 0.0, floor + 0.05),
+    _box(world, (0.02, 4.0, 1.6), (wall, 0.0, floor + 1.6), (1.0, 0.99, 0.96), "plastered")
+    _box(world, (0.008, 4.0, 0.05), (wall + 0.028, 0.0, floor + 0.05),
           (0.97, 0.97, 0.96), "matte")  # fmt: skip
     for geom in mj.geoms:
         if geom.name == DESK:
@@ -145,19 +146,15 @@ def _room(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
             geom.material, geom.rgba = "floorboards", [0.74, 0.71, 0.68, 1.0]
 
 
-def _seen(
+def _box(
     world: Any,
     size: tuple[float, float, float],
     position: tuple[float, float, float],
     color: tuple[float, float, float],
     material: str,
 ) -> None:
-    geom = world.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=list(size), pos=list(position))
-    geom.rgba = [*color, 1.0]
-    geom.material = material
-    geom.contype = geom.conaffinity = 0
-    geom.mass = 0.0
-    geom.group = 2
+    add_visual(world, [*color, 1.0], type=mujoco.mjtGeom.mjGEOM_BOX, size=list(size),
+               pos=list(position), material=material)  # fmt: skip
 
 
 def _materials(mj: mujoco.MjSpec, scene: specs.Scene) -> None:

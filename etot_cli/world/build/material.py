@@ -78,16 +78,10 @@ def add_geom(
     return geom
 
 
-def add_visual(
-    body: Any,
-    rgba: Sequence[float],
-    mesh: str,
-) -> Any:
-    """Adds a mesh that is only seen: no contact, no mass."""
-    geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh)
-    geom.rgba = list(rgba)
-    geom.contype = 0
-    geom.conaffinity = 0
+def add_visual(body: Any, rgba: Sequence[float], **shape: Any) -> Any:
+    """Adds a geom that is only seen, such as ``meshname=…``: no contact, no mass."""
+    geom = body.add_geom(rgba=list(rgba), **shape)
+    geom.contype = geom.conaffinity = 0
     geom.mass = 0.0
     geom.group = 2
     return geom

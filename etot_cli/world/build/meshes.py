@@ -33,7 +33,7 @@ def add_mesh(mj: mujoco.MjSpec, body: Any, spec: specs.Mesh, look: Look, name: s
     seen.uservert = vertices.ravel().tolist()
     seen.userface = faces.ravel().tolist()
     seen.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-    add_visual(body, look.rgba, f"{name}/seen")
+    add_visual(body, look.rgba, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"{name}/seen")
     try:
         pieces = convex_pieces(vertices, faces)
     except WorldError as error:

@@ -98,7 +98,7 @@ def _add_shell(
     mesh.userface = faces
     mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     mesh.smoothnormal = 0
-    add_visual(body, look.rgba, f"{name}/shell")
+    add_visual(body, look.rgba, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"{name}/shell")
 
 
 def cup_region(spec: specs.Cup, name: str) -> Region:
