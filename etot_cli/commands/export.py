@@ -27,15 +27,9 @@ def _write(planning: Planning, file: Path) -> None:
     if file.suffix == ".zip":
         if planning.scene is None:
             raise EtotError(f"{file} is not written: the scene was not read")
-        from etot_cli.specs.writing import replacing
         from etot_cli.world.export import scene_archive
 
-        content = scene_archive(planning.scene)
-        try:
-            with replacing(file) as stream:
-                stream.write(content)
-        except OSError as error:
-            raise EtotError(f"cannot write {file}: {error.strerror or error}") from error
+        write_atomically(file, scene_archive(planning.scene))
         return
     if not report.plan:
         raise EtotError(f"{file} is not written: there is no plan")

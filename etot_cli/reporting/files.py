@@ -198,14 +198,15 @@ def rescue_report(report: Model) -> Path | None:
         return None
 
 
-def write_atomically(path: Path, text: str) -> None:
-    """Replaces a file's content in one step: a reader sees the old or the new text, never a part.
+def write_atomically(path: Path, content: str | bytes) -> None:
+    """Replaces a file's content in one step: a reader sees the old or the new one, never a part.
 
     Raises:
         EtotError: the file system refuses.
     """
+    data = content if isinstance(content, bytes) else content.encode("utf-8", "replace")
     try:
         with replacing(path) as stream:
-            stream.write(text.encode("utf-8", "replace"))
+            stream.write(data)
     except OSError as error:
         raise EtotError(f"cannot write {printable(path)}: {_reason(error)}") from error

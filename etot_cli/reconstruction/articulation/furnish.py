@@ -136,18 +136,11 @@ def _seams_of_side(
         return []
     span = max(2, round(0.005 / (0.84 * height / rows)))
     step = np.linalg.norm(face[2 * span :] - face[: -2 * span], axis=2)
-    strong = (step > SEAM).mean(axis=1)
-    peaks: list[float] = []
-    index = 0
-    while index < len(strong):
-        if strong[index] > WHOLE:
-            end = index
-            while end < len(strong) and strong[end] > WHOLE:
-                end += 1
-            middle_row = (index + end - 1) // 2 + span
-            # A step that goes on over a tall band is shading, not a seam.
-            if (end - index) <= 5 * span:
-                peaks.append(float(h[min(middle_row, rows - 1)]))
-            index = end
-        index += 1
-    return peaks
+    strong = (step > SEAM).mean(axis=1) > WHOLE
+    ends = np.flatnonzero(np.diff(strong, prepend=False, append=False))
+    # A step that goes on over a tall band is shading, not a seam.
+    return [
+        float(h[(first + last - 1) // 2 + span])
+        for first, last in ends.reshape(-1, 2)
+        if last - first <= 5 * span
+    ]
