@@ -55,7 +55,7 @@ def plan_summary(out: Printer, report: PlanReport, path: Path) -> None:
 
 
 def _steps(out: Printer, nodes: Sequence[NodeModel]) -> None:
-    columns = widest([node.action + (" safe place" if node.safe else "") for node in nodes])
+    columns = widest(nodes)
     for number, node in enumerate(nodes, 1):
         notes = [node.origin] if out.verbosity is Verbosity.VERBOSE else []
         out.action(number, node.status, node.action, node.safe, notes + node.changes, columns)

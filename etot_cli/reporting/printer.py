@@ -6,12 +6,13 @@ whole, whatever reads it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
 from rich.text import Text
 
+from etot_cli.reporting.models import ActionModel
 from etot_cli.reporting.style import LOOKS, Verbosity, badge, hanging_lines, speaks_unicode
 
 WIDE = 64
@@ -106,6 +107,7 @@ def named(action: str, safe: bool) -> Text:
     return text.append(" safe place", style="dim") if safe else text
 
 
-def widest(names: Sequence[str]) -> int:
-    """Columns for the longest of the names, or for one that is long enough."""
-    return min(LONGEST_NAME, max(map(len, names), default=0))
+def widest(actions: Iterable[ActionModel]) -> int:
+    """Columns for the longest of the actions as they are told, or for one that is long enough."""
+    lengths = (named(item.action, item.safe).cell_len for item in actions)
+    return min(LONGEST_NAME, max(lengths, default=0))

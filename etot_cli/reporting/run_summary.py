@@ -18,7 +18,7 @@ def simulate_summary(out: Printer, report: SimulateReport, path: Path) -> None:
         out.line(f"{report.status}: {report.cause or ' '.join(report.plan)}")
         return
     out.headline(report.status, report.task.instruction)
-    columns = widest([*report.plan])
+    columns = widest(report.steps)
     for step in report.steps:
         out.action(step.index + 1, step.status, step.action, step.safe, step.changes, columns)
         if step.status != "success":
@@ -86,7 +86,7 @@ def _attribution(out: Printer, report: ExecuteReport, failed: int) -> None:
 
 
 def _only_trial(out: Printer, trial: TrialModel) -> None:
-    columns = widest([item.action for item in trial.actions])
+    columns = widest(trial.actions)
     happened = list(trial.disturbances)
     for plan in trial.plans:
         # What was done before a plan was made is what it was made for.
