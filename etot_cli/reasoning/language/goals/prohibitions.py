@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Close, Constraint, Keep, Open, Place, Relation, Thing
 from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -66,6 +66,10 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     for index in indices if clause.avoid is Avoid.CLOSE else ():
         if not context.discourse.is_spoken(index):
             context.discourse.as_it_stands(index, is_open)
+    turned = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
+    if clause.avoid is Avoid.MOVE and turned:  # "open it and leave it as it is"
+        context.steps += [replace(step, final=True) for step in turned]
+        return
     # "Without touching a cup" is about all of them.
     things = context.discourse.things(*indices)
     parted = role is Role.PART

@@ -138,6 +138,25 @@ _FRONTED = quiet(
     )
 )
 """The place before the thing."""
+PLACE_AHEAD = quiet(
+    sequence(
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        NP_LIST,
+        build=lambda where, nps: (
+            _fronted(where, nps) if all(item.targets or item.beside for item in where) else None
+        ),
+    )
+)
+"""The same, where the verb was said before ("…, and beside it, the spoon")."""
+_FOLLOWING = sequence(
+    verbs.PUT,
+    "(these|the following) [things|objects|items]",
+    DESTINATIONS,
+    COMMA,
+    NP_LIST,
+    build=lambda where, nps: put_to(Things(nps), where),
+)
 _ALONG_WITH = sequence(
     verbs.PUT,
     NP_LIST,
@@ -222,6 +241,7 @@ PUT = either(
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _SAID_AHEAD,
     _FRONTED,
+    _FOLLOWING,
     _ALONG_WITH,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.

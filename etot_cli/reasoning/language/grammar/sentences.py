@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST,
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -33,7 +33,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, states
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -71,6 +71,7 @@ _JOINED = either(
     _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     _joint("after", OPTIONAL_COMMA, EARLIER),
+    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     _joint("until", "until", plain(sequence(states, build=partial(EnsureClause, waits=True)))),
     _joint(
@@ -171,6 +172,11 @@ def _set_down(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if taken_up else None
 
 
+_SO = sequence(
+    ALL_THINGS,
+    OPEN_OR_CLOSED,
+    build=lambda things, word: MoveClause(things, word == "open"),
+)
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
@@ -187,6 +193,7 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
     plain(IF_NOT_SO),
+    sequence("with", plain(_SO), COMMA, valued(CHAIN, _then), build=add),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),

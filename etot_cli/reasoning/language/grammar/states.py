@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 
 _NONE = ("no", "none of the")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
@@ -210,8 +211,15 @@ def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> Ensur
     return _ensured(state_of(all_of(nps, said), predicate))
 
 
+def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
+    """What "arrange everything so that …" asks for stands behind it."""
+    vague = np.head in DESK_NOUNS or matches_any(np.head, THING_NOUNS)
+    return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
+
+
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
+    sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(
         verbs.KEEP,
         NP_LIST,

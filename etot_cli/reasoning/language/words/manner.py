@@ -34,7 +34,7 @@ AT_MIDDLE = "in the (middle|centre|center), in between"
 AT_TOP = "at the top, on [the] top, uppermost, highest"
 AS_IT_IS = """
     where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
-    unmoved, in its place
+    unmoved, in its place, like (that|this), that way, so
 """
 ANYHOW = """
     [either] [both] together or (separately|apart|individually|one by one),

@@ -55,8 +55,9 @@ CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swingin
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
-    (make|making|be) (sure|certain) [that], see to it [that]
+    (make|making|be) (sure|certain) [that], see to it [that], make it so [that]
 """
+ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up)"
 NOTHING_IS = """
     (nothing should|nothing must|there should|there must) be (|nothing|left|nothing left) (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
