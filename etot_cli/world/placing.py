@@ -214,11 +214,9 @@ def object_bounds(
     world: World, data: mujoco.MjData, name: str
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Lowest and highest corner (3,) of the world-aligned box around an object's geoms."""
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for geom in world.geoms_of(name):
-        geom_low, geom_high = geom_bounds(world.model, data, int(geom))
-        low, high = np.minimum(low, geom_low), np.maximum(high, geom_high)
-    return low, high
+    bounds = (geom_bounds(world.model, data, geom) for geom in world.geoms_of(name).tolist())
+    low, high = zip(*bounds, strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
 
 
 def geom_bounds(

@@ -171,14 +171,14 @@ class PlaceFinder:
         # All beyond the floor is blocked; a rim of one cell stands for it.
         floor = tuple(slice(at.min() - 1, at.max() + 2) for at in np.nonzero(relief.on_floor))
         blocked = relief.occupied | ~relief.on_floor
-        bins: dict[tuple[int, int], float] = {}
+        bins: dict[tuple[int, ...], float] = {}
         size = max(int(BIN / relief.cell), 1)
+        spots = [(judged.turned.cells // size).tolist() for judged in table]
         costs: dict[int, float] = {}
         for _, turn, index in sorted(found):
-            turned = table[turn].turned
-            row, column = (int(value) // size for value in turned.cells[index])
-            key = (row, column)
+            key = tuple(spots[turn][index])
             if key not in bins and len(bins) < LOOK_AHEAD:
+                turned = table[turn].turned
                 footprint = turned.object.cells
                 after = blocked.copy()
                 rows, columns = (turned.cells[index] + footprint).T
