@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
@@ -10,6 +12,13 @@ from etot_cli.specs.quantity import Channel, Coordinate, Finite, Meaning
 
 QUATERNION_TOLERANCE = 0.01
 """Norms within this of 1 are taken as rounding and normalised."""
+
+
+def heading_of(quaternion: Sequence[float]) -> float:
+    """Turn about z of a frame's own x axis [rad], of a quaternion w x y z."""
+    w, x, y, z = quaternion
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
 
 Name = Annotated[
     str,

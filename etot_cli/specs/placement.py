@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from etot_cli.specs.base import heading_of
 from etot_cli.specs.footprint import (
     Disc,
     Footprint,
@@ -71,10 +72,7 @@ def size_of(item: ObjectBase) -> Size | None:
 
 def yaw_of(item: ObjectBase) -> float:
     """Turn about z in degrees; of a ``quaternion``, the heading of its own x axis."""
-    if item.quaternion is None:
-        return item.yaw_deg
-    w, x, y, z = item.quaternion
-    return math.degrees(math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+    return item.yaw_deg if item.quaternion is None else math.degrees(heading_of(item.quaternion))
 
 
 def stands_in(item: ObjectBase, vessel: ObjectBase) -> bool:

@@ -16,6 +16,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from etot_cli.specs.base import heading_of
 from etot_cli.world.arrays import Vector
 from etot_cli.world.state import DESK, SceneState
 
@@ -211,10 +212,8 @@ def outline_at(
     position: Sequence[float], quaternion: Sequence[float], size: Sequence[float]
 ) -> Outline:
     """The outline of an object of a size (3,) at a pose, base frame [m]; it stands upright."""
-    w, x, y, z = quaternion
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     center = (float(position[0]), float(position[1]))
-    return Outline(center, (size[0] / 2, size[1] / 2), yaw)
+    return Outline(center, (size[0] / 2, size[1] / 2), heading_of(quaternion))
 
 
 def whereabouts(key: str, names: Sequence[str], region: object = None) -> Whereabouts:

@@ -32,8 +32,6 @@ DEMANDED = {"state": 0.9, "camera": 0.8}
 """Share of trials that have to succeed, by perception."""
 RECOVERED = 0.8
 """Share of the trials with other disturbances that have to end well."""
-OVERHEAD = 1.5
-"""A trial may take this much of planning and simulated execution together."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Scenes to render: layouts of the eight kinds of task, and others that nothing was tuned on."""
+"""Scenes to render that nothing was tuned on."""
 
 from __future__ import annotations
 
@@ -11,13 +11,10 @@ from etot_cli.specs.scene import Camera, Scene
 from tests.reconstruction import meshes
 
 FRONT = {"position": [0.98, 0.05, 0.72], "look_at": [0.44, 0.0, 0.14]}
-HIGH = {"position": [0.80, 0.05, 0.78], "look_at": [0.46, 0.0, 0.14]}
 
 CUP = {"kind": "cup", "diameter": 0.092, "height": 0.079, "color": "white", "mass": 0.15}
-BLACK = {"kind": "cup", "diameter": 0.074, "height": 0.062, "color": "black", "mass": 0.05}
 PEN = {"kind": "pen", "length": 0.195, "diameter": 0.018, "color": "white", "mass": 0.03}
 BALL = {"kind": "sphere", "diameter": 0.076, "color": "lime", "mass": 0.058}
-APPLE = {"kind": "sphere", "diameter": 0.085, "color": "red", "mass": 0.18}
 UNIT = {
     "kind": "drawer_unit",
     "size": [0.237, 0.181, 0.152],
@@ -39,88 +36,6 @@ def unit(size: list[float], opened: float = 0.0, **other: Any) -> dict[str, Any]
         {"name": "bottom", "travel": 0.0},
     ]
     return {**UNIT, "size": size, "drawers": drawers, **other}
-
-
-def eight() -> dict[str, Scene]:
-    """The layouts of the eight tasks."""
-    upper = {**UNIT, "at": [0.470, -0.010], "yaw_deg": -90}
-    return {
-        "task1": scene(
-            {
-                "microwave": {
-                    "kind": "cabinet", "size": [0.32, 0.48, 0.29], "at": [0.39, 0.45],
-                    "yaw_deg": -90, "color": "silver", "door": {"open_deg": 8, "hinge": "left"},
-                },
-                "ball": {**BALL, "at": [0.29, 0.14]},
-            },
-            {"position": [1.15, -0.15, 0.95], "look_at": [0.40, 0.20, 0.15]},
-        ),
-        "task2": scene(
-            {
-                "black_holder": {**BLACK, "at": [0.433, -0.332]},
-                "white_holder": {**CUP, "at": [0.436, 0.315]},
-                "drawer": upper,
-                "pen": {**PEN, "on": "drawer", "at": [0.481, -0.005]},
-            }
-        ),
-        "task3": scene(
-            {
-                "drawer": {**UNIT, "at": [0.472, 0.214], "yaw_deg": -90},
-                "holder": {
-                    **CUP, "diameter": 0.090, "height": 0.064, "on": "drawer",
-                    "at": [0.483, 0.200],
-                },
-            }
-        ),
-        "task4": scene(
-            {
-                "drawer": {
-                    **unit([0.260, 0.181, 0.185], 0.14), "at": [0.518, 0.130], "yaw_deg": -116.8,
-                },
-                "toy": {
-                    "kind": "box", "size": [0.058, 0.057, 0.086], "color": "blue",
-                    "inside": "drawer", "at": [0.437, -0.026], "yaw_deg": -116.8,
-                },
-            }
-        ),
-        "disturbance": scene(
-            {
-                "ball_1": {**BALL, "at": [0.362, 0.138]},
-                "ball_2": {**BALL, "at": [0.372, -0.206]},
-                "holder": {**CUP, "diameter": 0.095, "height": 0.069, "at": [0.52, 0.0]},
-            }
-        ),
-        "task5": scene(
-            {
-                "black_holder": {**BLACK, "at": [0.402, -0.331]},
-                "white_holder": {**CUP, "at": [0.406, 0.315]},
-                "apple": {**APPLE, "on": "white_holder"},
-                "drawer": {**UNIT, "at": [0.440, -0.010], "yaw_deg": -90},
-                "pen": {**PEN, "on": "drawer", "at": [0.4515, -0.003]},
-            },
-            HIGH,
-        ),
-        "task6": scene(
-            {
-                "white_holder": {
-                    **CUP, "diameter": 0.1055, "height": 0.069, "at": [0.406, -0.344],
-                },
-                "drawer": {**UNIT, "at": [0.440, -0.010], "yaw_deg": -90},
-                "apple": {**APPLE, "at": [0.40, 0.30]},
-            }
-        ),
-        "task7": scene(
-            {
-                "drawer": {
-                    **unit([0.260, 0.173, 0.210], 0.025), "at": [0.407, -0.051], "yaw_deg": 61.1,
-                },
-                "ball": {**BALL, "diameter": 0.070, "at": [0.497, 0.131]},
-                "holder": {**CUP, "diameter": 0.1055, "height": 0.069, "at": [0.574, 0.255]},
-                "apple": {**APPLE, "at": [0.62, -0.20]},
-            },
-            {"position": [1.02, 0.15, 0.78], "look_at": [0.46, 0.05, 0.15]},
-        ),
-    }  # fmt: skip
 
 
 def others() -> dict[str, Scene]:

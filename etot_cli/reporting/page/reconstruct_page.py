@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import shlex
 from dataclasses import dataclass
-from math import atan2, degrees
+from math import degrees
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from etot_cli.reporting.page.assemble import assemble
 from etot_cli.reporting.page.pictures import Store
 from etot_cli.reporting.page.timeline import time_parts
 from etot_cli.reporting.reconstruct_report import ReconstructedObjectModel, ReconstructReport
+from etot_cli.specs.base import heading_of
 
 UNITS_PER_M = 2000
 """Places in the 3-D view are whole half millimetres, which needs half the bytes of numbers."""
@@ -96,14 +97,12 @@ def _packed(places: NDArray[np.float64], colors: NDArray[np.uint8]) -> dict[str,
 
 
 def _row(item: ReconstructedObjectModel) -> dict[str, str]:
-    w, x, y, z = item.quaternion
-    turn = degrees(atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
     return {
         "name": item.name,
         "kind": item.kind,
         "size": " × ".join(f"{1000 * side:.0f}" for side in item.size),
         "position": ", ".join(f"{value:.3f}" for value in item.position),
-        "turn": f"{turn:.0f}°",
+        "turn": f"{degrees(heading_of(item.quaternion)):.0f}°",
         "support": item.support,
         "residual": f"{1000 * item.fit.residual_m:.1f}",
         "silhouette": f"{item.fit.silhouette_px:.1f}",
