@@ -122,7 +122,7 @@ _SIDES = {
     Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear)"),
 }
 """How they are called before a word for an end or edge, and without one."""
-_ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border", (Nearby.AT_CORNER,): "corner"}
+_ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border"}
 _QUARTERS = {
     (Nearby.AT_LEFT, Nearby.AT_FRONT): (
         "front left|left front",
@@ -162,6 +162,11 @@ REGIONS: dict[tuple[Nearby, ...], str] = {
     (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) the (middle|centre|center)",
     (Nearby.AT_EDGE,): "(at|on|near|to|by) (the|an) (edge|border|rim)",
     (Nearby.AT_CORNER,): "(in|at|into|to|on) (the|a) corner",
+    # "The left corner" is either, the far left one only that at the back.
+    **{
+        (side, Nearby.AT_CORNER): f"(in|at|into|to|on) the {said.split()[-1]} corner"
+        for side, (said, _) in _SIDES.items()
+    },
     **{
         (*sides, *corner): f"(in|at|into|to|on) the ({said}) {named}"
         for sides, (plain, besides) in _QUARTERS.items()
