@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import pairwise
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent, things_in
@@ -204,7 +205,12 @@ class _State:
     def goal(self) -> Goal:
         """The goal so far."""
         discourse = self.context.discourse
-        steps = in_order(self.timed)
+        # "Carry it over to the bag and drop it in" asks for one thing twice.
+        steps = [
+            step
+            for before, step in pairwise((None, *in_order(self.timed)))
+            if step is not None and not (step == before and isinstance(step, Put))
+        ]
         return Goal(
             tuple(discourse.referents),
             tuple(steps),

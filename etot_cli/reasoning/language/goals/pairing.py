@@ -219,6 +219,9 @@ def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place
     if len(units) == 1 and units[0].part is None and units[0].name in context.scene.infos:
         info = context.scene.infos[units[0].name]
         units = [Thing(info.name, part.name) for part in container_parts(info)] or units
+    if not where and len(places) < count:
+        text = referents[themes[0]].text
+        raise ReferenceProblem(text, f"there are {count} for {len(places)} places", 3)
     if len(where) == len(places) and len(units) < count:
         names = " and ".join(thing.part or thing.board or thing.name for thing in units)
         why = f"{count} things cannot each have one of their own: there are only {names}"

@@ -258,12 +258,14 @@ def remove(context: Context, clause: RemoveClause) -> None:
         if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
             return  # the cake is put away without the plate that it stands on
     things = clause.things.taken_from(clause.source)
-    # What stands on the desk is taken out of nothing: "put the key in the box, then take it out".
+    # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
+    # out".
     discourse, states = context.discourse, context.scene.states
+    places = [place.where for place in discourse.last_places if place.where is not None]
     around = [
         index
-        for index in discourse.put_into.values()
-        if all(DESK in states[thing.name].on for thing in discourse.things(index))
+        for index in (*discourse.put_into.values(), *places)
+        if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
     ]
     themes = context.phrases.things(things, Role.THEME, around)
     for index in themes if clause.source is None else ():

@@ -66,7 +66,7 @@ _FIXED = """
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    s (top|surface), in any order, only then
+    s (top|surface), in any order, only then, any [one] but
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = re.compile(
@@ -147,7 +147,7 @@ def _said(node: object) -> Iterator[str]:
         case Modifier(prep=prep, denied=denied):
             if denied or prep in (Prep.EXCEPT, Prep.CONTRAST):
                 yield from (_DENIAL, "other")
-            if prep is Prep.MATCHING:
+            if prep in (Prep.MATCHING, Prep.COLORED):
                 yield "same"
         case NounPhrase(without=without) | RemoveClause(without=without) if without:
             yield _DENIAL
@@ -167,10 +167,10 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
-            yield from (_ORDER, "top", "middle", "bottom")
+            yield from (_ORDER, "top", "middle", "bottom", "biggest", "largest", "widest")
         case PickClause(poses=poses) if poses:
             yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
-        case Turns(first=first, last=last, all=every) if first or last or every:
+        case Turns() if node != Turns():
             yield _ORDER
         case SwapClause():
             yield "other"

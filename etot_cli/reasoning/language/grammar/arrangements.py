@@ -94,7 +94,13 @@ _COLOR = sequence(
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
-_TOWER_ENDS = optional(sequence(OPTIONAL_COMMA, optional("with"), _ENDS), None)
+_TOWER_ENDS = optional(
+    either(
+        sequence(OPTIONAL_COMMA, optional("with"), _ENDS),
+        sequence(OPTIONAL_COMMA, "[the] (biggest|largest|widest) first", build=lambda: ()),
+    ),
+    None,
+)
 TOWER = either(
     sequence(
         # "Stack the red block on the green one on the blue one"

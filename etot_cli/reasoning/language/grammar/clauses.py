@@ -99,7 +99,7 @@ def plain(parser: Parser, order: Order = Order.SAID) -> Parser:
 
 
 LEFT_OUT = either(
-    sequence(f"{nouns.EXCEPT}, without", exceptions, build=excepting),
+    sequence(f"{nouns.EXCEPT}, without, any [one] but", exceptions, build=excepting),
     sequence(optional("but"), ONLY_THOSE),
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",

@@ -87,6 +87,7 @@ PLAIN_MODIFIER = either(
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
     sequence(BETWEEN, build=_between),
+    sequence(nouns.SAME_COLOR, noun_phrase, build=lambda np: Modifier(Prep.COLORED, (np,))),
     valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
     sequence(
         word(lambda given, text: text in ORDINALS),

@@ -237,6 +237,11 @@ noun_phrase.define(
             ),
             sequence(PRONOUN, MODIFIERS, build=_pronoun),
             sequence(
+                phrase("them, they, these, those"),
+                phrase("all, both"),
+                build=lambda pronoun, det: NounPhrase(det, pronoun=pronoun),
+            ),
+            sequence(
                 DETERMINER, PRONOUN, build=lambda det, pronoun: NounPhrase(det, pronoun=pronoun)
             ),
         ),

@@ -58,6 +58,11 @@ WITHOUT = either(
     sequence(OPTIONAL_COMMA, verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     sequence(
         OPTIONAL_COMMA,
+        "[and|but] nothing else",
+        build=lambda: AvoidClause(Avoid.MOVE, None),
+    ),
+    sequence(
+        OPTIONAL_COMMA,
         "[while] avoiding",
         THINGS,
         build=lambda things: AvoidClause(Avoid.TOUCH, things),

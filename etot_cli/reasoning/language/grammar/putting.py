@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
+    Beside,
     Destination,
     NounPhrase,
     PutClause,
@@ -53,6 +54,7 @@ from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import basic_color, singular
+from etot_cli.world.spatial import Nearby
 
 
 def _away(text: str, things: Things) -> PutClause:
@@ -60,7 +62,7 @@ def _away(text: str, things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.INSIDE, (trash,)),))
 
 
-_THEREIN = valued(phrase("inside, in there, in"), lambda text: Destination(Toward.HERE, word=text))
+_THEREIN = valued(phrase(places.THEREIN), lambda text: Destination(Toward.HERE, word=text))
 THROWN = quiet(
     either(
         sequence(
@@ -236,8 +238,26 @@ def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutCla
     return put_of((group,), extras, Grouping.SPREAD)
 
 
+def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
+    """Two things, one to the left and one to the right of another ("a cup on each side of it");
+    one alone may only be on either side.
+    """
+    (np, *more) = things.phrases
+    single = not more and singular(np.head) == np.head and "either" not in said
+    if single and np.determiner not in ("a", "an", "one", "two", "both"):
+        return None
+    if not more and np.determiner in ("a", "an", "one"):
+        things = Things((replace(np, determiner="two"),))
+    sides = (Nearby.LEFT, Nearby.RIGHT)
+    where = tuple(
+        Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
+    )
+    return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
+
+
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
+    sequence(verbs.PUT, THINGS, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _SAID_AHEAD,
     _FRONTED,

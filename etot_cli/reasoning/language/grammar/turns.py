@@ -21,8 +21,11 @@ from etot_cli.reasoning.language.words import manner, small_words
 
 
 def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
-    """Things that go first or last; none of them is "the first" itself."""
-    return None if any(np.words[-1:] in (("first",), ("last",)) for np in nps) else nps
+    """Things that go first or last; none of them is "the first" itself, and "biggest first" says it
+    of all.
+    """
+    ends = any(np.head in ("first", "last") or np.text in manner.SUPERLATIVES for np in nps)
+    return None if ends else nps
 
 
 _FIRST_OF_THEM = either(

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.coreference import (
     antecedents,
     latest_place,
+    meant_by_it,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -31,7 +32,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
-from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN
 from etot_cli.world.state import DESK, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -68,6 +70,10 @@ class Places:
         named = [phrase for item in destinations for phrase in item.targets if phrase.words]
         named += [p for item in destinations for b in item.beside for p in b.phrases if p.words]
         meant = []
+        with suppress(ReferenceProblem):  # "drop it in" is no word about what it goes into
+            inside = any(item.word in spellings(THEREIN) for item in destinations)
+            around = meant_by_it(self.discourse, Role.CONTAINER, "") if inside else -1
+            meant += [referents[around].options] if inside else []
         for phrase in named:
             with suppress(ReferenceProblem):
                 meant.append(self._phrases.meaning(phrase, Role.ANY).options)
@@ -235,7 +241,7 @@ class Places:
         found = []
         things = self.discourse.things(index)
         fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
-        laid = self.discourse.things(*themes)
+        laid = [thing for thing in self.discourse.things(*themes) if thing not in things]
         if toward is Toward.ON and fits_in:
             self._check_alike(laid, things, index)
         to = toward is Toward.TO

@@ -124,6 +124,12 @@ def touches(upper: Thing, lower: Thing, scene: SceneState) -> bool:
     return rests_on(upper, lower, scene) or lies_in(upper, lower, scene)
 
 
+def _alike(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
+    """Whether two things are known to have one colour."""
+    colors = [info and info.color for info in map(scene.infos.get, (thing.name, landmark.name))]
+    return colors[0] is not None and colors[0] == colors[1]
+
+
 def carries(one: Thing, other: Thing, scene: SceneState) -> bool:
     """Whether one of two things stands in or on the other."""
     return one.name in _bearers(other, scene) or other.name in _bearers(one, scene)
@@ -171,6 +177,7 @@ def holds_at(
             lies_in(landmark, thing, scene) or rests_on(landmark, thing, scene)
         ),
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
+        Prep.COLORED: lambda landmark: _alike(thing, landmark, scene),
         Prep.UNDER: lambda landmark: (
             (thing.board is None and thing.name in _bearers(landmark, scene))
             or _levels_up(thing, _level_of(landmark, thing, scene), scene) == 1

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.reference.space import is_flat
-from etot_cli.reasoning.language.words.lexicon import holds_things
+from etot_cli.reasoning.language.words.lexicon import is_drunk_from
 from etot_cli.world.state import DESK, SceneState
 
 COVER = 1.5
@@ -61,7 +61,7 @@ def goes_in(laid: Sequence[Thing], around: Sequence[Thing], scene: SceneState) -
     infos = scene.infos
     moved = [infos[t.name] for t in around if t.name != DESK and infos[t.name].movable]
     room = [min(info.size[:2]) for info in moved]
-    drunk = all(info.kind == "cup" and not holds_things(info.label) for info in moved)
+    drunk = all(is_drunk_from(info.label) for info in moved)
     return all(
         info.elongated
         or (max(info.size[:2]) <= min(room) and not (drunk and info.size[2] > info.size[0]))

@@ -108,7 +108,9 @@ class Vocabulary:
         """
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
-        if is_descriptive(word) or word in PURPOSES | MATERIALS or word in STATES:
+        packed = [entry for entry in told if entry.is_pack_of(before, word)]
+        said = is_descriptive(word) or word in STATES or word in MATERIALS
+        if said or (word in PURPOSES and not packed):
             return []
         for_it = place and word in RUBBISH
         if for_it and not told:  # what is thrown away goes into the bin, whatever kind it is
@@ -118,7 +120,6 @@ class Vocabulary:
             told = [entry for entry in told if entry.info is None or not entry.info.container]
         if word not in RUBBISH and any(word in group for group in TWINS):
             return []  # a remote of the TV is no TV
-        packed = [entry for entry in told if entry.is_pack_of(before, word)]
         sorts = len({entry.called[:1] for entry in told}) > 1
         if is_general_noun(word) or (
             sorts and not packed and not all(entry.is_sort_of(word) for entry in told)

@@ -116,6 +116,7 @@ HELPING_NOUNS = word_set(
     """
 )
 """What holds, covers, cleans, cuts or serves what stands before it ("paper clip")."""
+_DRINKING = word_set("cup mug teacup glass tumbler goblet")
 BINS = word_set(
     """
     bin trash rubbish garbage waste wastepaper wastebasket dustbin litter recycling compost hamper
@@ -223,9 +224,9 @@ def basic_color(word: str) -> str | None:
     return _COLOR_SYNONYMS.get(word)
 
 
-def holds_things(label: str) -> bool:
-    """Whether a label is that of a holder, basket or bin, not of what one drinks from."""
-    return any(word in HELPING_NOUNS | RUBBISH for word in label.casefold().split())
+def is_drunk_from(label: str) -> bool:
+    """Whether a label is that of a cup or glass, not of a holder, a beaker or a bin."""
+    return singular(label.casefold().split()[-1]) in _DRINKING
 
 
 def is_descriptive(text: str) -> bool:

@@ -57,8 +57,10 @@ _SIZES = (
     ("longest", "shortest"), ("widest", "narrowest"), ("heaviest", "lightest"),
     ("thickest", "thinnest"),
 )  # fmt: skip
+SUPERLATIVES = frozenset(word for pair in _SIZES for word in pair)
 SWEEPS = {
-    f"{one} {other}": f"""
+    f"{one} {other}": f"{one} first, " * (pair in _SIZES)
+    + f"""
         [in order|going|working] from [the] {one} [side] to [the] {other} [side], {one} to {other},
         (starting|beginning) (from|at|on|with) the {one} [side|end]
     """

@@ -66,6 +66,11 @@ MATCHING = """
     (that|which) (has|have) (its|their) (color|colour), matching (its|their) (color|colour),
     in (its own|their own) (color|colour)
 """
+SAME_COLOR = """
+    (of|with|in) the same (color|colour) as,
+    (that|which) (is|are|has|have) [of] the same (color|colour) as
+"""
+"""Before the thing whose colour it is."""
 MATCHING_ADJECTIVES = (
     "matching, corresponding, same color, same colour, same colored, same coloured"
 )

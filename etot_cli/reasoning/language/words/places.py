@@ -35,6 +35,7 @@ class Prep(StrEnum):
     """"that is red", "red" after "everything": the words say which."""
     MATCHING = "matching"
     """"of the same colour": as each of the things that go there."""
+    COLORED = "of the colour of"
     CONTRAST = "rather than"
     """What is not meant, said to make sure which is."""
     EXCEPT = "except"
@@ -59,6 +60,7 @@ ON_SIDE: dict[Prep, str] = {
     Prep.RIGHT: "(on|at) the right [hand] [side] of",
 }
 """Beside something, or on that half of it."""
+ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to the left [hand] [side] of, left of, to the left from"
 _RIGHT = "to the right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
@@ -101,7 +103,8 @@ AMONG = """
 """Before places that things are to be distributed over."""
 ON_IT = "on"
 """Of a lid: on what was filled."""
-HERE = "inside, in there, on there, there, on top, in, into it"
+THEREIN = "inside, in there, in, into it"
+HERE = f"{THEREIN}, on there, there, on top"
 HOME = """
     back [to its place],
     [back] to (its|their|the) [original|old|previous] (place|places|position|spot),
