@@ -124,7 +124,7 @@ def _plan(made: Problem, task: Task, limit_s: float, tried: Tried) -> str:
         _, start = simulator.start()
         result = search(
             Assignment(task.instruction, task.goal), simulator, BuiltinReasoner(),
-            limits=Limits(time_limit_s=limit_s),
+            limits=Limits(time_limit_s=limit_s), check=True,
         )  # fmt: skip
     tried.plan = " ".join(str(action) for action in result.plan)
     failed = [node for node in result.tree if node.verdict and node.verdict.cause]

@@ -84,7 +84,11 @@ class Final:
             return
         if kind in ("pen", "capsule"):
             for end in (-1, 1):
-                yield position + rotation @ np.array([end * item["length"] / 2, 0, 0])
+                tip = position + rotation @ np.array([end * item["length"] / 2, 0, 0])
+                # As deep and as high as a rod is that lies; standing on its tip it has no breadth.
+                level = np.array([0, 0, item["diameter"] / 2 * math.hypot(*rotation[:2, 0])])
+                yield tip - level
+                yield tip + level
             return
         if kind in ("cylinder", "cup", "bowl"):
             radii = (item.get("foot_diameter", item["diameter"]) / 2, item["diameter"] / 2)

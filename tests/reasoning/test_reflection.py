@@ -472,6 +472,21 @@ def test_of_two_that_change_places_one_waits_elsewhere() -> None:
     assert revisions(step)[:2] == [f"{egg} {nut}", f"{RELOCATE.format('nut')} {egg} {nut}"]
 
 
+def test_what_comes_along_in_a_vessel_waits_elsewhere_from_before_that_is_moved() -> None:
+    start = scenes.scene(
+        scenes.item("pot", "cup", (0.4, 0.2)),
+        scenes.item("cup", "cup", (0.4, 0.2), inside="pot", on="pot"),
+        scenes.ball("nut", (0.4, 0.2), inside="cup", on="cup"),
+    )
+    lift, back = "[PICK UP, cup] [PUT ON, desk]", "[PICK UP, nut] [PUT INTO, pot]"
+    moved = changed(start, cup={"inside": None, "on": ("desk",), "position": (0.4, -0.2, 0.2)})
+    step = failed(start, f"{lift} {back}", 2, cause(CauseKind.SLIP, "nut", "cup"), moved)
+    assert f"{RELOCATE.format('nut')} {lift} {back}" in revisions(step)
+    beside = changed(start, nut={"inside": None, "on": ("desk",), "position": (0.4, 0.0, 0.2)})
+    step = failed(beside, f"{lift} {back}", 2, cause(CauseKind.SLIP, "nut", "cup"), beside)
+    assert f"{RELOCATE.format('nut')} {lift} {back}" not in revisions(step)
+
+
 def test_a_drawer_that_cannot_be_opened_again_is_left_open_meanwhile() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0}),

@@ -25,6 +25,10 @@ PLANS = {
         "[OPEN, caddy.upper]", "[PICK UP, spool]", "[PUT INTO, caddy.upper]",
         "[CLOSE, caddy.upper]",
     ],
+    "nested": [
+        "[PICK UP, ball]", "[PUT ON, *]", "[PICK UP, dish]", "[PUT ON, tray]",
+        "[PICK UP, ball]", "[PUT INTO, bowl]",
+    ],
     "oven": [
         "[OPEN, oven]", "[PICK UP, mug] (horizontal)", "[PUT INTO, oven]", "[CLOSE, oven]",
     ],

@@ -194,6 +194,16 @@ class _Case:
                 waiting = inserted(actions, other.start, (Action(Verb.PICK_UP, name), put))
                 yield Correction(waiting, f"{name} waits elsewhere until {self.action} is done")
 
+    def _taken_out_first(self, before: int, name: str) -> Iterator[Correction]:
+        """What came along in or on an object waits elsewhere from before that was moved on."""
+        target, start = self.action.target, self.failed.start
+        if name not in carriers(start, target) or relocations(self.actions, target):
+            return
+        other = cycle_of(self.actions, before).start
+        put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, target))
+        waiting = inserted(self.actions, other, (Action(Verb.PICK_UP, target), put))
+        yield Correction(waiting, f"{target} is taken out before {name} is moved")
+
     def _occupants(self) -> list[str]:
         """What stands or lies where the action puts something, when nobody else is to blame."""
         scene, target = self.failed.record.before, self.action.target
@@ -222,6 +232,7 @@ class _Case:
             placed = placed_by(self.actions, name, index)
             if placed is not None:
                 yield from self._earlier(placed, name)
+                yield from self._taken_out_first(placed, name)
             elif scene.infos[name].movable:
                 yield from self._out_of_the_way(name, index)
             else:
