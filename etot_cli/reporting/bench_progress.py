@@ -2,28 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TextIO
-
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from etot_cli.benchmark.trial import TrialResult, TrialStatus
-from etot_cli.reporting.style import LOOKS, badge, hanging_lines, speaks_unicode, symbol
-from etot_cli.specs.reading import visible
+from etot_cli.reporting.style import LOOKS, Lines, badge, hanging_lines, speaks_unicode, symbol
 
 MINUTE, HOUR = 60.0, 3600.0
 
 
-class TrialLines:
-    """One line per trial, for logs and pipes.
-
-    Args:
-        stream: usually standard error.
-    """
-
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
-        self._unicode = speaks_unicode(stream)
+class TrialLines(Lines):
+    """One line per trial."""
 
     def trial_finished(self, result: TrialResult, done: int, total: int, left_s: float) -> None:
         """Says what became of it, and how long the rest may take."""
@@ -31,7 +20,7 @@ class TrialLines:
         line = f"{done}/{total} {sign} {_told(result)}"
         if done < total:
             line += f"  [about {spoken(left_s)} left]"
-        print(visible(line), file=self._stream, flush=True)
+        self._say(line)
 
 
 class TrialBar:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import TextIO
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -15,6 +14,7 @@ from etot_cli.reporting.live import REFRESHES_PER_SECOND
 from etot_cli.reporting.style import (
     LOOKS,
     RUNNING,
+    Lines,
     badge,
     counted,
     hanging_lines,
@@ -22,7 +22,6 @@ from etot_cli.reporting.style import (
     symbol,
 )
 from etot_cli.skills.action import Action, format_plan
-from etot_cli.specs.reading import visible
 
 EVENTS_KEPT = 8
 """Looks, replans and disturbances that stay in sight."""
@@ -30,17 +29,8 @@ TRIALS_KEPT = 12
 """Lines of finished trials that stay in sight."""
 
 
-class ExecutionLog(ExecutionObserver):
-    """Plain lines, for logs and pipes.
-
-    Args:
-        stream: usually standard error.
-        detailed: also every look.
-    """
-
-    def __init__(self, stream: TextIO, *, detailed: bool = False) -> None:
-        self._stream, self._detailed = stream, detailed
-        self._unicode = speaks_unicode(stream)
+class ExecutionLog(Lines, ExecutionObserver):
+    """One line per event; ``detailed``: every look too."""
 
     def trial_started(self, number: int, total: int) -> None:
         """Says which, of several."""
@@ -81,9 +71,6 @@ class ExecutionLog(ExecutionObserver):
     def disturbed(self, happened: Happened) -> None:
         """What somebody did."""
         self._say(f"somebody: {happened.text}")
-
-    def _say(self, line: str) -> None:
-        print(visible(line), file=self._stream, flush=True)
 
 
 class ExecutionView(ExecutionObserver):

@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TextIO
-
 from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.tree import FAILED, NodeStatus, PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
 from etot_cli.reporting.simulate_report import StepModel
-from etot_cli.reporting.style import counted, speaks_unicode, symbol
+from etot_cli.reporting.style import Lines, counted, symbol
 from etot_cli.skills.action import Action, format_plan
-from etot_cli.specs.reading import visible
 
 
-class PlainLog(SearchObserver):
-    """Writes one line per event; observes searches and simulations.
-
-    Args:
-        stream: usually standard error.
-        detailed: also say what is tried, what was proposed, and what changed.
+class PlainLog(Lines, SearchObserver):
+    """Writes one line per event; observes searches and simulations. ``detailed``: also what is
+    tried, what was proposed, and what changed.
     """
-
-    def __init__(self, stream: TextIO, *, detailed: bool = False) -> None:
-        self._stream = stream
-        self._detailed = detailed
-        self._unicode = speaks_unicode(stream)
 
     def proposed(self, tree: PlanTree) -> None:
         """Says how large the first tree is."""
@@ -78,6 +67,3 @@ class PlainLog(SearchObserver):
             changed = ", ".join(step.changes) or "nothing"
             line += f"  [{step.simulated_s:.1f} s simulated, changed: {changed}]"
         self._say(line)
-
-    def _say(self, line: str) -> None:
-        print(visible(line), file=self._stream, flush=True)

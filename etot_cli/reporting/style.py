@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import IO, NamedTuple
+from typing import IO, NamedTuple, TextIO
 
 from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
 from rich.segment import Segment
@@ -114,3 +114,19 @@ def badge(status: str, unicode: bool) -> Text:
     """The coloured symbol of a status."""
     # Not as the text's base style, which would colour what is appended to it.
     return Text().append(symbol(status, unicode), style=LOOKS[status].style)
+
+
+class Lines:
+    """Plain lines, for logs and pipes.
+
+    Args:
+        stream: usually standard error.
+        detailed: also say what most readers need not know.
+    """
+
+    def __init__(self, stream: TextIO, *, detailed: bool = False) -> None:
+        self._stream, self._detailed = stream, detailed
+        self._unicode = speaks_unicode(stream)
+
+    def _say(self, line: str) -> None:
+        print(visible(line), file=self._stream, flush=True)
