@@ -482,6 +482,9 @@ def test_what_comes_along_in_a_vessel_waits_elsewhere_from_before_that_is_moved(
     moved = changed(start, cup={"inside": None, "on": ("desk",), "position": (0.4, -0.2, 0.2)})
     step = failed(start, f"{lift} {back}", 2, cause(CauseKind.SLIP, "nut", "cup"), moved)
     assert f"{RELOCATE.format('nut')} {lift} {back}" in revisions(step)
+    waited = f"{RELOCATE.format('cup')} (safe place) {back} {lift}"
+    step = failed(start, waited, 2, cause(CauseKind.SLIP, "nut", "cup"), moved)
+    assert revisions(step)[0] == f"{lift} {back}", "it does not wait for what comes at once"
     beside = changed(start, nut={"inside": None, "on": ("desk",), "position": (0.4, 0.0, 0.2)})
     step = failed(beside, f"{lift} {back}", 2, cause(CauseKind.SLIP, "nut", "cup"), beside)
     assert f"{RELOCATE.format('nut')} {lift} {back}" not in revisions(step)

@@ -153,9 +153,12 @@ def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
 
 def without_idle(actions: Actions, scene: SceneState) -> Actions:
     """The branch without openings of closed parts that are closed again at once, and the other way
-    round, and without closing what is closed.
+    round, without closing what is closed, and without waits elsewhere that end at once.
     """
     for index, action in enumerate(actions):
+        again = [(other.verb, other.target) for other in actions[index : index + 3 : 2]]
+        if again == 2 * [(Verb.PICK_UP, action.target)] and actions[index + 1].safe:
+            return without_idle((*actions[:index], *actions[index + 2 :]), scene)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
             continue
