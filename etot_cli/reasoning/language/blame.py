@@ -5,6 +5,7 @@ without which the rest is read in this scene, or in whose place a plain one is.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import takewhile
 
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.reader import (
@@ -31,11 +32,13 @@ _PLACE = ("on", "the", DESK)
 """Where anything can go in every scene."""
 _PLACE_COSTS = 2.5
 """Words that may rather be left out than a place be put in: two are most often a phrase."""
-_NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
 _PLACED = {text.split()[0] for text in spellings(f"{INTO}, {ONTO}, {OVER}, {TO}")} | {
     text.split()[0] for texts in NEARBY.values() for text in spellings(texts)
 }
 """What a place begins with."""
+_JOINTS = {COMMA, "and", "then", "or", "but"}
+_BEFORE_VERBS = _JOINTS | {"to", "not", "you", "please", "while", "by"}
+"""What a verb may stand behind; elsewhere a word that is one, too, is a noun ("water bottle")."""
 _MISSING = "something is missing, such as into or onto what"
 
 
@@ -54,10 +57,6 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
         words = words[:-1]
         if unread.reached >= len(words):
             return UnreadableError(shown(words), before, known.REASONS["what"])
-    for index in _switched(words):
-        return UnreadableError(
-            shown(words[index:]), _joined(before, spaced(words[:index])), _NO_SKILL
-        )
     for start, end, place in _ways(words, unread):
         mended = (*words[:start], *place, *words[end:])
         if fits(_joined(before, " ".join(mended).replace(f" {COMMA}", ",").strip(" ,"))):
@@ -65,16 +64,6 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
             text, why = _reason(unread, words, start, end, replaced=bool(place))
             return UnreadableError(text, _joined(before, spaced(words[:start])), why, without)
     return _unmended(unread, words, before)
-
-
-def _switched(words: tuple[str, ...]) -> Iterator[int]:
-    """Where something is turned or switched on or off ("turn it on"; "turn it on its side" not)."""
-    for at, word in enumerate(words):
-        if word in ("turn", "switch"):
-            for end in range(at + 1, len(words)):
-                last = words[end + 1 : end + 2] in ((), (COMMA,), ("and",), ("then",))
-                if words[end] in ("on", "off") and (last or end == at + 1):
-                    yield at
 
 
 def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tuple[str, ...]]]:
@@ -119,7 +108,8 @@ def _is_whole(words: tuple[str, ...], start: int, end: int) -> bool:
     following = words[end] if end < len(words) else COMMA
     last = words[end - 1]
     led = start == 0 and following in ("and", "but", "or")
-    return not led and (
+    alone = end - start == 1 and last in ("on", "off")  # of the verb
+    return not (led or alone) and (
         start == 0 if last == COMMA else last not in known.LINKS or following == COMMA
     )
 
@@ -133,7 +123,7 @@ def _reason(
 ) -> tuple[str, str]:
     """The words to blame, and why: of those left out the first that no sentence has so."""
     if replaced and all(word in known.LINKS for word in words[start:end]):
-        return _last(words), _MISSING
+        return _missing(unread, words)
     for index in range(start, end):
         if why := _cause(unread, words, index):
             return shown(words[index:end]), why
@@ -144,6 +134,13 @@ def _reason(
     else:
         plain = "the rest is understood without it"
     return shown(words[start:end]), plain
+
+
+def _missing(unread: Input, words: tuple[str, ...]) -> tuple[str, str]:
+    """What to say of a sentence that might go on: what is wrong with its verb, if anything is."""
+    start = max((at + 1 for at, word in enumerate(words[:-1]) if word in _JOINTS), default=0)
+    why = _cause(unread, words, start)
+    return (shown(words[start:]), why) if why else (_last(words), _MISSING)
 
 
 def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableError:
@@ -159,7 +156,8 @@ def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableE
             return UnreadableError(shown(words[index:]), understood, why, without)
     understood = _joined(before, spaced(words[:stop]))
     if stop >= len(words):
-        return UnreadableError(_last(words), understood, _MISSING)
+        text, why = _missing(unread, words)
+        return UnreadableError(text, understood if why == _MISSING else before, why)
     small = words[stop] in known.GRAMMAR_WORDS  # it joins others, which need it
     without = "" if small else spaced((*words[:stop], *words[stop + 1 :]))
     stop = stop or (words[0] in known.VERB_WORDS)
@@ -170,24 +168,18 @@ def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableE
 
 def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     """Why a word is none that could be understood here; empty for what may have a place."""
-    word, before, following = words[index], words[:index], words[index + 1 : index + 2]
-    named = before[-1:] in known.BEFORE_NOUNS
-    if not index and following in known.BEFORE_NOUNS and word in unread.nouns:
-        return _NO_SKILL
+    word, before, following = words[index], words[:index][-1:], words[index + 1 : index + 2]
+    acted = following in known.BEFORE_NOUNS
+    begins = not before or before[0] in _BEFORE_VERBS or (acted and before[0] not in known.LINKS)
     if word in unread.nouns:
-        return ""
-    if word in ("is", "are") and any(item in known.VERB_WORDS for item in before):
-        return ""  # it tells something apart, and states nothing
-    if word in ("is", "are") and not index:
-        return known.REASONS["what"]
-    if word in ("do", "does", "did") and following in (("not",), ("nothing",)):
-        return known.REASONS["nothing"]
-    if word == "as" and following in (("soon",), ("long",)):
-        return known.REASONS["while"]
-    if word in known.REASONS:
-        return known.REASONS[word]
-    if word in known.OTHER_VERBS and not named:
-        return _NO_SKILL
+        return known.NO_SKILL if acted and not index else ""
+    told = not {"is", "are"} & {word} or not known.VERB_WORDS & {*words[:index]}
+    *_, last = (word, *takewhile(lambda item: item not in _JOINTS, words[index + 1 :]))
+    for text in (" ".join((word, *following)), f"{word} {last}", word) if told else ():
+        if text in known.REASONS:
+            return known.REASONS[text]
+    if word in known.OTHER_VERBS and begins:
+        return known.NO_SKILL
     if known.is_adverb(word):
         return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
     if word in known.OTHER_VERBS:
@@ -198,6 +190,7 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     if not word.isalpha() or listed:
         return ""
     unknown = f"nothing in the scene is called {word!r}"
+    named = before in known.BEFORE_NOUNS
     return unknown if named else f"{unknown}, nor is it another word that is known"
 
 

@@ -72,9 +72,15 @@ def is_adverb(text: str) -> bool:
     return len(text) > 4 and text.endswith("ly") and text not in ("jelly", "belly", "lily", "doily")
 
 
+NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
 REASONS = {
     **dict.fromkeys(
-        ("if", "unless", "when", "whenever", "while", "until", "once", "provided"),
+        ("turn on", "turn off", "switch on", "switch off", "shut off", "turning on", "turning off"),
+        NO_SKILL,
+    ),
+    **dict.fromkeys(
+        ("if", "unless", "when", "whenever", "while", "until", "once", "provided", "as soon",
+         "as long"),
         "conditions and waiting are not supported; say what is to be done",
     ),
     **dict.fromkeys(
@@ -89,7 +95,7 @@ REASONS = {
         "questions are not answered; say what is to be done",
     ),
     **dict.fromkeys(
-        ("is", "are"), "how things are is seen and not said; say what is to be done"
+        ("is", "are"), "how things are is neither asked nor said; say what is to be done"
     ),
     **dict.fromkeys(
         ("hands", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"
@@ -126,10 +132,12 @@ REASONS = {
     "instead": "say only what is to be done",
     "upside": "how a thing is to lie cannot be asked for",
     "where": "where something is does not say what is there: say into, onto or beside what",
-    "nothing": "say what is to be done",
+    **dict.fromkeys(
+        ("nothing", "do not", "does not", "did not", "do nothing"), "say what is to be done"
+    ),
     "never": "say first what is to be done",
 }  # fmt: skip
-"""Why words are not understood, wherever they stand."""
+"""Why words are not understood, wherever they stand; two words together go before one."""
 
 
 def _patterns(module: ModuleType) -> list[str]:
