@@ -44,6 +44,8 @@ WAVES = 5
 """Powers of the picture's coordinates that describe the waves of a sensor."""
 HIGHEST_WAVE = 0.01
 """More is no wave of the sensor [m]."""
+THIN = 3
+"""Of every so many rows and columns one tells where a plane is: tens of thousands of points do."""
 _TRIALS = 400
 """Planes through three points that are tried. Where a third of the points is desk, one in 27 hits;
 that none of them does has a chance of 3e-7."""
@@ -107,16 +109,18 @@ def calibrate(
     warnings = list(capture.warnings)
     rng = np.random.default_rng(seed)
     view = capture.view
-    cloud = view.cloud(capture.depth)
     elsewhere = np.any([np.zeros(capture.depth.shape, dtype=bool), *aside], axis=0)
 
-    def asked(points: Array) -> Mask:
-        return np.asarray(~elsewhere if workspace is None else ~elsewhere & workspace.holds(points))
+    def asked(points: Array, every: int = 1) -> Mask:
+        here = ~elsewhere[::every, ::every]
+        return np.asarray(here if workspace is None else here & workspace.holds(points))
 
-    def fitted(points: Array) -> tuple[Array, Array, float] | None:
-        return _desk_plane(np.where(asked(points)[..., None], points, np.nan), rng)
+    def fitted(view: View, depth: Array) -> tuple[Array, Array, float] | None:
+        points = view.cloud(depth, THIN)
+        kept = asked(points, THIN) & np.isfinite(points[..., 2])
+        return _desk_plane(points[kept], depth.size, rng)
 
-    plane = fitted(cloud)
+    plane = fitted(view, capture.depth)
     if plane is None:
         raise _no_desk(capture, fitted, workspace)
     normal, middle, noise = plane
@@ -139,10 +143,9 @@ def calibrate(
     depth = capture.depth
     if shift != (0, 0):
         depth = displaced(capture.depth, (-shift[0], -shift[1]))
-        cloud = view.cloud(depth)
         # Depth was measured along other rays than colour's by some pixels, so the plane is
         # looked at once more.
-        normal, middle, noise = fitted(cloud) or (normal, middle, noise)
+        normal, middle, noise = fitted(view, depth) or (normal, middle, noise)
         view = view.moved(_levelled(view.camera_to_base, normal, middle))
         cloud = view.cloud(depth)
         top = float(middle[2])
@@ -168,7 +171,7 @@ def confined(seen: Calibrated, workspace: Workspace) -> Calibrated:
 
 def _no_desk(
     capture: Capture,
-    fitted: Callable[[Array], tuple[Array, Array, float] | None],
+    fitted: Callable[[View, Array], tuple[Array, Array, float] | None],
     workspace: Workspace | None,
 ) -> SpecError:
     """What is wrong with a capture that shows no desk; a wrong unit of depth is recognized."""
@@ -179,7 +182,7 @@ def _no_desk(
     )
     planes = {
         factor: plane for factor in OTHER_UNITS
-        if (plane := fitted(capture.view.cloud(factor * capture.depth))) is not None
+        if (plane := fitted(capture.view, factor * capture.depth)) is not None
     }  # fmt: skip
     if planes:
         # Of several, the desk that is nearest to the level of the robot's base is meant.
@@ -190,12 +193,15 @@ def _no_desk(
     return SpecError(text, file=str(capture.folder / "depth.png"))
 
 
-def _desk_plane(cloud: Array, rng: np.random.Generator) -> tuple[Array, Array, float] | None:
-    """Normal (3,) pointing up, a point (3,) in the middle of the desk, and the residual [m]."""
-    points = thinned(cloud)
+def _desk_plane(
+    points: Array, pixels: int, rng: np.random.Generator
+) -> tuple[Array, Array, float] | None:
+    """Normal (3,) pointing up, a point (3,) in the middle of the desk, and the residual [m], from
+    the thinned points (n, 3) of a picture with so many pixels.
+    """
     near = (np.hypot(points[:, 0], points[:, 1]) < REACH) & (points[:, 2] > LEVELS[0])
     points = points[near & (points[:, 2] < LEVELS[1])]
-    if len(points) * 9 < LEAST_DESK * cloud[..., 2].size:
+    if len(points) * THIN**2 < LEAST_DESK * pixels:
         return None
     sample, normals, offsets = planes_through(points, rng)
     upright = np.abs(normals[:, 2]) > np.cos(np.radians(MAX_TILT))
@@ -205,12 +211,6 @@ def _desk_plane(cloud: Array, rng: np.random.Generator) -> tuple[Array, Array, f
         return None
     sign = np.sign(normals[best, 2])
     return refined_plane(points, sign * normals[best], sign * float(offsets[best]))
-
-
-def thinned(cloud: Array) -> Array:
-    """Every ninth of a cloud's points (h, w, 3), (n, 3); those without a reading are left out."""
-    points = cloud[::3, ::3].reshape(-1, 3)
-    return points[np.isfinite(points[:, 2])]
 
 
 def planes_through(points: Array, rng: np.random.Generator) -> tuple[Array, Array, Array]:

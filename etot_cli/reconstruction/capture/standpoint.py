@@ -15,9 +15,9 @@ from etot_cli.reconstruction.capture.calibration import (
     INLIER,
     LEAST_SHARE,
     REACH,
+    THIN,
     planes_through,
     refined_plane,
-    thinned,
 )
 from etot_cli.reconstruction.capture.folder import Capture
 from etot_cli.reconstruction.capture.view import Array, Mask
@@ -77,7 +77,8 @@ def stand(
     view = capture.view.moved(np.eye(4))
     depth = np.where(np.any([np.zeros(capture.depth.shape, dtype=bool), *aside], axis=0), 0,
                      capture.depth)  # fmt: skip
-    points = thinned(view.cloud(depth))
+    points = view.cloud(depth, THIN)
+    points = points[np.isfinite(points[..., 2])]
     best, most = None, 0
     if len(points):
         sample, normals, offsets = planes_through(points, rng)

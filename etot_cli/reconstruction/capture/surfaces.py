@@ -129,25 +129,23 @@ def measure_surfaces(seen: Calibrated, *, smooth: int) -> Surfaces:
     size = (2 * smooth + 1, 2 * smooth + 1)
     weight = cv2.blur(valid.astype(np.float32), size)
     mean = cv2.blur(np.where(valid, depth, 0), size) / np.maximum(weight, 1e-6)
-    mean = np.where(valid & (weight > 0.4), mean, np.nan)
-    points = seen.view.cloud(np.nan_to_num(mean))
+    # One picture for each axis: whole rows of numbers are much quicker than triples.
+    points = np.moveaxis(seen.view.cloud(np.where(valid & (weight > 0.4), mean, 0.0)), 2, 0).copy()
     reach = max(1, smooth)
-    right = np.roll(points, -reach, axis=1) - np.roll(points, reach, axis=1)
-    down = np.roll(points, -reach, axis=0) - np.roll(points, reach, axis=0)
-    normals = np.cross(down, right)
-    length = np.linalg.norm(normals, axis=2, keepdims=True)
+    rx, ry, rz = np.roll(points, -reach, axis=2) - np.roll(points, reach, axis=2)
+    dx, dy, dz = np.roll(points, -reach, axis=1) - np.roll(points, reach, axis=1)
+    normals = np.stack([dy * rz - dz * ry, dz * rx - dx * rz, dx * ry - dy * rx])
     with np.errstate(invalid="ignore", divide="ignore"):
-        normals = normals / length
-    away = (normals * (seen.view.position - points)).sum(axis=2) < 0
-    normals[away] *= -1
-    jumps = _jumps(depth, JUMP + 3 * seen.noise)
-    with np.errstate(invalid="ignore"):
-        level = np.nan_to_num(normals[..., 2]) > LEVEL_COSINE
-        slant = np.abs(((seen.view.position - points) * normals).sum(axis=2)) / np.linalg.norm(
-            seen.view.position - points, axis=2
-        )
+        normals /= np.sqrt((normals * normals).sum(axis=0))
+        sight = seen.view.position[:, None, None] - points
+        along = (sight * normals).sum(axis=0)
+        normals *= np.where(along < 0, -1.0, 1.0)
+        level = np.nan_to_num(normals[2]) > LEVEL_COSINE
+        slant = np.abs(along) / np.sqrt((sight * sight).sum(axis=0))
         area = depth**2 / (seen.view.fx * seen.view.fy) / np.maximum(np.nan_to_num(slant), 0.15)
-    return Surfaces(normals, jumps, level & valid, area, color_features(seen.capture.color))
+    jumps = _jumps(depth, JUMP + 3 * seen.noise)
+    color = color_features(seen.capture.color)
+    return Surfaces(np.moveaxis(normals, 0, 2), jumps, level & valid, area, color)
 
 
 def _jumps(depth: NDArray[np.float32], least: float) -> Mask:

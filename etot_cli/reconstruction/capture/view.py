@@ -76,12 +76,15 @@ class View:
         reach[reach <= 0] = np.nan
         return np.asarray(self.position + rays * reach[:, None])
 
-    def cloud(self, depth: Array) -> Array:
-        """Points (h, w, 3) of a depth picture (h, w) [m]; NaN where there is no reading."""
-        x = (np.arange(self.width) - self.cx) / self.fx
-        y = (np.arange(self.height) - self.cy) / self.fy
+    def cloud(self, depth: Array, every: int = 1) -> Array:
+        """Points (h, w, 3) of a depth picture (h, w) [m], or of every so manieth of its rows and
+        columns alone; NaN where there is no reading.
+        """
+        x = (np.arange(0, self.width, every) - self.cx) / self.fx
+        y = (np.arange(0, self.height, every) - self.cy) / self.fy
+        depth = depth[::every, ::every]
         z = np.where(depth > 0, depth, np.nan)
-        points = np.empty((self.height, self.width, 3))
+        points = np.empty((*z.shape, 3))
         for axis, (right, down, forward) in enumerate(self.rotation):
             points[..., axis] = (right * x + (down * y + forward)[:, None]) * z
         points += self.position
