@@ -69,6 +69,11 @@ def polish(
     return params
 
 
+def _tree(points: Array) -> cKDTree:
+    """A tree that is asked a few hundred times: to balance it takes longer than that saves."""
+    return cKDTree(points, balanced_tree=False, compact_nodes=False)
+
+
 class _Pairs:
     """Which surface point belongs to which measurement, at one pose."""
 
@@ -78,7 +83,7 @@ class _Pairs:
         size = params[4]
         local = own_frame(self._seen.points, params, params[3]) / size
         facing = model.facing(params, self._view.position)
-        apart, nearest = cKDTree(model.points[facing]).query(local)
+        apart, nearest = _tree(model.points[facing]).query(local)
         kept = apart < FARTHEST
         self._readings = self._seen.points[kept]
         self._near = model.points[facing[nearest[kept]]]
@@ -103,7 +108,7 @@ class _Pairs:
         self._apart, self._slope = apart[kept], slope[kept]
         self._rim, self._rim_pixels = np.zeros((0, 3)), np.zeros((0, 2))
         if kept.any():
-            _, nearest = cKDTree(pixels[rim]).query(sought[kept])
+            _, nearest = _tree(pixels[rim]).query(sought[kept])
             self._rim = model.points[rim[nearest]]
             self._rim_pixels = pixels[rim[nearest]]
 
@@ -131,7 +136,7 @@ def measured(target: Target, model: Model, params: Array) -> tuple[Array, Array]
     seen = target.observation
     local = own_frame(seen.points, params, params[3]) / params[4]
     facing = model.facing(params, target.view.position)
-    apart, nearest = cKDTree(model.points[facing]).query(local)
+    apart, nearest = _tree(model.points[facing]).query(local)
     spots = facing[nearest]
     plane = np.abs(((local - model.points[spots]) * model.normals[spots]).sum(axis=1))
     # Beside the surface a plane goes on: no reading is nearer than half its nearest sample.
