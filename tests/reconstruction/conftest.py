@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from etot_cli.reconstruction import pipeline
 from etot_cli.specs.scene import Scene
 from etot_cli.world.capture import Picture, capture
 from tests.opengl import need_opengl
@@ -65,3 +67,26 @@ def folder(picture: Picture, tmp_path: Path) -> Path:
 
     write_capture(picture, tmp_path / "table")
     return tmp_path / "table"
+
+
+@pytest.fixture(scope="session")
+def fitted() -> dict[Any, Any]:
+    """Shapes by all that they were fitted to."""
+    return {}
+
+
+@pytest.fixture
+def fitted_once(monkeypatch: pytest.MonkeyPatch, fitted: dict[Any, Any]) -> None:
+    """Fits the shapes of a capture once for all tests of what is made of them afterwards."""
+    fit = pipeline._shapes
+
+    def shapes(seen: Any, segments: Any, options: Any) -> Any:
+        pictures = [seen.depth, seen.capture.color, seen.view.camera_to_base, *seen.aside]
+        pictures += [segment.mask for segment in segments]
+        names = [(segment.name, segment.named) for segment in segments]
+        key = (options.seed, str(names), *(sha256(it.tobytes()).digest() for it in pictures))
+        if key not in fitted:
+            fitted[key] = fit(seen, segments, options)
+        return fitted[key]
+
+    monkeypatch.setattr(pipeline, "_shapes", shapes)

@@ -59,6 +59,7 @@ def side_errors(found: Any, true: Any) -> float:
     return float(max(np.abs(level).max(), abs(z / c - 1)))
 
 
+@pytest.mark.usefixtures("fitted_once")
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_clean_picture(two: Picture, home: Path, name: str) -> None:
     twin = reconstruct(Options(capture=home / "two", settle=False))

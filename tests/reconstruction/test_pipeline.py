@@ -98,6 +98,7 @@ def test_two_frames_show_a_drawer(tmp_path: Path) -> None:
     assert sorted(joint.values) == pytest.approx(sorted(states), abs=0.005)
 
 
+@pytest.mark.usefixtures("fitted_once")
 def test_materials_decide_masses(folder: Path) -> None:
     light = reconstruct(Options(capture=folder, settle=False, materials={"crate": "foam"}))
     heavy = reconstruct(Options(capture=folder, settle=False, materials={"crate": "metal"}))
@@ -131,6 +132,7 @@ def test_plan_for_the_real_capture_holds_in_most_worlds(tmp_path: Path) -> None:
     assert report.survival is not None and report.survival.alive >= 6
 
 
+@pytest.mark.usefixtures("fitted_once")
 def test_what_no_scene_may_have_is_left_out_with_what_it_bears(folder: Path) -> None:
     twin = reconstruct(Options(capture=folder, settle=False))
     x, y = twin.document["objects"]["crate"]["at"]

@@ -26,7 +26,7 @@ from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.services import endpoint
 from etot_cli.world.capture import Picture, camera_to_base
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fitted_once")]
 
 
 SERVERS = Path(__file__).parents[2] / "docs" / "servers"

@@ -22,7 +22,7 @@ from tests.reconstruction.conftest import render
 from tests.reconstruction.meshes import ALL, angle_block, mug, toy
 from tests.reconstruction.scenes import scene
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fitted_once")]
 
 
 PLACES = {

@@ -17,7 +17,7 @@ import pytest
 import trimesh
 
 from etot_cli.cli.app import run
-from etot_cli.reconstruction import pipeline, services
+from etot_cli.reconstruction import services
 from etot_cli.reconstruction.capture.pictures import decode_png
 from etot_cli.reporting.reconstruct_report import ReconstructReport
 from etot_cli.services import endpoint
@@ -51,26 +51,6 @@ def etot(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Run:
 def quick(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(endpoint, "FIRST_PAUSE", 0.01)
     monkeypatch.setenv("ETOT_CACHE", str(tmp_path / "cache"))
-
-
-@pytest.fixture(scope="module")
-def fitted() -> dict[bytes, Any]:
-    """Shapes by the masks that they were fitted to."""
-    return {}
-
-
-@pytest.fixture
-def fitted_once(monkeypatch: pytest.MonkeyPatch, fitted: dict[bytes, Any]) -> None:
-    """Fits what several tests show only once; how their servers fail does not depend on it."""
-    fit = pipeline._shapes
-
-    def shapes(seen: Any, segments: Any, options: Any) -> Any:
-        shown = b"".join(segment.mask.tobytes() for segment in segments)
-        if shown not in fitted:
-            fitted[shown] = fit(seen, segments, options)
-        return fitted[shown]
-
-    monkeypatch.setattr(pipeline, "_shapes", shapes)
 
 
 def only(folder: Path, *names: str) -> Path:
@@ -156,6 +136,7 @@ def true_pose(picture: Picture) -> np.ndarray:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("fitted_once")
 @pytest.mark.parametrize("turned", [0.0, 120.0])
 def test_a_pose(etot: Run, block: tuple[Path, Picture], turned: float) -> None:
     """A right pose is taken; a wrong one is noticed and put right."""
@@ -187,6 +168,7 @@ JOINTS = {
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("fitted_once")
 @pytest.mark.parametrize("case", JOINTS)
 def test_a_joint(etot: Run, folder: Path, picture: Picture, case: str) -> None:
     said, kind, joint = JOINTS[case]
@@ -211,6 +193,7 @@ def test_a_joint(etot: Run, folder: Path, picture: Picture, case: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("fitted_once")
 def test_nothing_to_move(etot: Run, folder: Path) -> None:
     with serving(saying({"type": "none"})) as (url, _):
         code, report, _ = etot(only(folder, "crate", "marker"), "--articulation-url", url)
