@@ -142,9 +142,9 @@ def plan_task(
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
-                # A model may propose anything; of what the built-in reasoner does, a later action
-                # may undo an earlier one, by taking along what was put into a vessel in a vessel.
-                check=True,
+                # A model may propose anything; the built-in reasoner works from the instruction,
+                # but physics may undo what a formal goal says of the end.
+                check=session is not None or task.goal is not None,
                 foresee=session is None,
             )
         if (options.worlds or task.worlds) > 1 and result.final is not None:

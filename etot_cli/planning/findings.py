@@ -6,7 +6,7 @@ from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.planning.result import Statistics
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, PlanNode
-from etot_cli.reasoning.builtin.acceptance import Doubts
+from etot_cli.reasoning.builtin.acceptance import Doubts, undone
 from etot_cli.reasoning.protocol import Branch, FailedStep, Reasoner, Verdict
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
@@ -84,7 +84,7 @@ class Findings:
     def does_it(self, actions: tuple[Action, ...], final: SceneState) -> bool:
         """Whether actions that have succeeded also did what was asked for."""
         if actions not in self._doubted:
-            self._doubted[actions] = self.check(final)
+            self._doubted[actions] = undone(actions, final) or self.check(final)
         return not self._doubted[actions]
 
     def can_beat_best(self, node: PlanNode) -> bool:

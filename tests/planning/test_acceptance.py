@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import islice
 
 import pytest
 
+from etot_cli.errors import InstructionError
 from etot_cli.planning.acceptance import check_of
+from etot_cli.reasoning.builtin.acceptance import undone
+from etot_cli.reasoning.builtin.branching import branches_of
+from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.reasoning.protocol import Assignment
+from etot_cli.skills.action import parse_plan
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import SceneState
+from tests.reasoning.intended import intended
+from tests.reasoning.test_corpus import CORPUS, SCENES
 from tests.vlm.scenes import kitchen
 
 START = kitchen()
@@ -60,6 +68,32 @@ def test_taken_away_is_taken_anywhere(where: dict[str, object], done: bool) -> N
     start = scene(ball={"inside": "red_cup", "on": ()})
     check = check_of(Assignment("Take the ball out of the red cup.", None), start)
     assert (check(scene(ball={"on": (), **where})) == "") is done
+
+
+def test_nothing_speaks_against_a_plan_that_goes_as_it_is_meant() -> None:
+    """Every eighth sentence of the corpus, but for those that put something beside something."""
+    looked_at = 0
+    for name, found in CORPUS.items():
+        for text in list(found.get("read", {}))[::8]:
+            start = SCENES[name]
+            try:
+                (branch,) = islice(branches_of((goal_of(text, start),), start), 1)
+            except (InstructionError, ValueError):  # refused for what it asks for, or done already
+                continue
+            final = intended(start, branch.actions)
+            if final is not None:
+                looked_at += 1
+                assert check_of(Assignment(text, None), start)(final) == ""
+                assert undone(branch.actions, final) == ""
+    assert looked_at > 200
+
+
+def test_what_left_with_a_vessel_is_told() -> None:
+    actions = parse_plan("[PICK UP, ball] [PUT INTO, red_cup]")
+    assert undone(actions, scene(ball={"inside": "red_cup", "on": ()})) == ""
+    assert "ball does not stay" in undone(actions, scene(ball={"inside": "blue_cup", "on": ()}))
+    again = (*actions, *parse_plan("[PICK UP, ball] [PUT ON, desk]"))
+    assert undone(again, scene(ball={"on": ("desk",)})) == ""
 
 
 def test_a_formal_goal_is_checked_by_the_state() -> None:

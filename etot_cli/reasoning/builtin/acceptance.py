@@ -1,4 +1,4 @@
-"""Whether a scene is what was asked for: the check on plans that somebody else has proposed."""
+"""Whether a scene is what was asked for, and what actions that succeeded were to bring about."""
 
 from __future__ import annotations
 
@@ -7,13 +7,36 @@ from dataclasses import replace
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import reached
-from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Step
+from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Relation, Step
+from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
+from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import SceneState
 
 Doubts = Callable[[SceneState], str]
 """Says why a scene is not what was asked for; empty when it is, or when that cannot be told."""
+
+
+def undone(actions: Sequence[Action], final: SceneState) -> str:
+    """What a plan has put somewhere and is elsewhere in its last scene, in words; mostly nothing.
+
+    A ball that is put into a bowl and falls into a cup that stands there leaves with the cup.
+    """
+    placed: dict[str, Action] = {}
+    held = ""
+    for action in actions:
+        if action.verb is Verb.PICK_UP:
+            held = action.target
+            placed.pop(held, None)
+        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO) and held and not action.safe:
+            placed[held] = action
+    end = Sketch(final)
+    for name, put in placed.items():
+        relation = Relation.ON if put.verb is Verb.PUT_ON else Relation.INSIDE
+        if name in final.states and not end.holds(name, relation, put.target):
+            return f"{name} does not stay where {put} brings it"
+    return ""
 
 
 def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
@@ -32,7 +55,7 @@ def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
     asked = "the goal" if assignment.goal is not None else f"{assignment.instruction!r}"
 
     def doubt(scene: SceneState) -> str:
-        missing = _missing(lasting, scene)
+        missing = _missing(lasting, scene, start)
         left = [name for name in removed if _place(scene, name) == _place(given, name)]
         if left:
             missing = f"to take {' and '.join(left)} away"
@@ -41,10 +64,10 @@ def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
     return doubt
 
 
-def _missing(goals: Sequence[Goal], scene: SceneState) -> str:
+def _missing(goals: Sequence[Goal], scene: SceneState, start: SceneState) -> str:
     """What is still to be done, in words; empty when nothing is or nothing can be said."""
     try:
-        branch = reached(goals, scene)
+        branch = reached(goals, scene, start)
     except (InstructionError, ReasonerStopped):
         return ""
     return "" if branch is None or not branch.actions else branch.reason
@@ -52,11 +75,14 @@ def _missing(goals: Sequence[Goal], scene: SceneState) -> str:
 
 def _removed(goal: Goal) -> tuple[str, ...]:
     """Objects that are only to be taken away, as far as it is clear which."""
+    puts = [step for step in goal.steps if isinstance(step, Put)]
     referents = [
         goal.referents[index]
-        for step in goal.steps
-        if isinstance(step, Put) and step.removal
+        for step in puts
+        if step.removal
         for index in step.what
+        # What is put elsewhere besides may well end where it was.
+        if not any(index in other.what for other in puts if other is not step)
     ]
     return tuple(
         thing.name for item in referents if len(item.options) == 1 for thing in item.options[0]
@@ -78,10 +104,14 @@ def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
     parts: set[int] = set()
     things: set[int] = set()
     for step in reversed(steps):
-        about = set(step.what) if isinstance(step, Put) else {step.what}
-        later = parts if isinstance(step, Open | Close) else things
-        if about <= later or (isinstance(step, Put) and (step.aside or step.removal)):
+        if isinstance(step, Put):
+            last = tuple(index for index in step.what if index not in things)
+            if last and not (step.aside or step.removal):
+                kept.append(replace(step, what=last))
+            things |= set() if step.aside else set(last)
             continue
-        later |= about
-        kept.append(step)
+        later = parts if isinstance(step, Open | Close) else things
+        if step.what not in later:
+            later.add(step.what)
+            kept.append(step)
     return tuple(reversed(kept))

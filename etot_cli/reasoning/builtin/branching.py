@@ -101,14 +101,14 @@ def _objection(candidate: _Candidate, scene: SceneState) -> str | None:
     return broken_constraint(actions, candidate.constraints, scene)
 
 
-def reached(goals: Sequence[Goal], scene: SceneState) -> Branch | None:
+def reached(goals: Sequence[Goal], scene: SceneState, first: SceneState) -> Branch | None:
     """What is still to be done for the alternative that asks for least; an empty branch when one
-    holds, None where no choice makes sense.
+    holds, None where no choice makes sense. ``first`` is the scene that the goals' words speak of.
 
     Raises:
         InstructionError: the goals cannot be worked out in this scene.
     """
-    candidates = islice(_candidates(goals, scene, Course((), scene)), MAX_CHOICES)
+    candidates = islice(_candidates(goals, scene, Course((first,), scene)), MAX_CHOICES)
     branches = [found.branch for found in candidates if found is not None]
     return min(branches, key=lambda branch: len(branch.actions), default=None)
 
