@@ -181,7 +181,11 @@ UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
     sequence(
-        optional(small_words.LOOK_FOR), _NAMED, either(COMMA, "and, and then"), CHAIN, build=_about
+        optional(small_words.LOOK_FOR),
+        _NAMED,
+        either(COMMA, "and, and then, then"),
+        CHAIN,
+        build=_about,
     ),
     sequence(
         verbs.FETCH,

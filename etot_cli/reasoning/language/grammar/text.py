@@ -49,6 +49,9 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b(left|right)(?:[{_HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1", text)
     text = re.sub(r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", "", text)
     text = re.sub(rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]]), text)
+    text = re.sub(
+        r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
+    )
     text = re.sub(r"\bnothing but\b", "only", text)
     text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
     text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)

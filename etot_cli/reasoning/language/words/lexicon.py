@@ -136,7 +136,17 @@ THING_NOUNS = (
     "others", "else",
 )  # fmt: skip
 """Nouns that fit any movable object."""
-DESK_NOUNS = ("desk", "table", "tabletop", "desktop", "worktop", "workbench", "counter", "surface")
+DESK_NOUNS = (
+    "desk",
+    "table",
+    "tabletop",
+    "desktop",
+    "worktop",
+    "workbench",
+    "counter",
+    "countertop",
+    "surface",
+)
 BOARD_NOUNS = (
     "board", "level", "shelf", "tier", "surface", "layer", "compartment", "rack", "tray",
 )  # fmt: skip

@@ -56,13 +56,13 @@ SIDE = """
     (at|from|on) the (top|bottom), on top
 """
 ON_SIDE: dict[Prep, str] = {
-    Prep.LEFT: "(on|at) the left [hand] [side] of",
-    Prep.RIGHT: "(on|at) the right [hand] [side] of",
+    Prep.LEFT: "(on|at) [the] left [hand] [side] of",
+    Prep.RIGHT: "(on|at) [the] right [hand] [side] of",
 }
 """Beside something, or on that half of it."""
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
-_LEFT = "to the left [hand] [side] of, left of, to the left from"
-_RIGHT = "to the right [hand] [side] of, right of, to the right from"
+_LEFT = "to [the] left [hand] [side] of, left of, to the left from"
+_RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
@@ -158,7 +158,7 @@ REGION_OF_IT = {
 """Behind "the desk's"."""
 REGIONS: dict[tuple[Nearby, ...], str] = {
     **{
-        (side, *edge): f"({_AT}) the {said} ({named})" + ("" if edge else f", {alone}")
+        (side, *edge): f"({_AT}) [the] {said} ({named})" + ("" if edge else f", {alone}")
         for side, (said, alone) in _SIDES.items()
         for edge, named in _ENDS.items()
     },

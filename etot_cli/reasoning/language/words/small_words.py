@@ -82,5 +82,8 @@ BEFORE = "before [you]"
 AFTER = "(once|after|when|as soon as) [you have|having|you]"
 GONE = "(has|have) (gone|been put|been placed|been moved|been brought|been set|landed)"
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
-LOOK_FOR = "find, locate, look for, search for, identify"
+LOOK_FOR = """
+    find, locate, look for, search for, identify, (go|move|drive|walk|navigate) [over] (to|towards),
+    approach, reach for
+"""
 SO_THAT = "so that, such that, so, in such a way that"
