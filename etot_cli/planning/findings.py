@@ -76,15 +76,19 @@ class Findings:
 
     def offer(self, node: PlanNode) -> None:
         """[extractPath] A plan was found; it is kept when it survives in more worlds."""
-        if not self.does_it(node.actions, self.rollouts[node.id].record.after):
+        ends = [(each.action, self.rollouts[each.id].record.after) for each in node.path]
+        final = ends[-1][1]
+        if not self.does_it(node.actions, final, undone(ends, final)):
             return
         if self.best is None or len(self._alive(node)) > len(self._alive(self.best)):
             self.best = node
 
-    def does_it(self, actions: tuple[Action, ...], final: SceneState) -> bool:
-        """Whether actions that have succeeded also did what was asked for."""
+    def does_it(self, actions: tuple[Action, ...], final: SceneState, lost: str = "") -> bool:
+        """Whether actions that have succeeded also did what was asked for; ``lost``: what of it
+        a later one undid, in words.
+        """
         if actions not in self._doubted:
-            self._doubted[actions] = undone(actions, final) or self.check(final)
+            self._doubted[actions] = lost or self.check(final)
         return not self._doubted[actions]
 
     def can_beat_best(self, node: PlanNode) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.errors import InstructionError
@@ -18,25 +18,32 @@ Doubts = Callable[[SceneState], str]
 """Says why a scene is not what was asked for; empty when it is, or when that cannot be told."""
 
 
-def undone(actions: Sequence[Action], final: SceneState) -> str:
+def undone(ends: Iterable[tuple[Action, SceneState]], final: SceneState) -> str:
     """What a plan has put somewhere and is elsewhere in its last scene, in words; mostly nothing.
 
     A ball that is put into a bowl and falls into a cup that stands there leaves with the cup.
+
+    Args:
+        ends: each action with the scene in which it ended.
+        final: the last of these.
     """
     placed: dict[str, Action] = {}
-    held = ""
-    for action in actions:
-        if action.verb is Verb.PICK_UP:
+    held, last = "", Sketch(final)
+    for action, after in ends:
+        if action.safe:
+            held = ""
+        elif action.verb is Verb.PICK_UP:
             held = action.target
             placed.pop(held, None)
-        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO) and held and not action.safe:
-            placed[held] = action
-    end = Sketch(final)
-    for name, put in placed.items():
-        relation = Relation.ON if put.verb is Verb.PUT_ON else Relation.INSIDE
-        if name in final.states and not end.holds(name, relation, put.target):
-            return f"{name} does not stay where {put} brings it"
-    return ""
+        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO) and held in final.states:
+            placed |= {held: action} if _is_there(Sketch(after), held, action) else {}
+    lost = (name for name, put in placed.items() if not _is_there(last, name, put))
+    return next((f"{name} does not stay where {placed[name]} brings it" for name in lost), "")
+
+
+def _is_there(scene: Sketch, name: str, put: Action) -> bool:
+    relation = Relation.ON if put.verb is Verb.PUT_ON else Relation.INSIDE
+    return scene.holds(name, relation, put.target)
 
 
 def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
