@@ -413,6 +413,26 @@ def test_the_one_just_spoken_of_rather_than_the_one_labelled_so() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("the blue and green paint cans", {"blue_can", "green_can"}),
+        ("all red or blue paint cans", {"red_can", "blue_can"}),
+        ("the paint cans", {"red_can", "blue_can", "green_can"}),
+    ],
+)
+def test_colours_of_things_whose_label_has_two_words(said: str, meant: set[str]) -> None:
+    cans = [
+        scenes.item(
+            f"{color}_can", "cylinder", (0.3, 0.1 * place), color=color, label="paint can"
+        )
+        for place, color in enumerate(("red", "blue", "green"))
+    ]  # fmt: skip
+    bin_ = scenes.item("bin", "bowl", (0.6, 0.0), size=(0.3, 0.3, 0.1))
+    (plan, *_) = plans(f"Put {said} in the bin.", scenes.scene(*cans, bin_))
+    assert set(re.findall(r"PICK UP, (\w+)", plan)) == meant
+
+
 def test_boards_of_a_shelf() -> None:
     state = scenes.scene(
         scenes.item("rack", "shelf", (0.6, 0.3), boards=("low", "mid", "high")),

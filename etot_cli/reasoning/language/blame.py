@@ -85,7 +85,7 @@ def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tup
         for at in range(2, many + 1)
         if at == many or (words[at] not in unread.nouns and _ends_phrase(words[at - 1]))
     ]
-    tried = MAX_WORK_TRIED // (unread.work + 1)
+    tried = MAX_WORK_TRIED // (unread.work + many)
     for _, _, start, end, place in sorted([*ways, *places])[:tried]:
         yield start, end, place
 

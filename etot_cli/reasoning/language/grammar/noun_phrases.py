@@ -107,11 +107,8 @@ def _where_it_is(words: tuple[str, ...], np: NounPhrase) -> NounPhrase | None:
 def _any_of(determiner: str, first: str, more: Any, rest: Any, modifiers: Any) -> NounPhrase | None:
     """All that are one or the other ("all red or blue cups")."""
     words = (first, *more, *rest)
-    adjectives = (*words[: len(more) + 1], *rest[:-1])
     several = determiner in ("all", "all the", "the", "") and singular(rest[-1]) != rest[-1]
-    if not several or not all(map(is_descriptive, adjectives)):
-        return None
-    return NounPhrase(determiner, words, modifiers, joined=True)
+    return NounPhrase(determiner, words, modifiers, joined=True) if several else None
 
 
 def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:

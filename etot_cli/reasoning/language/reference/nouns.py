@@ -14,7 +14,14 @@ from etot_cli.reasoning.language.reference.instances import usable_ones
 from etot_cli.reasoning.language.reference.matching import Match, match_words
 from etot_cli.reasoning.language.reference.selection import select, state_holds
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
-from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, SIZES, STATES, basic_color
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    SIDES,
+    SIZES,
+    STATES,
+    basic_color,
+    is_descriptive,
+)
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
@@ -89,10 +96,16 @@ def matched(
             ),
         )
     adjectives, head = words[:-1], words[-1]
-    every = match_words((head,), vocabulary, phrase.text, noun)
+    own = phrase.words[:-1]
+    ways = [word for word in own if basic_color(word)]
+    if len(ways) < 2:
+        ways = [word for word in own if is_descriptive(word) or word in LEVELS] or [*own]
+    shared = tuple(word for word in adjectives if word not in ways)
+    every = match_words((*shared, head), vocabulary, phrase.text, noun)
     if every.plural:
-        # "The red and blue mugs": some are red, some are blue.
-        parts = [match_words((word, head), vocabulary, phrase.text, noun) for word in adjectives]
+        # "The red and blue paint cans": some are red, some are blue, and all are paint cans.
+        each = [(word, *shared, head) for word in ways]
+        parts = [match_words(words, vocabulary, phrase.text, noun) for words in each]
         found = {entry.thing: entry for part in parts for entry in part.entries}
         notes = tuple(note for part in parts for note in part.notes)
         entries = tuple(entry for entry in every.entries if entry.thing in found)
