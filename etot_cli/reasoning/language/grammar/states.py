@@ -106,7 +106,7 @@ STATE = either(
     _STAYS,
     _contains("contains, holds"),
 )
-states = Rule(separated(STATE, LIST, most=6))
+states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
 def _ensured(*said_states: State | None) -> EnsureClause | None:
