@@ -433,6 +433,20 @@ def test_colours_of_things_whose_label_has_two_words(said: str, meant: set[str])
     assert set(re.findall(r"PICK UP, (\w+)", plan)) == meant
 
 
+def test_several_that_are_equally_small() -> None:
+    sizes = {"pot_1": 0.06, "pot_2": 0.09, "pot_3": 0.06}
+    pots = [
+        scenes.cup(name, (0.3, 0.1 * place), size=(size, size, size), label="pot")
+        for place, (name, size) in enumerate(sizes.items())
+    ]
+    plate = scenes.item("plate", "box", (0.6, 0.0), size=(0.3, 0.3, 0.01))
+    state = scenes.scene(*pots, plate)
+    (plan, *_) = plans("Put the small pots on the plate.", state)
+    assert re.findall(r"PICK UP, (\w+)", plan) == ["pot_1", "pot_3"]
+    with pytest.raises(InstructionError, match="how many"):
+        plans("Put the big pots on the plate.", state)
+
+
 def test_boards_of_a_shelf() -> None:
     state = scenes.scene(
         scenes.item("rack", "shelf", (0.6, 0.3), boards=("low", "mid", "high")),

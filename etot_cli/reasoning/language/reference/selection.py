@@ -212,6 +212,9 @@ def _by_size(
         things = [t for t, size in sides.items() if size[2] >= ELONGATED * size[1]] or things
     measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
+    equal = [thing for thing in ordered if measure(thing) == measure(ordered[0])]
+    if count is None and 1 < len(equal) < len(ordered):
+        return equal  # "the small pots" of two small ones and a big one
     last = measure(_leading(ordered, count, phrase)[-1])
     said = [own for thing in ordered for own in scene.infos[thing.name].label.casefold().split()]
     if measure(ordered[0]) == measure(ordered[-1]) and any(map(word.startswith, {*said} - {word})):
