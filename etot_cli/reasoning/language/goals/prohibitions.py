@@ -6,10 +6,20 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Constraint, Keep, Open, Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Constraint,
+    Grouping,
+    Keep,
+    Open,
+    Place,
+    Relation,
+    Thing,
+)
 from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
@@ -124,9 +134,17 @@ def _moves_anyway(context: Context, things: Things) -> bool:
 def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     """Says where things must not be put; "it" is what was put somewhere, not where that is."""
     assert clause.things is not None
-    places = [place.where for place in context.discourse.last_places if place.where is not None]
-    indices = context.phrases.things(clause.things, Role.THEME, places)
-    context.discourse.last_places = rule_out(context, indices, clause.destinations)
+    before = [place.where for place in context.discourse.last_places if place.where is not None]
+    indices = context.phrases.things(clause.things, Role.THEME, before)
+    places = rule_out(context, indices, clause.destinations)
+    context.discourse.last_places = places
+    marks = context.discourse.things(*(p.where for p in places if p.where is not None))
+    for thing in context.discourse.things(*indices) if clause.not_left else ():
+        if any(touches(thing, mark, context.scene) for mark in marks):
+            if DESK in {mark.name for mark in marks}:
+                raise ReferenceProblem(thing.name, "say where it is to go", 3)
+            index = context.single(thing, thing.name)
+            add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:

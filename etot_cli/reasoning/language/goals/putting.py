@@ -49,6 +49,7 @@ from etot_cli.reasoning.language.goals.placing import (
     upright,
 )
 from etot_cli.reasoning.language.goals.prohibitions import (
+    avoid,
     check_alone,
     keep_as_it_is,
     leave_out,
@@ -57,6 +58,8 @@ from etot_cli.reasoning.language.goals.prohibitions import (
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
+    Avoid,
+    AvoidClause,
     CoverClause,
     NounPhrase,
     PutClause,
@@ -83,6 +86,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = clause.groups[-1].things.text
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
+    ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
+    clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
@@ -102,7 +107,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if clause.stays:
             leave_among(context, themes)
         if any(item.toward is Toward.HOME for item in group.destinations):
-            put_back(context, themes, group, clause.ruled_out)
+            put_back(context, themes, group, ruled_out)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
@@ -136,8 +141,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         context.discourse.last_places = places
         where = [place.where for place in places if place.where is not None]
         last = group.things == clause.groups[-1].things
-        if clause.ruled_out and (last or len(context.discourse.things(*where)) > 1):
-            rule_out(context, themes, clause.ruled_out)  # what has but one place goes there
+        if ruled_out and (last or len(context.discourse.things(*where)) > 1):
+            rule_out(context, themes, ruled_out)  # what has but one place goes there
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
@@ -162,6 +167,10 @@ def ensure(context: Context, state: State) -> None:
                     if thing not in context.discourse.things(index):
                         other = context.single(thing, thing.part or thing.name)
                         context.steps.append(_made(other, opens=state.word != "open"))
+        return
+    if state.denied:
+        out, where = Things(state.subjects), state.destinations
+        avoid(context, AvoidClause(Avoid.PUT, out, where, not_left=True))
         return
     before, done = context.discourse.put, len(context.steps)
     put(context, put_to(Things(state.subjects), state.destinations), wherever=True)

@@ -66,7 +66,7 @@ _FIXED = """
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    s (top|surface), in any order, only then, any [one] but
+    s (top|surface), in any order, (no|any) longer, only then, any [one] but
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = re.compile(
@@ -176,8 +176,8 @@ def _said(node: object) -> Iterator[str]:
             yield "other"
         case AgainClause():
             yield "same"
-        case Destination(toward=Toward.HOME):
-            yield "back"
+        case Destination(toward=toward, denied=denied) if denied or toward is Toward.HOME:
+            yield _DENIAL if denied else "back"
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
@@ -188,11 +188,9 @@ def _said(node: object) -> Iterator[str]:
 
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:
-    if clause.ruled_out:
-        yield _DENIAL
     if clause.one_each or clause.grouping is Grouping.SEPARATELY:
         yield from ("each", "every")
     places = [target for group in clause.groups for item in group.destinations for target in
-              (item.targets or (item,))]  # fmt: skip
+              (item.targets or (item,)) if not item.denied]  # fmt: skip
     if len(places) > 1 or clause.grouping is not Grouping.ANY:
         yield from ("either", "both", "any")

@@ -7,21 +7,19 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import destination
 from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
-    separated,
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.states import SO, state_of
 from etot_cli.reasoning.language.grammar.syntax import Modifier, PutClause, PutGroup, State, Things
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
-from etot_cli.reasoning.language.words import manner, places, small_words
+from etot_cli.reasoning.language.words import manner
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 GROUPING = either(
@@ -30,7 +28,7 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
-CONDITION = sequence("with", NP_LIST, PREDICATE, build=state_of)
+CONDITION = sequence("with", NP_LIST, SO, build=state_of)
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
@@ -38,11 +36,6 @@ EXTRA = sequence(
         CONDITION,
         phrase(manner.STANDING, ("upright", ())),
         manner.FITTING,
-        sequence(
-            places.BUT_NOT,
-            separated(destination, small_words.OR, most=3),
-            build=lambda found: ("not", found),
-        ),
         sequence(optional("but"), TURN),
         BY_COLOR,
         phrase(manner.ONE_EACH, ("each", ())),
@@ -73,7 +66,6 @@ def put_of(
     said = [item for item in extras if isinstance(item, tuple) and item]
     turns = turns_of(said)
     named = {item[0] for item in said}
-    ruled_out = tuple(place for item in said if item[0] == "not" for place in item[1])
     if "apart" in named and not groupings and len(groups) == 1:
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
@@ -95,7 +87,6 @@ def put_of(
         grouping,
         conditions,
         turns,
-        ruled_out,
         by_color="color" in named,
         far_fetched=2 * len(described),
         one_each="each" in named,

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     spanned,
@@ -173,6 +174,49 @@ DESTINATIONS = Rule(
         ),
     )
 )
+
+
+def _denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    return tuple(replace(item, denied=True) for item in out)
+
+
+def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
+    """A place in place of others ("not in the red box but in the blue one", which is a box)."""
+    (*_, noun) = ("", *(np.head for item in out for np in item.targets))
+    meant = (
+        replace(
+            item,
+            targets=tuple(
+                np.called(noun) if noun and np.head == "one" else np for np in item.targets
+            ),
+        )
+        for item in where
+    )
+    return (*meant, *_denied(out))
+
+
+_BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
+INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=_rather)
+"""Behind "not": where things are not to go, and where they are."""
+WHERE = Rule(
+    either(
+        DESTINATIONS,
+        sequence(
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            nouns.CONTRAST,
+            separated(destination, "or, nor", most=3),
+            build=lambda where, out: (*where, *_denied(out)),
+        ),
+        sequence("not", INSTEAD),
+        quiet(
+            sequence(
+                "neither", separated(destination, "nor, or"), _BUT, DESTINATIONS, build=_rather
+            )
+        ),
+    )
+)
+"""Where things are to go, and where they are not."""
 _directed = either(
     sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
     sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),

@@ -97,7 +97,7 @@ def _beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
 
 
 def _targets(group: PutGroup) -> list[NounPhrase]:
-    return [np for item in group.destinations for np in item.targets]
+    return [np for item in group.not_denied.destinations for np in item.targets]
 
 
 def _tells(word: str) -> bool:

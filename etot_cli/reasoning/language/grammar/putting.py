@@ -20,9 +20,10 @@ from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COM
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
+    INSTEAD,
     INTO,
     ONTO,
-    destination,
+    WHERE,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
@@ -99,7 +100,7 @@ PUT_GROUP = sequence(
     THINGS,
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
     _ASIDE,
-    DESTINATIONS,
+    WHERE,
     build=lambda things, upright, where: PutGroup(things, where, upright),
 )
 _SAID_AHEAD = sequence(
@@ -205,27 +206,6 @@ _SO_THAT_IT_IS = sequence(
     small_words.SO_THAT,
     either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
-_NEITHER = quiet(
-    sequence(
-        "neither",
-        separated(destination, "nor, or", most=4),
-        OPTIONAL_COMMA,
-        "but [rather|instead]",
-        DESTINATIONS,
-        build=lambda out, where: (out, where) if len(out) > 1 else None,
-    )
-)
-_INSTEAD = sequence(DESTINATIONS, OPTIONAL_COMMA, "but [rather|instead]", DESTINATIONS)
-
-
-def _elsewhere(things: Things, places: tuple[tuple[Destination, ...], ...]) -> PutClause:
-    """Things that go to one place and not to another ("not in the red box but in the blue one")."""
-    out, where = places
-    (*_, noun) = (word for item in out for np in item.targets for word in ("", *np.words[-1:]))
-    group = PutGroup(things, where).going_to(
-        lambda np: np.called(noun) if noun and np.head == "one" else np
-    )
-    return PutClause((group,), ruled_out=out)
 
 
 def _got(gathered: bool, group: PutGroup) -> PutClause:
@@ -285,8 +265,7 @@ PUT = either(
         PUT_GROUP,
         build=_got,
     ),
-    sequence(verbs.PUT, THINGS, either(_NEITHER, sequence("not", _INSTEAD)), build=_elsewhere),
-    sequence(verbs.DO_NOT, verbs.PUT, THINGS, _INSTEAD, build=_elsewhere),
+    sequence(verbs.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),
     sequence(verbs.PUT, RESPECTIVE_GROUPS, build=PutClause),
     sequence(
         verbs.BRING,

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -34,25 +34,32 @@ from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 
-_NONE = ("no", "none of the")
+_NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
+"""Denials before a noun, and of which things what is denied is said."""
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
-_NOT_SO = sequence("not [left|kept]", OPEN_OR_CLOSED, build=lambda word: ("not", word))
-PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
+_NOT_SO = sequence(
+    "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
+)
+SO = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
+"""How things are."""
+PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
+"""How things are to be."""
 
 
 def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     """What is to be so: a word for a state, or where things are to be."""
-    if isinstance(predicate, str) and all(np.determiner in _NONE for np in subjects):
-        return _opposite(tuple(replace(np, determiner="all") for np in subjects), predicate)
+    if all(np.determiner in _NONE for np in subjects) and "not" not in predicate:
+        every = tuple(replace(np, determiner=_NONE[np.determiner]) for np in subjects)
+        return _opposite(every, predicate)
     if isinstance(predicate, str):
         return State(subjects, word=predicate)
     return opposite(subjects, predicate[1]) if "not" in predicate else State(subjects, predicate)
 
 
-def opposite(subjects: tuple[NounPhrase, ...], word: str) -> State | None:
+def opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State | None:
     """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
     several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
-    return None if several else _opposite(subjects, word)
+    return None if several else _opposite(subjects, so)
 
 
 def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
@@ -63,8 +70,10 @@ def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None
     return _ensured(opposite(subjects, word))
 
 
-def _opposite(subjects: tuple[NounPhrase, ...], word: str) -> State:
-    return State(subjects, word="closed" if word == "open" else "open", denied=True)
+def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State:
+    if not isinstance(so, str):
+        return State(subjects, so, denied=True)
+    return State(subjects, word="closed" if so == "open" else "open", denied=True)
 
 
 _STAYS = sequence(
@@ -230,9 +239,24 @@ ENSURE = either(
     quiet(
         sequence(
             NP_LIST,
-            "(should|must|shall|may) not (be|stay|remain) [left|kept]",
-            OPEN_OR_CLOSED,
-            build=lambda nps, word: _ensured(opposite(nps, word)),
+            f"{verbs.NOT_BE}, (does|do) not (belong|go)",
+            either(OPEN_OR_CLOSED, DESTINATIONS),
+            build=lambda nps, so: _ensured(opposite(nps, so)),
+        )
+    ),
+    sequence(
+        NP_LIST,
+        "(does|do|should|must) not",
+        build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
+    ),
+    quiet(
+        sequence(
+            "(i|we) do not want",
+            NP_LIST,
+            _TO_BE,
+            DESTINATIONS,
+            optional("any more, anymore, any longer"),
+            build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),
     valued(either(_STAYS, _contains(verbs.CONTAIN)), lambda state: EnsureClause((state,))),

@@ -124,6 +124,8 @@ class Destination:
     targets: tuple[NounPhrase, ...] = ()
     word: str = ""
     beside: tuple[Beside, ...] = ()
+    denied: bool = False
+    """They must not go there ("in a cup, but not in the red one")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +133,8 @@ class State:
     """What is to hold, as in "the plum is inside the cup".
 
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
-    ``denied``: it was said that the opposite must not be ("is not open").
+    ``denied``: it was said that the opposite must not be ("is not open"), or that they must not be
+    there.
     """
 
     subjects: tuple[NounPhrase, ...]
@@ -157,6 +160,11 @@ class PutGroup:
     destinations: tuple[Destination, ...]
     upright: bool = False
     """They are to stand there."""
+
+    @property
+    def not_denied(self) -> PutGroup:
+        """The same without where they must not go."""
+        return replace(self, destinations=tuple(w for w in self.destinations if not w.denied))
 
     def going_to(self, change: Callable[[NounPhrase], NounPhrase]) -> PutGroup:
         """The same things with the phrases for where they go changed."""
@@ -186,8 +194,6 @@ class PutClause:
     grouping: Grouping = Grouping.ANY
     conditions: tuple[State, ...] = ()
     turns: Turns = Turns()
-    ruled_out: tuple[Destination, ...] = ()
-    """Where they must not go ("in a cup, but not in the red one")."""
     by_color: bool = False
     """Each goes to a place of its own colour."""
     one_each: bool = False
@@ -309,6 +315,8 @@ class AvoidClause:
     negated: bool = False
     """It is said with "do not"."""
     far_fetched: int = 0
+    not_left: bool = False
+    """They must not be left there, either."""
     goes_on: bool = False
     """Another clause follows by a mere "and", of which "do not" may be said as well."""
 

@@ -34,7 +34,7 @@ class Quantity:
     """There are so many ("either of the two")."""
 
 
-_UNCLEAR = ("several", "few", "many", "couple", "pair", "half", "most", "none", "no")
+_UNCLEAR = ("several", "few", "many", "couple", "pair", "half", "most", "none", "no", "neither")
 
 
 def quantity_of(determiner: str) -> Quantity:

@@ -22,7 +22,7 @@ DETERMINERS = f"""
     one of (the|these|those) ({_COUNT}),
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     any of (the|these|those|),
-    exactly one, exactly two, just one, half of the, none of the, no,
+    exactly one, exactly two, just one, half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
     whichever, any
 """

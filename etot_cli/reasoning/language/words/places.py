@@ -179,4 +179,3 @@ REGIONS: dict[tuple[Nearby, ...], str] = {
         )
     },
 }
-BUT_NOT = "but not, and not, not"

@@ -80,10 +80,13 @@ WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like,
     (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
-    i want to (have|see)
+    i want to (have|see), i would rather (have|see)
 """
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
+"""
+NOT_BE = """
+    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand) [left|kept|put]
 """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
 """Between a vessel and what is to be in it."""
