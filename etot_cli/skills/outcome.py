@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from etot_cli.world.model import World
 from etot_cli.world.state import DESK, Cause, CauseKind, owner_of
@@ -60,27 +60,6 @@ def arm_stopped(
     return failed(CauseKind.BLOCKED, [*others, *own], text, time_s, another_way=True)
 
 
-@dataclass(frozen=True)
-class Evidence:
-    """Why candidates were rejected: times per object that stood in the way, and how many the arm
-    does not reach. Adds up over searches.
-    """
-
-    blocked: Mapping[str, int] = field(default_factory=dict)
-    unreachable: int = 0
-
-    def __add__(self, other: Evidence) -> Evidence:
-        return Evidence(
-            Counter(self.blocked) + Counter(other.blocked), self.unreachable + other.unreachable
-        )
-
-    def most(self, excluding: Iterable[str] = ()) -> tuple[str, ...]:
-        """Object names, the most frequent blocker first."""
-        out = set(excluding)
-        ranked = sorted(self.blocked.items(), key=lambda item: (-item[1], item[0]))
-        return tuple(name for name, _ in ranked if name not in out)
-
-
 class Blockers:
     """Counts what stood in the way of rejected candidates."""
 
@@ -94,6 +73,8 @@ class Blockers:
             if name in self._known:
                 self._count[name] += 1
 
-    def evidence(self, unreachable: int = 0) -> Evidence:
-        """What has been counted so far."""
-        return Evidence(dict(self._count), unreachable)
+    def most(self, excluding: Iterable[str]) -> tuple[str, ...]:
+        """Object names, the most frequent blocker first."""
+        out = set(excluding)
+        ranked = sorted(self._count.items(), key=lambda item: (-item[1], item[0]))
+        return tuple(name for name, _ in ranked if name not in out)

@@ -68,12 +68,13 @@ def test_hand_alone_meets_what_the_arm_with_it_meets() -> None:
         if not result.reached:
             continue
         tool = arm.forward(result.joints)
-        whole = set(checker.hits(result.joints, clearance=0.001, hand_only=True))
+        hits = partial(checker.hits, result.joints, clearance=0.001)
+        whole, of_arm = set(hits()), set(hits(allow=["ball", "box", "unit", "desk"]))
         hand_hits = partial(checker.hand_hits, tool, clearance=0.001, part=HandPart.ALL)
-        assert set(hand_hits()) == whole - {"robot"}
+        assert whole - of_arm <= set(hand_hits()) <= whole
         with checker.without(["box"]):
-            assert set(hand_hits()) == whole - {"robot", "box"}
-        seen += bool(whole)
+            assert whole - of_arm - {"box"} <= set(hand_hits()) <= whole - {"box"}
+        seen += bool(whole - of_arm)
     assert seen > 20
 
 

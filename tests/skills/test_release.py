@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.placements.placement import RELEASES, Placement
-from etot_cli.skills.placements.put import placements_into
+from etot_cli.skills.placements.put import put_places
 from tests.skills.helpers import Episode, episode
 from tests.world.helpers import make_scene
 
@@ -49,7 +49,7 @@ def test_the_hand_opens_free_of_the_vessel(
     picked = world.perform(snapshot, Action(Verb.PICK_UP, "thing"))
     assert picked.record.effect
     belief = world.believe(picked.end)
-    first = next(placements_into(belief, Action(Verb.PUT_INTO, "cup"), "thing"))
+    first = next(put_places(belief, Action(Verb.PUT_INTO, "cup"), "thing"))
     assert isinstance(first, Placement), first
     assert first.release in RELEASES
     checker = belief.checker

@@ -14,7 +14,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
-from etot_cli.skills.outcome import DONE, Blockers, Evidence, SkillOutcome, arm_stopped, failed
+from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, arm_stopped, failed
 from etot_cli.world.build.pads import grip_friction
 from etot_cli.world.pose import Pose
 from etot_cli.world.state import CauseKind, SceneState
@@ -78,7 +78,7 @@ def pick_motions(
             prepared.append(result)
             yield motion
     if not prepared:
-        yield _explain(belief, name, found(), blockers.evidence(unreachable))
+        yield _explain(belief, name, found(), blockers, unreachable)
 
 
 def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Grasp]:
@@ -206,11 +206,13 @@ def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:
     )
 
 
-def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> SkillOutcome:
+def _explain(
+    belief: Belief, name: str, found: GraspSet, blockers: Blockers, unreachable: int
+) -> SkillOutcome:
     """Why no grasp goes: whoever is in the way is found by looking again without them."""
     opening = belief.world.robot.spec.gripper.opening
     # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
-    suspects = evidence.most(excluding=[name])[:MAX_SUSPECTS]
+    suspects = blockers.most(excluding=[name])[:MAX_SUSPECTS]
     if not found.grasps and not found.too_wide:
         return failed(
             CauseKind.NO_GRASP,
@@ -227,12 +229,11 @@ def _explain(belief: Belief, name: str, found: GraspSet, evidence: Evidence) -> 
         )
     if not found.grasps:
         return _too_wide(name, found.narrowest, opening)
-    if evidence.unreachable:
+    if unreachable:
         return failed(
             CauseKind.UNREACHABLE,
             [name],
-            f"the arm reaches none of the {evidence.unreachable} grasps of {name} that it has "
-            "room for",
+            f"the arm reaches none of the {unreachable} grasps of {name} that it has room for",
         )
     return failed(
         CauseKind.NO_GRASP,
@@ -253,7 +254,7 @@ def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str])
     for _ in range(MAX_SUSPECTS):
         if len(absent) > 1 and _goes_without(belief, name, found, absent, blockers):
             return absent
-        behind = blockers.evidence().most(excluding=[name, *absent])
+        behind = blockers.most(excluding=[name, *absent])
         if not behind or len(absent) >= MAX_SUSPECTS:
             break
         absent += behind[: MAX_SUSPECTS - len(absent)]

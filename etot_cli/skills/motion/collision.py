@@ -108,7 +108,6 @@ class CollisionChecker(FrozenScene):
         clearance: float = CLEARANCE,
         allow: Iterable[str] = (),
         allow_attached: Iterable[str] = (),
-        hand_only: bool = False,
         worked: tuple[str, float] | None = None,
     ) -> list[str]:
         """Addresses of what the robot or the attached object would come too close to.
@@ -119,7 +118,6 @@ class CollisionChecker(FrozenScene):
             clearance: required distance [m].
             allow: objects that the gripper (not the arm) may touch.
             allow_attached: addresses that the attached object may touch.
-            hand_only: look at gripper and attached object alone.
             worked: joint of the part that the fingers work on, and the distance that they keep
                 from it and what it belongs to, other parts left out [m] (negative: it is pressed
                 on).
@@ -132,7 +130,7 @@ class CollisionChecker(FrozenScene):
         """
         self._deadline.check()
         self._data.qpos[self.world.robot.qpos] = joints
-        asked = (clearance, tuple(allow), tuple(allow_attached), hand_only, worked)
+        asked = (clearance, tuple(allow), tuple(allow_attached), worked)
         if attached is not None:
             return self._not_ignored(self._hits(attached, *asked))
         # Looking again without somebody asks the same of the same configurations.
@@ -154,7 +152,6 @@ class CollisionChecker(FrozenScene):
         clearance: float,
         allow: tuple[str, ...],
         allow_attached: tuple[str, ...],
-        hand_only: bool,
         worked: tuple[str, float] | None,
     ) -> list[str]:
         """As :meth:`hits`, of the arm's configuration that is set, nobody being left out."""
@@ -178,9 +175,7 @@ class CollisionChecker(FrozenScene):
         if len(close) == 0:
             return []
         held = -9 if carried is None else carried
-        allowed = {self._object_names.index(n) for n in allow if n in world.entries}
-        allow_desk = "desk" in allow
-        allowed_contacts = set(allow_attached)
+        hand_may, held_may = set(allow), set(allow_attached)
         found: dict[str, None] = {}
         pairs = geoms[close]
         # Plain numbers: there are too few contacts for arrays to pay.
@@ -189,7 +184,7 @@ class CollisionChecker(FrozenScene):
         ):
             if first < -1 and second < -1:
                 # MuJoCo leaves out pairs of neighbouring links, which the model excludes.
-                if distance < SELF_CLEARANCE and not hand_only:
+                if distance < SELF_CLEARANCE:
                     found["robot"] = None
                 continue
             if not (first < -1 or first == held):
@@ -202,15 +197,8 @@ class CollisionChecker(FrozenScene):
                     continue
                 found[world.geom_address[one]] = None
                 continue
-            if first == held:
-                if world.geom_address[two] in allowed_contacts:
-                    continue
-                if world.geom_object[two] in allowed_contacts:
-                    continue
-            elif first == -2:
-                if second in allowed or (allow_desk and world.geom_address[two] == "desk"):
-                    continue
-            elif hand_only:
+            touched = {world.geom_address[two], world.geom_object[two]}
+            if (first == held and touched & held_may) or (first == -2 and touched & hand_may):
                 continue
             found[world.geom_address[two]] = None
         return list(found)

@@ -12,7 +12,7 @@ from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
-from etot_cli.skills.placements.put import placements_into, placements_on
+from etot_cli.skills.placements.put import put_places
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose, straight
 from etot_cli.world.state import DESK, CauseKind, SceneState, owner_of
@@ -43,9 +43,8 @@ def put_motions(
         yield failed(CauseKind.PRECONDITION, [], "nothing is in the hand")
         return
     attached = belief.attach(name)
-    way = placements_on if action.verb is Verb.PUT_ON else placements_into
     found, out_of_reach = False, False
-    for placement in way(belief, action, name, _again(belief, action, rehearsed)):
+    for placement in put_places(belief, action, name, _again(belief, action, rehearsed)):
         if isinstance(placement, SkillOutcome):
             yield placement
             return

@@ -59,7 +59,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     if tally.obstructed:
         fixed = [
             other
-            for other in tally.blockers.evidence().most(excluding=[name])
+            for other in tally.blockers.most(excluding=[name])
             if not belief.world.entries[other].free
         ]
         text = f"neither {name} nor the hand that holds it as it does gets"
@@ -79,7 +79,7 @@ def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str]
     """Movable objects that may be in the way, and fastened ones; what stands there first."""
     name = request.attached.name
     there = relief(belief, request.support, {name, *request.absent}).occupants()
-    met = tally.blockers.evidence().most(excluding=[name])
+    met = tally.blockers.most(excluding=[name])
     own = (name, request.support.owner)
     found = [one for one in dict.fromkeys([*there, *met]) if one not in own]
     entries = belief.world.entries
