@@ -8,7 +8,18 @@ from dataclasses import replace
 from itertools import pairwise
 
 from etot_cli.errors import InstructionError
-from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent, things_in
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Keep,
+    Open,
+    Pick,
+    Put,
+    Referent,
+    Relation,
+    Step,
+    things_in,
+)
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
@@ -25,7 +36,13 @@ from etot_cli.reasoning.language.goals.plausibility import (
 from etot_cli.reasoning.language.goals.turns import Timed, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.syntax import AvoidClause, Clause, PutClause, RemoveClause
+from etot_cli.reasoning.language.grammar.syntax import (
+    AvoidClause,
+    Clause,
+    PutClause,
+    RemoveClause,
+    ReorientClause,
+)
 from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -35,7 +52,7 @@ from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import DESK, SceneState
 
 MAX_COMPARED = 6
 """Different goals of one sentence that are compared; more are too many to name."""
@@ -56,8 +73,10 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     _check_held(state.timed, goal, scene)
-    if not goal.steps and goal.constraints and not state.asked:
-        raise ReferenceProblem(sentences[0].text, "this says what not to do, but not what to do", 2)
+    named = isinstance(state.last, ReorientClause) and state.last.only_named
+    if not goal.steps and not state.asked and (goal.constraints or named):
+        said = "how things are" if named else "what not to do"
+        raise ReferenceProblem(sentences[0].text, f"this says {said}, but not what to do", 2)
     return goal
 
 
@@ -91,6 +110,10 @@ def _check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
         for option in goal.referents[index].options
         for thing in option
     }
+    for out in (out for out in goal.constraints if (Relation.ON, DESK) in out.places):
+        for name in out.names:
+            if DESK in scene.states[name].on and name not in moved:
+                raise ReferenceProblem(name, "say where it is to go", 3)
     for pick in (step for step in goal.steps if isinstance(step, Pick)):
         for thing in things_in(goal.referents[pick.what].options):
             if below := sorted(moved & carriers(scene, thing.name)):
@@ -171,7 +194,7 @@ class _State:
         self._scene, self._resolver = scene, resolver
         self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
-        self._last: Clause | None = None
+        self.last: Clause | None = None
         self.sentence = 0
 
     @property
@@ -186,7 +209,7 @@ class _State:
         other.context.done = self.context.done
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
-        other.sentence, other._last = self.sentence, self._last
+        other.sentence, other.last = self.sentence, self.last
         return other
 
     def read(self, reading: Sequence[Spoken]) -> None:
@@ -194,22 +217,39 @@ class _State:
         self.sentence += 1
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
-            _check_instead(spoken, self._last)
+            _check_instead(spoken, self.last)
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
-            self._last = spoken.clause
+            self.last = spoken.clause
         check_opposites(self.context.discourse)
         for spoken in reading:
             done = tuple(steps[id(spoken)])
             self.timed.append(Timed(done, spoken.order, self.sentence))
 
+    def _narrowed(self, step: Step, after: Step | None) -> bool:
+        """Whether the next step says more closely where things go ("carry it over to the bag and
+        drop it in", "take it to the stand and set it on the lowest shelf").
+        """
+        if not (isinstance(step, Put) and isinstance(after, Put)) or step.what != after.what:
+            return False
+        places = [place for put in (step, after) for place in put.places]
+        if (step.run, step == after) != (after.run, False) or len(places) != 2:
+            return step == after
+        where, closer = (
+            self.context.discourse.things(p.where) if p.where and not p.beside else ()
+            for p in places
+        )
+        whole = places[0].relation is places[1].relation and not any(
+            t.part or t.board for t in where
+        )
+        return whole and {t.name for t in where} == {t.name for t in closer} != set()
+
     def goal(self) -> Goal:
         """The goal so far."""
         discourse = self.context.discourse
-        # "Carry it over to the bag and drop it in" asks for one thing twice.
         steps = [
             step
-            for before, step in pairwise((None, *in_order(self.timed)))
-            if step is not None and not (step == before and isinstance(step, Put))
+            for step, after in pairwise((*in_order(self.timed), None))
+            if step is not None and not self._narrowed(step, after)
         ]
         return Goal(
             tuple(discourse.referents),

@@ -140,9 +140,7 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     context.discourse.last_places = places
     marks = context.discourse.things(*(p.where for p in places if p.where is not None))
     for thing in context.discourse.things(*indices) if clause.not_left else ():
-        if any(touches(thing, mark, context.scene) for mark in marks):
-            if DESK in {mark.name for mark in marks}:
-                raise ReferenceProblem(thing.name, "say where it is to go", 3)
+        if any(m.name != DESK and touches(thing, m, context.scene) for m in marks):
             index = context.single(thing, thing.name)
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 

@@ -167,7 +167,8 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
-            yield from (_ORDER, "top", "middle", "bottom", "biggest", "largest", "widest")
+            yield from (_ORDER, "top", "middle", "bottom", "biggest", "largest", "widest",
+                        "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
             yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
         case Turns() if node != Turns():

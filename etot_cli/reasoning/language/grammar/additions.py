@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import NOUN_WORD, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -17,10 +18,18 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.states import SO, state_of
-from etot_cli.reasoning.language.grammar.syntax import Modifier, PutClause, PutGroup, State, Things
+from etot_cli.reasoning.language.grammar.syntax import (
+    Modifier,
+    NounPhrase,
+    PutClause,
+    PutGroup,
+    State,
+    Things,
+)
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, same_noun
+from etot_cli.reasoning.language.words.places import Prep
 
 GROUPING = either(
     phrase(manner.ANYHOW, Grouping.ANY),
@@ -28,7 +37,7 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
-CONDITION = sequence("with", NP_LIST, SO, build=state_of)
+CONDITION = sequence("with", NP_LIST, optional("still"), SO, build=state_of)
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
@@ -39,6 +48,12 @@ EXTRA = sequence(
         sequence(optional("but"), TURN),
         BY_COLOR,
         phrase(manner.ONE_EACH, ("each", ())),
+        sequence(
+            "one",
+            either("per, for each, to each", sequence("in, into, on, onto", "each, every")),
+            some(NOUN_WORD, least=1, most=3),
+            build=lambda words: ("apart", words),
+        ),
         phrase("each, apiece", ("apart", ())),
         phrase(manner.NOT_BOTH, ("one", ())),
         sequence(
@@ -57,6 +72,14 @@ EXTRA = sequence(
 EXTRAS = some(EXTRA, most=3)
 
 
+def _each_of(whole: NounPhrase, words: tuple[str, ...]) -> NounPhrase:
+    """Each place of what things go to: "on the shelf, one on each board"; a drawer is one."""
+    if same_noun(whole.head, words[-1]):
+        return whole
+    several = (*words[:-1], f"{words[-1]}s")
+    return NounPhrase("the", several, (Modifier(Prep.OF, (whole,)),), text=" ".join(several))
+
+
 def put_of(
     groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
 ) -> PutClause | None:
@@ -66,6 +89,8 @@ def put_of(
     said = [item for item in extras if isinstance(item, tuple) and item]
     turns = turns_of(said)
     named = {item[0] for item in said}
+    if each := next((words for name, words in said if name == "apart" and words), ()):
+        groups = tuple(group.going_to(partial(_each_of, words=each)) for group in groups)
     if "apart" in named and not groupings and len(groups) == 1:
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
@@ -101,8 +126,8 @@ def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
 
 def kept(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """Some of several are kept where they are; to keep "the cup" there says nothing to do."""
-    said = [phrase.determiner for group in groups for phrase in group.things.phrases]
-    some = all(determiner in ("a", "an", *NUMBERS) for determiner in said)
+    said = [phrase for group in groups for phrase in group.things.phrases]
+    some = all(np.is_elliptic or np.determiner in ("a", "an", "the other", *NUMBERS) for np in said)
     return left(groups, extras) if some else None
 
 

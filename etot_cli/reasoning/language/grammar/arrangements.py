@@ -97,7 +97,7 @@ _UPWARD = sequence(
 _TOWER_ENDS = optional(
     either(
         sequence(OPTIONAL_COMMA, optional("with"), _ENDS),
-        sequence(OPTIONAL_COMMA, "[the] (biggest|largest|widest) first", build=lambda: ()),
+        sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
     ),
     None,
 )
@@ -161,6 +161,15 @@ TOWER = either(
     ),
 )
 SWAP = either(
+    sequence(
+        verbs.SET_DOWN,
+        noun_phrase,
+        either(
+            sequence("in [the] place of", noun_phrase),
+            phrase("in its place", NounPhrase(pronoun="it", text="its")),
+        ),
+        build=lambda new, old: SwapClause(Things((old, new)), replaces=True),
+    ),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
         one_of({False: "swap[ping], exchang(e|ing), switch[ing]", True: "replac(e|ing)"}),

@@ -62,10 +62,14 @@ from etot_cli.reasoning.language.grammar.taking import (
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 WANTED = either(
-    sequence(verbs.LET, ALL_THINGS, verbs.LET_BE, DESTINATIONS, build=put_to),
+    sequence(
+        either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
+        DESTINATIONS,
+        build=put_to,
+    ),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(ALL_THINGS, verbs.MODAL, SOURCE, build=RemoveClause),
-    sequence(verbs.WANT, ALL_THINGS, "[to be] (picked up|lifted [up])", build=PickClause),
+    sequence(verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=PickClause),
 )
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
@@ -246,15 +250,16 @@ LED_CLAUSE = Rule(
 )
 
 
+SO = sequence(
+    ALL_THINGS,
+    optional(f"{verbs.BE}, (has|have) been"),
+    OPEN_OR_CLOSED,
+    build=lambda things, word: MoveClause(things, word == "open"),
+)
 _SO_BY_THEN = either(
     sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
     sequence(ALL_THINGS, verbs.BE, SOURCE, build=RemoveClause),
-    sequence(
-        ALL_THINGS,
-        f"{verbs.BE}, (has|have) been",
-        OPEN_OR_CLOSED,
-        build=lambda things, word: MoveClause(things, word == "open"),
-    ),
+    SO,
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
 _HAVING_DONE = either(

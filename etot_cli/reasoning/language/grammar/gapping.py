@@ -28,6 +28,12 @@ from etot_cli.world.spatial import Nearby
 
 _SIDES: dict[tuple[str, ...], Nearby] = {("left",): Nearby.LEFT, ("right",): Nearby.RIGHT}
 _REGIONS = {Nearby.LEFT: Nearby.AT_LEFT, Nearby.RIGHT: Nearby.AT_RIGHT}
+_ACROSS = {
+    Nearby.LEFT: Nearby.RIGHT, Nearby.AT_LEFT: Nearby.AT_RIGHT,
+    Nearby.FRONT: Nearby.BEHIND, Nearby.AT_FRONT: Nearby.AT_BACK,
+}  # fmt: skip
+_OTHER_SIDE = ("the other", "side")
+_ACROSS |= {other: side for side, other in _ACROSS.items()}
 
 
 def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]]:
@@ -84,14 +90,17 @@ def _beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
     (first, *more) = group.destinations
     bare = [item.relation for item in first.beside if not item.phrases]
     side = next((near for near, at in _REGIONS.items() if [at] == bare), None)
-    if first.toward is Toward.TO:
+    if [(np.determiner, *np.words, *np.modifiers) for np in first.targets] == [_OTHER_SIDE]:
+        side = _ACROSS.get(marks[0].relation) if len(marks) == 1 else None
+        marks = [replace(m, relation=Nearby.LEFT) for m in marks]
+    elif first.toward is Toward.TO:
         named = first.targets[0].modifiers  # "to the left of D" has its own
         side = None if named else _SIDES.get(first.targets[0].words)
     else:
         marks = [m for m in marks if m.relation in (*_REGIONS, *_REGIONS.values())]
     if side is None or more or len(marks) != 1 or first.targets[1:]:
         return group
-    relation = side if marks[0].relation.landmarks else _REGIONS[side]
+    relation = side if marks[0].relation.landmarks else _REGIONS.get(side, side)
     beside = (replace(marks[0], relation=relation),)
     return replace(group, destinations=(Destination(Toward.BESIDE, beside=beside),))
 

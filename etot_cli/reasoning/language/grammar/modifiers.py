@@ -229,7 +229,7 @@ def _without_place(given: Input, at: int) -> list[Result]:
 quality_alone = Parser(_without_place, lambda: QUALITY.first)
 """Qualities, but no "closest" that says "to" what."""
 
-_described = either(PLAIN_MODIFIER, _contents, quality_alone)
+DESCRIBED = either(PLAIN_MODIFIER, _contents, quality_alone)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
 CONTRASTED = quiet(
@@ -248,7 +248,7 @@ APPOSED = either(
         # "The lamp, the one on the left, …"
         "~comma the (one|ones)",
         optional(nouns.RELATIVE),
-        _described,
+        DESCRIBED,
         either(COMMA, at_end),
     ),
     sequence("~comma the", QUALITY, "one, ones", either(COMMA, at_end)),
@@ -257,10 +257,10 @@ _modifier = either(
     PLAIN_MODIFIER,
     _contents,
     _matching,
-    sequence(nouns.RELATIVE, _described),
+    sequence(nouns.RELATIVE, DESCRIBED),
     sequence("~comma which (is|are)", either(PLAIN_MODIFIER, QUALITY), COMMA),
     APPOSED,
-    sequence(nouns.RELATIVE_NOT, either(_described, _none_of), build=_denied),
+    sequence(nouns.RELATIVE_NOT, either(DESCRIBED, _none_of), build=_denied),
     sequence(
         nouns.RELATIVE_NOT, separated(noun_phrase, "or, nor, and not", most=3), build=_other_than
     ),

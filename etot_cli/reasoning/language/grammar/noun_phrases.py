@@ -127,6 +127,7 @@ _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", eith
 _ANY_ONE = either("one, of them", silent(NOUN_WORD))
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
+_COLORED = valued(_DESCRIPTIVE, lambda text: Modifier(Prep.QUALITY, words=(text,)))
 _OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
 noun_phrase.define(
     spanned(
@@ -191,10 +192,12 @@ noun_phrase.define(
                 build=lambda words: NounPhrase("the", words, (Modifier(Prep.MATCHING),)),
             ),
             sequence(
-                nouns.FREE_RELATIVE,
-                PLAIN_MODIFIER,
+                phrase(nouns.FREE_RELATIVE),
+                either(PLAIN_MODIFIER, _COLORED),
                 MODIFIERS,
-                build=lambda first, more: NounPhrase("all", ("objects",), (first, *more)),
+                build=lambda said, first, more: NounPhrase(
+                    "all other" if "else" in said else "all", ("objects",), (first, *more)
+                ),
             ),
             sequence(OPTIONAL_DETERMINER, ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
             sequence(OPTIONAL_DETERMINER, "non, not", NOUN_WORD, WORDS, MODIFIERS, build=_negative),

@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -213,6 +213,13 @@ def _got(gathered: bool, group: PutGroup) -> PutClause:
     return PutClause((group,), far_fetched=0 if several else 2)
 
 
+def _stacked(groups: tuple[PutGroup, ...]) -> PutClause | None:
+    """Each thing on or in another; several on one are a tower."""
+    (np, *more), (where, *_) = groups[0].things.phrases, groups[0].destinations
+    nested = where.toward is Toward.INSIDE and singular(np.head) == np.head and not more
+    return PutClause(groups) if nested or len(groups) > 1 else None
+
+
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
     group = PutGroup(things, (Destination(Toward.TO, over),))
     return put_of((group,), extras, Grouping.SPREAD)
@@ -235,9 +242,15 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
+_BROUGHT = either(
+    sequence(verbs.PUT, THINGS),
+    sequence(verbs.WANT, ALL_THINGS),
+    sequence(ALL_THINGS, verbs.MODAL),
+)
+"""What is to go somewhere, in any mood."""
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
-    sequence(verbs.PUT, THINGS, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
+    sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _SAID_AHEAD,
     _FRONTED,
@@ -252,9 +265,7 @@ PUT = either(
     sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
-    sequence(
-        verbs.STACK, PUT_GROUPS, build=lambda groups: PutClause(groups) if len(groups) > 1 else None
-    ),
+    sequence(verbs.STACK, PUT_GROUPS, build=_stacked),
     sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
     THROWN,
     sequence("leav(e|ing)", PUT_GROUPS, EXTRAS, build=left),

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
+    SO,
     Reading,
     excluding,
     plain,
@@ -19,7 +20,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -47,6 +48,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     ReorientClause,
     State,
+    Things,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import pronouns
@@ -73,6 +75,7 @@ _JOINED = either(
     _joint("after", OPTIONAL_COMMA, EARLIER),
     _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     _joint("until", "until", plain(sequence(states, build=partial(EnsureClause, waits=True)))),
     _joint(
         "then",
@@ -110,9 +113,11 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 
 
-def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading:
+def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     done = first
     for joint, clause in more:
+        if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
+            return None  # "keep it open while you …"; else the hand would do two things
         if joint == "until" and isinstance(done[-1].clause, MoveClause):
             # What is opened until it is open is opened; anything else would wait.
             waits = (item.clause for item in clause if isinstance(item.clause, EnsureClause))
@@ -157,12 +162,26 @@ def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
 _PLACED = plain(VERBLESS)
 _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
-_NAMED = plain(sequence(THINGS, build=partial(ReorientClause, only_named=True)))
+_STATED = either(
+    sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
+    sequence("there is, there are", ALL_THINGS),
+)
+"""How things are, said of them before something is asked of them."""
+_NAMED = plain(sequence(either(THINGS, _STATED), build=partial(ReorientClause, only_named=True)))
 
 
 def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     return (*topic, *rest) if next(pronouns(rest[0].clause), None) else None
+
+
+def _sorted(topic: Reading, rest: Reading) -> Reading | None:
+    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+    put = rest[0].clause
+    told = isinstance(put, PutClause) and all(
+        np.is_elliptic for group in put.groups for np in group.things.phrases
+    )
+    return (*topic, *rest) if told else None
 
 
 def _set_down(topic: Reading, rest: Reading) -> Reading | None:
@@ -172,11 +191,6 @@ def _set_down(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if taken_up else None
 
 
-_SO = sequence(
-    ALL_THINGS,
-    OPEN_OR_CLOSED,
-    build=lambda things, word: MoveClause(things, word == "open"),
-)
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
@@ -196,8 +210,9 @@ _WITH_MORE_BEFORE_IT = either(
         build=_set_down,
     ),
     sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
+    sequence(verbs.TIDY, _NAMED, COMMA, _PLACED, build=_sorted),
     plain(IF_NOT_SO),
-    sequence("with", plain(_SO), COMMA, valued(CHAIN, _then), build=add),
+    sequence("with", plain(SO), COMMA, valued(CHAIN, _then), build=add),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
@@ -213,6 +228,7 @@ _WITH_MORE_BEFORE_IT = either(
 SENTENCE = either(
     CHAIN,
     sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
+    plain(sequence(_STATED, build=partial(ReorientClause, only_named=True))),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,

@@ -37,7 +37,7 @@ SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS))
 _ONE_BY_ONE = either(
     sequence(
-        "in the [following] order [of]",
+        "in (the|this) [following] order [of]",
         OPTIONAL_COMMA,
         noun_phrase,
         some(sequence(_THEN, noun_phrase), least=1, most=5),

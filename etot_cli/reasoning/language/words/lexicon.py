@@ -220,7 +220,8 @@ _IRREGULAR = {
     "canvases": "canvas", "canvas": "canvas", "lenses": "lens", "lens": "lens",
     "cds": "cd", "tvs": "tv",
     **{f"{word}s": word for word in (
-        "cookie", "brownie", "veggie", "smoothie", "hoodie", "beanie", "birdie", "genie",
+        "cookie", "brownie", "veggie", "smoothie", "hoodie", "beanie", "birdie", "genie", "kiwi",
+        "taxi", "chili", "zucchini", "broccoli", "ravioli", "panini", "martini", "ski", "bikini",
     )},
 }  # fmt: skip
 

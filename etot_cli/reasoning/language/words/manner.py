@@ -29,6 +29,11 @@ TOP_DOWN = """
     in (this|that) order from (top to bottom|the top down), [from the] top (first|down),
     from (the top|top) to bottom, from top to the bottom
 """
+WIDEST_BELOW = """
+    by size, [the] (biggest|largest|widest) first,
+    [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
+"""
+"""As a stack is built anyway."""
 AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base"
 AT_MIDDLE = "in the (middle|centre|center), in between"
 AT_TOP = "at the top, on [the] top, uppermost, highest"

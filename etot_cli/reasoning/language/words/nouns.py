@@ -49,7 +49,7 @@ RELATIVE_NOT = """
     (that|which) (is|are) neither, whose (color|colour) is not
 """
 FREE_RELATIVE = """
-    (what|whatever) (is|lies|stands|sits|rests) [currently|now|left],
+    (what|whatever) [else] (is|lies|stands|sits|rests) [currently|now|left],
     (that|all) which (is|lies|stands|sits)
 """
 """Before a place: everything that is there."""

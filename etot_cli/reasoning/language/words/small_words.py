@@ -33,7 +33,7 @@ FRAMES = f"""
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     how about, your job is, it is time to,
     i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
-    help me, help me to, we need to, you are to,
+    help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and, {TIDY_UP},
@@ -71,7 +71,7 @@ EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and|but] [only] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
-    and last, after which,
+    and last [of all], after which,
     and later
 """
 ONWARD = "[and] then [finally], [and] after that, and finally"

@@ -21,7 +21,7 @@ SET = """
     tuck[ing], position[ing], load[ing], carry[ing], return[ing],
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
-    add[ing], stash[ing], plop[ping]
+    add[ing], fil(e|ing) [away], stash[ing], plop[ping]
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
