@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
 from etot_cli.reasoning.builtin.relations import parts_of
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import reorient
@@ -53,10 +53,6 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 context.steps.append(
                     Open(index) if clause.opens else Close(_all_of(context, index))
                 )
-        case EnsureClause(waits=True, states=states):
-            text = f"until {states[0].subjects[0].text} …"
-            why = "conditions and waiting are not supported; say what is to be done"
-            raise ReferenceProblem(text, why, 4, word="until")
         case EnsureClause():
             for state in clause.states:
                 ensure(context, state)

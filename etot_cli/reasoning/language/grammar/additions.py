@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, same_noun
+from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
 
 GROUPING = either(
@@ -122,13 +122,6 @@ def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """A clause that leaves things where they are."""
     found = put_of(groups, extras)
     return None if found is None else replace(found, stays=True)
-
-
-def kept(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
-    """Some of several are kept where they are; to keep "the cup" there says nothing to do."""
-    said = [phrase for group in groups for phrase in group.things.phrases]
-    some = all(np.is_elliptic or np.determiner in ("a", "an", "the other", *NUMBERS) for np in said)
-    return left(groups, extras) if some else None
 
 
 def _that_are(

@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.additions import (
     CONDITION,
     EXTRAS,
     GROUPING,
-    kept,
     left,
     put_of,
 )
@@ -268,8 +267,7 @@ PUT = either(
     sequence(verbs.STACK, PUT_GROUPS, build=_stacked),
     sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
     THROWN,
-    sequence("leav(e|ing)", PUT_GROUPS, EXTRAS, build=left),
-    sequence("keep[ing]", PUT_GROUPS, EXTRAS, build=kept),
+    sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),

@@ -35,7 +35,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
-from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -43,7 +43,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
     Modifier,
-    MoveClause,
     NounPhrase,
     PutClause,
     ReorientClause,
@@ -76,7 +75,6 @@ _JOINED = either(
     _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
-    _joint("until", "until", plain(sequence(states, build=partial(EnsureClause, waits=True)))),
     _joint(
         "then",
         OPTIONAL_COMMA,
@@ -118,11 +116,6 @@ def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading |
     for joint, clause in more:
         if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
-        if joint == "until" and isinstance(done[-1].clause, MoveClause):
-            # What is opened until it is open is opened; anything else would wait.
-            waits = (item.clause for item in clause if isinstance(item.clause, EnsureClause))
-            at = clause[0].position
-            clause = tuple(Spoken(EnsureClause(item.states), at) for item in waits)
         if joint == "mere and":
             done = _maybe_denied(done, clause)
         if joint == "after":

@@ -237,8 +237,6 @@ class EnsureClause:
     """States that must hold in the end."""
 
     states: tuple[State, ...]
-    waits: bool = False
-    """It is said with "until", which is about time."""
     far_fetched: int = 0
 
 
