@@ -173,6 +173,18 @@ def test_a_vessel_keeps_its_turn() -> None:
     assert plans(state, *conditions)[0].startswith("[PICK UP, apple] [PUT INTO, holder]")
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_vessel_leaves_another_before_that_is_filled(turned: bool) -> None:
+    """What fell into the inner one would leave with it."""
+    state = scenes.kitchen()
+    inner = replace(state.states["mug_a"], inside="bowl_1", on=("bowl_1",))
+    state = replace(state, states={**state.states, "mug_a": inner})
+    conditions = [{"inside": ["bottle", "bowl_1"]}, {"on": ["mug_a", "desk"]}]
+    assert plans(state, *(conditions[::-1] if turned else conditions))[0] == (
+        "[PICK UP, mug_a] [PUT ON, desk] [PICK UP, bottle] [PUT INTO, bowl_1]"
+    )
+
+
 @given(st.permutations(range(5)))
 def test_an_order_is_one_of_the_given_placements(order: list[int]) -> None:
     """Whatever waits for whom, in circles too: each placement comes exactly once."""

@@ -146,7 +146,7 @@ def _branch(
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
-    puts = deque(_in_order(steps, choice, poses))
+    puts = deque(_in_order(steps, choice, poses, scene))
     left_open = _left_open(goal, choice, course.first)
     kept_open = set(left_open)
     behind = course.behind(steps, choice)
@@ -285,7 +285,10 @@ def _is_closed_later(
 
 
 def _in_order(
-    steps: Sequence[Step], choice: Choice, poses: Sequence[GraspPose | None]
+    steps: Sequence[Step],
+    choice: Choice,
+    poses: Sequence[GraspPose | None],
+    scene: SceneState,
 ) -> Iterator[tuple[int, Placement, GraspPose | None]]:
     """All placements of a choice, each with its step's place and its grasp; of those
     that no word puts in an order supports come before what stands on them.
@@ -296,8 +299,11 @@ def _in_order(
         assert isinstance(step, Put)  # only these have placements
         run = runs.setdefault(step.run, [])
         run += [(index, placement, poses[index]) for placement in placements]
+    vessels = (name for name, info in scene.infos.items() if info.container)
+    nested = {(name, scene.states[name].inside) for name in vessels}
     for given in runs.values():
-        yield from (given[index] for index in supports_first([item for _, item, _ in given]))
+        order = supports_first([item for _, item, _ in given], nested)
+        yield from (given[index] for index in order)
 
 
 def _opened_anyway(address: str, index: int, choice: Choice) -> bool:

@@ -1,12 +1,13 @@
 """The order in which placements can be carried out: goals are sets, and the world is not.
 
-What stands on something comes after its support has its own place, and what closes a vessel comes
-after its contents, whatever the order given. Where nothing of that decides, the order given stays.
+What stands on something comes after its support has its own place, what closes a vessel comes
+after its contents, and what goes into a vessel after another one that is to leave it, whatever the
+order given. Where nothing of that decides, the order given stays.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.goal import Relation
@@ -23,7 +24,9 @@ class Placement(NamedTuple):
     where: tuple[Whereabouts, ...] = ()
 
 
-def supports_first(placements: Sequence[Placement]) -> list[int]:
+def supports_first(
+    placements: Sequence[Placement], nested: Collection[tuple[str, str | None]] = ()
+) -> list[int]:
     """The places of the placements in an order in which they can be carried out.
 
     A vessel's own placement is not brought before its contents, as a filled cup can be carried,
@@ -31,6 +34,7 @@ def supports_first(placements: Sequence[Placement]) -> list[int]:
 
     Args:
         placements: each object's final place, in the order given.
+        nested: vessels, each with what it is in before anything is done.
 
     Returns:
         Indices into ``placements``. Placements that wait for each other keep the order given.
@@ -42,7 +46,7 @@ def supports_first(placements: Sequence[Placement]) -> list[int]:
             index
             for index in waiting
             if not any(
-                _comes_before(placements[other], placements[index])
+                _comes_before(placements[other], placements[index], nested)
                 for other in waiting
                 if other != index
             )
@@ -53,12 +57,16 @@ def supports_first(placements: Sequence[Placement]) -> list[int]:
     return order
 
 
-def _comes_before(first: Placement, second: Placement) -> bool:
+def _comes_before(
+    first: Placement, second: Placement, nested: Collection[tuple[str, str | None]]
+) -> bool:
     """Whether ``second`` cannot be done, or would be undone, unless ``first`` is done."""
     if second.relation is not Relation.ON:
         # What lies takes nothing in.
         is_raised = any(item.relation is Nearby.UPRIGHT for item in first.where)
-        return is_raised and first.name == owner_of(second.target)
+        # What falls into a vessel that stands where it should be leaves with that.
+        leaves = first.target != second.target and (first.name, second.target) in nested
+        return leaves or (is_raised and first.name == owner_of(second.target))
     supports = {
         owner_of(second.target),
         *(mark for item in second.where for mark in item.landmarks),
