@@ -24,8 +24,7 @@ from etot_cli.reasoning.language.words.places import INTO, NEARBY, ONTO, OVER, T
 from etot_cli.world.state import DESK
 
 MAX_WORK_TRIED = 5000
-"""Work of all ways to mend a sentence that are tried, each as dear as the sentence itself: a
-quarter of a second's, for dozens of ways of a short sentence and two of one that is hardly read."""
+"""Work of all ways to mend a sentence that are tried, each as dear as the sentence itself."""
 _PLACE = ("on", "the", DESK)
 """Where anything can go in every scene."""
 _PLACE_COSTS = 2.5

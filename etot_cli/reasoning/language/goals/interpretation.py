@@ -231,17 +231,18 @@ class _State:
         """
         if not (isinstance(step, Put) and isinstance(after, Put)) or step.what != after.what:
             return False
-        places = [place for put in (step, after) for place in put.places]
-        if (step.run, step == after) != (after.run, False) or len(places) != 2:
-            return step == after
         where, closer = (
-            self.context.discourse.things(p.where) if p.where and not p.beside else ()
-            for p in places
+            {
+                (place.relation, thing)
+                for place in put.places
+                if place.where is not None and not place.beside
+                for thing in self.context.discourse.things(place.where)
+            }
+            for put in (step, after)
         )
-        whole = places[0].relation is places[1].relation and not any(
-            t.part or t.board for t in where
-        )
-        return whole and {t.name for t in where} == {t.name for t in closer} != set()
+        whole = step.run == after.run and not any(t.part or t.board for _, t in where)
+        one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
+        return step == after or (whole and one == other != set())
 
     def goal(self) -> Goal:
         """The goal so far."""

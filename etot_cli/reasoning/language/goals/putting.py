@@ -311,7 +311,7 @@ def _condition(
     places_of: dict[int, tuple[Place, ...]],
 ) -> None:
     """Gives some of the things a place of their own ("… with the plum inside the mug")."""
-    if condition.word:
+    if condition.word or condition.denied:
         ensure(context, condition)
         return
     for phrase in condition.subjects:

@@ -183,16 +183,11 @@ def _denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
 def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
     """A place in place of others ("not in the red box but in the blue one", which is a box)."""
     (*_, noun) = ("", *(np.head for item in out for np in item.targets))
-    meant = (
-        replace(
-            item,
-            targets=tuple(
-                np.called(noun) if noun and np.head == "one" else np for np in item.targets
-            ),
-        )
-        for item in where
-    )
-    return (*meant, *_denied(out))
+
+    def named(np: NounPhrase) -> NounPhrase:
+        return np.called(noun) if noun and np.head == "one" else np
+
+    return (*(item.going_to(named) for item in where), *_denied(out))
 
 
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")

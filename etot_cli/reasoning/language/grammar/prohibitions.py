@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
@@ -53,19 +54,13 @@ _FORBIDDEN = either(
     ),
 )
 AVOID = sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True))
-WITHOUT = either(
-    sequence(OPTIONAL_COMMA, verbs.WITHOUT, _FORBIDDEN),
-    sequence(OPTIONAL_COMMA, verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
-    sequence(
-        OPTIONAL_COMMA,
-        "[and|but] nothing else",
-        build=lambda: AvoidClause(Avoid.MOVE, None),
-    ),
-    sequence(
-        OPTIONAL_COMMA,
-        "[while] avoiding",
-        THINGS,
-        build=lambda things: AvoidClause(Avoid.TOUCH, things),
+WITHOUT = sequence(
+    OPTIONAL_COMMA,
+    either(
+        sequence(verbs.WITHOUT, _FORBIDDEN),
+        sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+        sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
+        sequence("[while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
     ),
 )
 KEEP_OUT = sequence(
@@ -82,7 +77,7 @@ KEEP_STILL = either(
         THINGS,
         "(should|must|has to|have to|is to|are to|shall) (stay|remain|be left),stay[s], remain[s]",
         f"{manner.AS_IT_IS}, put",
-        build=lambda things: AvoidClause(Avoid.MOVE, things),
+        build=partial(AvoidClause, Avoid.MOVE),
     ),
     sequence(
         # After "the cups" rather one of them that is left out.
@@ -100,6 +95,6 @@ KEEP_STILL = either(
         "[your] (hand|hands|gripper|fingers|arm|), clear",
         "off, away from, clear of, of",
         THINGS,
-        build=lambda things: AvoidClause(Avoid.TOUCH, things),
+        build=partial(AvoidClause, Avoid.TOUCH),
     ),
 )

@@ -213,11 +213,8 @@ IF_NOT_SO = quiet(
     )
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
+_EACH = phrase("each, both, all")
 _TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
-
-
-def _all_should(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> EnsureClause | None:
-    return _ensured(state_of(all_of(nps, said), predicate))
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
@@ -238,9 +235,11 @@ ENSURE = either(
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     quiet(
         sequence(
-            NP_LIST,
-            f"{verbs.NOT_BE}, (does|do) not (belong|go)",
+            either(
+                sequence(NP_LIST, verbs.NOT_BE), sequence("(i|we) do not want", NP_LIST, _TO_BE)
+            ),
             either(OPEN_OR_CLOSED, DESTINATIONS),
+            optional("any more, anymore, any longer"),
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),
@@ -249,34 +248,22 @@ ENSURE = either(
         "(does|do|should|must) not",
         build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
     ),
-    quiet(
-        sequence(
-            "(i|we) do not want",
-            NP_LIST,
-            _TO_BE,
-            DESTINATIONS,
-            optional("any more, anymore, any longer"),
-            build=lambda nps, so: _ensured(opposite(nps, so)),
-        )
-    ),
     valued(either(_STAYS, _contains(verbs.CONTAIN)), lambda state: EnsureClause((state,))),
-    sequence(
-        "there (should|must|has to|have to|needs to|need to|shall) be",
-        NP_LIST,
-        DESTINATIONS,
-        build=lambda nps, where: EnsureClause((State(nps, where),)),
-    ),
     quiet(
         sequence(
             NP_LIST,
-            "should, must, shall",
-            phrase("each, both, all"),
-            "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
+            either(
+                sequence(
+                    "should, must, shall",
+                    _EACH,
+                    "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
+                ),
+                sequence(_EACH, verbs.MODAL),
+            ),
             PREDICATE,
-            build=_all_should,
+            build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
         )
     ),
-    sequence(NP_LIST, phrase("each, both, all"), verbs.MODAL, PREDICATE, build=_all_should),
     *(
         sequence(
             *said,
@@ -289,6 +276,7 @@ ENSURE = either(
             (NP_LIST, verbs.MODAL),
             (verbs.WANT, NP_LIST, _TO_BE),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
+            ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
         )
     ),
 )

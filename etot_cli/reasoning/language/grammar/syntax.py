@@ -127,6 +127,10 @@ class Destination:
     denied: bool = False
     """They must not go there ("in a cup, but not in the red one")."""
 
+    def going_to(self, change: Callable[[NounPhrase], NounPhrase]) -> Destination:
+        """The same with the phrases for its targets changed."""
+        return replace(self, targets=tuple(map(change, self.targets)))
+
 
 @dataclass(frozen=True, slots=True)
 class State:
@@ -168,10 +172,7 @@ class PutGroup:
 
     def going_to(self, change: Callable[[NounPhrase], NounPhrase]) -> PutGroup:
         """The same things with the phrases for where they go changed."""
-        changed = (
-            replace(where, targets=tuple(map(change, where.targets))) for where in self.destinations
-        )
-        return replace(self, destinations=tuple(changed))
+        return replace(self, destinations=tuple(w.going_to(change) for w in self.destinations))
 
 
 @dataclass(frozen=True, slots=True)

@@ -137,13 +137,13 @@ EMPTY = either(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+            sequence("mak(e|ing)", ALL_THINGS),
         ),
         optional(phrase("both, all"), ""),
         manner.EMPTIED,
         build=lambda things, said: _emptied(Things(all_of(things.phrases, said))),
     ),
     sequence(verbs.NOTHING_IS, ALL_THINGS, build=_emptied),
-    sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED, build=_emptied),
 )
 
 

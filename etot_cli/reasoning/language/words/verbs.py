@@ -86,7 +86,8 @@ BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
 """
 NOT_BE = """
-    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand) [left|kept|put]
+    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand) [left|kept|put],
+    (does|do) not (belong|go)
 """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
 """Between a vessel and what is to be in it."""
