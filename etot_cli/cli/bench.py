@@ -180,9 +180,11 @@ def bench(
         report = run_bench(options, session.folder, observer)
     path = session.save(report)
     if html:
-        from etot_cli.commands.bench_page import write_bench_page
+        from etot_cli.reporting.files import write_page
+        from etot_cli.reporting.page.bench_page import bench_page
 
-        session.add_page(report, lambda told: write_bench_page(report, session.folder))
+        folder = session.folder
+        session.add_page(report, lambda told: write_page(bench_page(report, folder), folder))
     from etot_cli.reporting.bench_table import BenchSummary
 
     code = session.conclude(
@@ -204,16 +206,16 @@ def _compare(
     """Prints how two runs differ; with ``out``, writes report and page."""
     from etot_cli.commands.bench_compare import compare
     from etot_cli.reporting.bench_table import significantly_worse, told
-    from etot_cli.reporting.files import claim_folder, write_report
+    from etot_cli.reporting.files import claim_folder, write_page, write_report
 
     report = compare(first, second)
     if out is not None:
-        from etot_cli.commands.bench_page import write_compare_page
+        from etot_cli.reporting.page.compare_page import compare_page
 
         claim = claim_folder("bench", "compare", out, force=force)
         try:
             write_report(report, claim.path)
-            page = write_compare_page(report, claim.path)
+            page = write_page(compare_page(report), claim.path)
         finally:
             claim.release()
         if not quiet:

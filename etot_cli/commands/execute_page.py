@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -14,7 +13,6 @@ import numpy as np
 from etot_cli.commands.execute import Execution
 from etot_cli.commands.pages import (
     MAX_REPLAY_FRAMES,
-    PAGE_NAME,
     Wanted,
     coarse_first,
     take_pictures,
@@ -22,11 +20,11 @@ from etot_cli.commands.pages import (
 from etot_cli.commands.render import rendering
 from etot_cli.execution.records import Carried, Trial
 from etot_cli.execution.world import AWAY, AWAY_SPACING
-from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.files import write_page
 from etot_cli.reporting.page.execute_page import execute_page
 from etot_cli.reporting.page.replay import Track
 from etot_cli.reporting.page.topview import top_view
-from etot_cli.reporting.provenance import add_phase
+from etot_cli.reporting.provenance import rendering_phase
 from etot_cli.specs.scene import Scene
 from etot_cli.world.configurations import states_of
 from etot_cli.world.recorder import FRAME_PERIOD, Trajectory
@@ -58,18 +56,17 @@ def write_films(execution: Execution, folder: Path, progress: Progress | None = 
     trial = execution.trials[0]
     with rendering():
         from etot_cli.world.film import write_video
-    begun = time.monotonic()
     scenes: list[tuple[str, Scene | None, bool]] = [
         ("world", trial.true_scene, False), ("twin", trial.scene, True),
     ]  # fmt: skip
-    for name, scene, foreseen in scenes:
-        film = _takes(trial, foreseen=foreseen)
-        if scene is None or not film:
-            continue
-        file = f"{name}.mp4"
-        write_video(scene, film, folder / file, size=FILM_SIZE, jobs=cores(), progress=progress)
-        execution.report.files[name] = file
-    add_phase(execution.report.timing, "render", time.monotonic() - begun)
+    with rendering_phase(execution.report.timing):
+        for name, scene, foreseen in scenes:
+            film = _takes(trial, foreseen=foreseen)
+            if scene is None or not film:
+                continue
+            file = f"{name}.mp4"
+            write_video(scene, film, folder / file, size=FILM_SIZE, jobs=cores(), progress=progress)
+            execution.report.files[name] = file
 
 
 def _takes(trial: Trial, *, foreseen: bool) -> list[Take]:
@@ -103,17 +100,13 @@ def write_execute_page(
         EtotError: the page cannot be written.
     """
     report = execution.report
-    begun = time.monotonic()
-    films = _films(execution.trials[0]) if execution.trials else []
-    pictures, notice = take_pictures(
-        [(film.scene, coarse_first(film.wanted)) for film in films], progress
-    )
-    if films:
-        add_phase(report.timing, "render", time.monotonic() - begun)
-    path = folder / PAGE_NAME
+    with rendering_phase(report.timing):
+        films = _films(execution.trials[0]) if execution.trials else []
+        pictures, notice = take_pictures(
+            [(film.scene, coarse_first(film.wanted)) for film in films], progress
+        )
     tracks = [film.track for film in films]
-    write_atomically(path, execute_page(report, execution.trials, tracks, pictures, notice))
-    return path
+    return write_page(execute_page(report, execution.trials, tracks, pictures, notice), folder)
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,20 +21,19 @@ from etot_cli.commands.plan import Planning
 from etot_cli.commands.simulate import Simulation
 from etot_cli.control.simulated import WorldOutcome
 from etot_cli.errors import EtotError
-from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.files import write_page
 from etot_cli.reporting.page.pictures import Frame, Picture
 from etot_cli.reporting.page.plan_page import plan_page
 from etot_cli.reporting.page.replay import Track
 from etot_cli.reporting.page.simulate_page import simulate_page
 from etot_cli.reporting.page.topview import top_view
-from etot_cli.reporting.provenance import add_phase
+from etot_cli.reporting.provenance import rendering_phase
 from etot_cli.specs.scene import Scene
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.state import RolloutRecord
 from etot_cli.world.studio import Progress, Shot, Studio, alike, take
 from etot_cli.world.workers import cores
 
-PAGE_NAME = "report.html"
 PAGE_PICTURES_BYTES = 6_500_000
 """All pictures of a page; in base64, with the rest of the page, they stay below 10 MB."""
 WIDEST_PX, NARROWEST_PX = 800, 320
@@ -96,12 +95,9 @@ def write_plan_page(planning: Planning, folder: Path, progress: Progress | None 
         culprits = tuple(cause.objects) if cause is not None else ()
         frames[number] = _frames_of(number, outcome, culprits, cause.time_s if cause else None,
                                     parents[number], planning, wanted)  # fmt: skip
-    begun = time.monotonic()
-    pictures, notice = take_pictures([(planning.scene, wanted)], progress)
-    add_phase(report.timing, "render", time.monotonic() - begun)
-    path = folder / PAGE_NAME
-    write_atomically(path, plan_page(report, frames, pictures, notice))
-    return path
+    with rendering_phase(report.timing):
+        pictures, notice = take_pictures([(planning.scene, wanted)], progress)
+    return write_page(plan_page(report, frames, pictures, notice), folder)
 
 
 def write_simulate_page(
@@ -138,13 +134,10 @@ def write_simulate_page(
             wanted.append(Wanted(key, shot, partial(_from_above, record, culprits, first=first)))
             frames.append((start + float(time_s), key))
         start += duration
-    begun = time.monotonic()
-    pictures, notice = take_pictures([(simulation.scene, coarse_first(wanted))], progress)
-    add_phase(report.timing, "render", time.monotonic() - begun)
+    with rendering_phase(report.timing):
+        pictures, notice = take_pictures([(simulation.scene, coarse_first(wanted))], progress)
     track = Track("The simulation", frames)
-    path = folder / PAGE_NAME
-    write_atomically(path, simulate_page(report, durations, [track], pictures, notice))
-    return path
+    return write_page(simulate_page(report, durations, [track], pictures, notice), folder)
 
 
 def coarse_first(wanted: Sequence[Wanted]) -> list[Wanted]:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.commands.pages import PAGE_NAME
 from etot_cli.commands.reconstruct import Reconstruction
 from etot_cli.errors import EtotError
 from etot_cli.reconstruction.masks.naming import color_of
 from etot_cli.reconstruction.pipeline import Twin
 from etot_cli.reconstruction.twin.exports import placed_triangles
 from etot_cli.reconstruction.twin.overlay import PALETTE, draw_overlay
-from etot_cli.reporting.files import write_atomically
+from etot_cli.reporting.files import write_page
 from etot_cli.reporting.page.pictures import Picture
 from etot_cli.reporting.page.reconstruct_page import View3d, reconstruct_page
-from etot_cli.reporting.provenance import add_phase
+from etot_cli.reporting.provenance import rendering_phase
 
 FULL_RESIDUAL_M = 0.015
 """Depth residual of the map's full colour [m]: five times a good camera's noise."""
@@ -49,33 +47,30 @@ def write_reconstruct_page(reconstruction: Reconstruction, folder: Path) -> Path
     report, twin = reconstruction.report, reconstruction.twin
     if twin is None:
         raise EtotError("the reconstruction was stopped before there was something to show")
-    begun = time.monotonic()
-    color = twin.seen.capture.color
-    pictures = {"color": _encoded(color), "overlay": _encoded(_tinted(twin)[..., ::-1])}
-    notice = ""
-    view = None
-    try:
-        if twin.scene is not None:
-            from etot_cli.world.capture import capture
+    with rendering_phase(report.timing):
+        color = twin.seen.capture.color
+        pictures = {"color": _encoded(color), "overlay": _encoded(_tinted(twin)[..., ::-1])}
+        notice = ""
+        view = None
+        try:
+            if twin.scene is not None:
+                from etot_cli.world.capture import capture
 
-            scene = twin.scene.model_copy(update={"directory": str(folder.resolve())})
-            picture = capture(scene, settle=False, samples=SAMPLES)
-            if picture.color.shape == color.shape:
-                pictures["twin"] = _encoded(picture.color)
-                residual = picture.depth - twin.seen.capture.depth
-                known = (picture.depth > 0) & (twin.seen.capture.depth > 0)
-                pictures["residual"] = _encoded(_map(residual, known))
-    except EtotError as error:
-        notice = f"The twin is not rendered: {error}"
-    if twin.scene is not None:
-        view = _view(twin, folder)
-    add_phase(report.timing, "render", time.monotonic() - begun)
-    path = folder / PAGE_NAME
+                scene = twin.scene.model_copy(update={"directory": str(folder.resolve())})
+                picture = capture(scene, settle=False, samples=SAMPLES)
+                if picture.color.shape == color.shape:
+                    pictures["twin"] = _encoded(picture.color)
+                    residual = picture.depth - twin.seen.capture.depth
+                    known = (picture.depth > 0) & (twin.seen.capture.depth > 0)
+                    pictures["residual"] = _encoded(_map(residual, known))
+        except EtotError as error:
+            notice = f"The twin is not rendered: {error}"
+        if twin.scene is not None:
+            view = _view(twin, folder)
     text = reconstruct_page(
         report, pictures, view, residual_mm=1000 * FULL_RESIDUAL_M, notice=notice
     )
-    write_atomically(path, text)
-    return path
+    return write_page(text, folder)
 
 
 def _encoded(image: NDArray[np.uint8]) -> Picture:

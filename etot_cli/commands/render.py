@@ -5,7 +5,6 @@ Apart from the simulation itself, because it needs OpenGL, which planning and si
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from etot_cli.commands.simulate import Simulation
 from etot_cli.errors import ServiceError
-from etot_cli.reporting.provenance import add_phase
+from etot_cli.reporting.provenance import rendering_phase
 from etot_cli.world.workers import cores
 
 if TYPE_CHECKING:
@@ -58,17 +57,18 @@ def render_files(
     with rendering():
         from etot_cli.world.film import write_frames, write_video
     report = simulation.report
-    begun = time.monotonic()
-    film = takes(simulation)
-    if frames:
-        write_frames(
-            simulation.scene, film, folder / FRAMES_FOLDER, jobs=cores(), progress=progress
-        )
-        report.files["frames"] = FRAMES_FOLDER
-    if video:
-        write_video(simulation.scene, film, folder / VIDEO_NAME, jobs=cores(), progress=progress)
-        report.files["video"] = VIDEO_NAME
-    add_phase(report.timing, "render", time.monotonic() - begun)
+    with rendering_phase(report.timing):
+        film = takes(simulation)
+        if frames:
+            write_frames(
+                simulation.scene, film, folder / FRAMES_FOLDER, jobs=cores(), progress=progress
+            )
+            report.files["frames"] = FRAMES_FOLDER
+        if video:
+            write_video(
+                simulation.scene, film, folder / VIDEO_NAME, jobs=cores(), progress=progress
+            )
+            report.files["video"] = VIDEO_NAME
 
 
 def takes(simulation: Simulation) -> list[Take]:

@@ -24,7 +24,7 @@ try:
 except ImportError:  # Windows
     fcntl = None
 
-REPORT_NAME = "report.json"
+REPORT_NAME, PAGE_NAME = "report.json", "report.html"
 RESULTS = Path("results")
 """Default parent of all output folders, below the current directory."""
 MAX_STEM = 60
@@ -182,6 +182,17 @@ def write_report(report: Model, folder: Path) -> Path:
     """
     path = folder / REPORT_NAME
     write_atomically(path, report_text(report))
+    return path
+
+
+def write_page(text: str, folder: Path) -> Path:
+    """Writes the page beside a report.
+
+    Raises:
+        EtotError: the file system refuses.
+    """
+    path = folder / PAGE_NAME
+    write_atomically(path, text)
     return path
 
 

@@ -66,7 +66,11 @@ class Stopwatch:
         )
 
 
-def add_phase(timing: TimingModel, name: str, spent_s: float) -> None:
-    """Adds a phase that came after the report was made."""
-    timing.phases[name] = seconds(timing.phases.get(name, 0.0) + spent_s)
+@contextmanager
+def rendering_phase(timing: TimingModel) -> Iterator[None]:
+    """Times what is rendered after the report was made; where that fails, nothing is added."""
+    begun = time.monotonic()
+    yield
+    spent_s = time.monotonic() - begun
+    timing.phases["render"] = seconds(timing.phases.get("render", 0.0) + spent_s)
     timing.wall_s = seconds(timing.wall_s + spent_s)

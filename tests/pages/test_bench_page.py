@@ -12,11 +12,13 @@ from etot_cli.benchmark.methods.catalogue import METHODS
 from etot_cli.benchmark.running.runner import TrialWork
 from etot_cli.benchmark.trial import COSTS, TrialKey, TrialResult, TrialStatus
 from etot_cli.commands.bench import BenchOptions, run_bench
-from etot_cli.commands.bench_page import write_bench_page, write_compare_page
 from etot_cli.control.robot import RobotState
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.records import Carried, FailureClass, Look, Trial
 from etot_cli.reporting.bench_report import CompareReport, PairedModel
+from etot_cli.reporting.files import write_page
+from etot_cli.reporting.page.bench_page import bench_page
+from etot_cli.reporting.page.compare_page import compare_page
 from etot_cli.reporting.page.trial_page import SUFFIX, trial_page
 from etot_cli.reporting.provenance import versions
 from etot_cli.reporting.trial_report import trial_report
@@ -70,7 +72,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     own = (folder / "trials" / key.name).with_suffix(SUFFIX)
     own.parent.mkdir(parents=True)
     own.write_text(trial_page(told, trial(), method.title, repeatable=True), encoding="utf-8")
-    return write_bench_page(report, folder)
+    return write_page(bench_page(report, folder), folder)
 
 
 @pytest.mark.slow
@@ -138,7 +140,7 @@ def test_two_runs_are_compared_on_a_page(browser: Browser, tmp_path: Path) -> No
         status="failure", versions=versions(), first="a", second=EVIL, comparisons=[pair, same],
         left_out=2,
     )  # fmt: skip
-    page = write_compare_page(report, tmp_path)
+    page = write_page(compare_page(report), tmp_path)
     browser.check_looks(page)
     text = browser.run("return document.body.innerText")
     assert "significantly worse: etot" in text and "-78 to -31" in text and EVIL in text

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
+from pathlib import Path
 
 from etot_cli.reporting.bench_report import BenchReport, PairedModel, TrialRowModel
 from etot_cli.reporting.bench_table import chance, points
 from etot_cli.reporting.page.assemble import assemble
+from etot_cli.reporting.page.trial_page import SUFFIX
 from etot_cli.reporting.style import counted
 
 CLASS_COLOURS = {
@@ -17,13 +19,19 @@ CLASS_COLOURS = {
 OTHER = "p5"
 
 
-def bench_page(report: BenchReport, pages: Mapping[str, str]) -> str:
+def bench_page(report: BenchReport, folder: Path) -> str:
     """The page as text.
 
     Args:
         report: what was measured.
-        pages: of trials, by their reports; links lead there, and to the report where there is none.
+        folder: of the report; links lead to the pages of trials that are there, and to a trial's
+            report where it has none.
     """
+    pages = {
+        trial.report: page.as_posix()
+        for trial in report.trials
+        if trial.report and (folder / (page := Path(trial.report).with_suffix(SUFFIX))).is_file()
+    }
     cells = {(row.method, row.task): row for row in report.rows}
     means = {item.method: item for item in report.averages}
     titles = {method.name: method.title for method in report.methods}
