@@ -32,8 +32,6 @@ from etot_cli.world.pose import Pose, rotation_by
 from tests.opengl import need_opengl
 
 ACCURATE = 0.005
-FASTENED = 0.015
-"""Furniture of which two faces are seen is free along both of them [m]."""
 LOOK_S = 2.0
 
 
@@ -69,7 +67,12 @@ def desk(request: pytest.FixtureRequest) -> Iterator[Desk]:
 
 @pytest.mark.render
 @pytest.mark.slow
-@pytest.mark.parametrize("desk", [("task5", 0), ("task7", 1)], indirect=True)
+@pytest.mark.parametrize(
+    "desk",
+    # The last three have furniture that no face which is read holds along itself, turned by 10°.
+    [("task5", 0), ("task7", 1), ("task3", 5), ("task4", 15), ("task7", 6)],
+    indirect=True,
+)
 def test_what_stands_on_the_desk_is_seen_where_it_is(desk):
     desk.camera.connect()
     desk.camera.frame()  # opening a renderer costs once
@@ -78,8 +81,7 @@ def test_what_stands_on_the_desk_is_seen_where_it_is(desk):
     assert time.process_time() - begun < LOOK_S
     assert {item.mark for item in seen.objects.values()} == {Mark.SEEN}
     for name in seen.objects:
-        free = desk.world.world.entries[name].free
-        assert desk.error(name) < (ACCURATE if free else FASTENED), name
+        assert desk.error(name) < ACCURATE, name
     for address, value in seen.parts.items():
         true = float(desk.world.data.joint(desk.world.world.parts[address].joint).qpos[0])
         assert value == pytest.approx(true, abs=0.006)

@@ -1,4 +1,4 @@
-"""Makes the pose of something thin exact by its colour: depth is lost at edges, colour is not."""
+"""Makes a pose exact by where its colour ends: depth is lost at edges, colour is not."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ OWN = 8
 GAP, RING = 4, 12
 """Pixels from this far outside of an outline on, and up to there, show what is behind it [px]: the
 pose is off by less than the gap, and things of other colours are farther away."""
+LEVELS = 4
+"""Colours this near to each other are compared once [levels of 255]: half of NOISE."""
 NOISE = 8.0
 """Colours that differ by this much may be one, lit differently [levels of 255]."""
 SHADES = (1.0, 0.8, 0.6, 0.45)
@@ -52,7 +54,7 @@ APART = 2.0
 
 
 def by_color(
-    surface: Surface, pose: Pose, scan: Scan, moves: Sequence[Array]
+    surface: Surface, pose: Pose, scan: Scan, moves: Sequence[Array], off: float = 0.0
 ) -> tuple[Pose, Support]:
     """The pose nearby whose outline holds most of the thing's own colour.
 
@@ -62,18 +64,21 @@ def by_color(
         scan: the picture.
         moves: shifts and turns about the thing's middle that are tried both ways (6,), in the base
             frame, as large as they are at first [m, rad].
+        off: how far it may well be from where it begins, so that what is read that near to it
+            shows nothing of what is behind it [m].
 
     Returns:
         The pose, or the one to begin with where colours tell nothing; how depth bears it out.
     """
-    few = surface.thinned(OUTLINE_POINTS)
-    expected = pose.place(few.middle[None])[0]
+    expected = pose.place(surface.middle[None])[0]
     for _ in range(ROUNDS):
-        likeness = _likeness(surface, pose, scan)
+        likeness = _likeness(surface, pose, scan, off)
         if likeness is None:
             break
-        seen = few.points[visible_points(few, pose, scan.view)]
-        worth = _worth(few, seen, likeness, scan, expected)
+        # Thinned first, its near walls would have holes through which the far ones are seen.
+        seen = visible_points(surface, pose, scan.view)
+        shell = Surface(surface.points[seen], surface.normals[seen]).thinned(OUTLINE_POINTS)
+        worth = _worth(shell, likeness, scan, surface.middle, expected, off)
         # Small moves alone may stop at what only looks like its end.
         around = [moved(surface, pose, i * SHIFT * moves[0] + j * moves[-1])
                   for i in SHIFTS for j in TURNS]  # fmt: skip
@@ -82,34 +87,35 @@ def by_color(
 
 
 def _worth(
-    surface: Surface, seen: Array, likeness: Array, scan: Scan, expected: Array
+    shell: Surface, likeness: Array, scan: Scan, middle: Array, expected: Array, off: float
 ) -> Callable[[Pose], float]:
     """How well a pose covers what looks like the thing, less what depth says against it.
 
     Args:
-        surface: the thing, with few points.
-        seen: those of its points (n, 3) that face the camera.
+        shell: what is seen of the thing.
         likeness: of the picture's pixels (h, w).
         scan: the picture.
-        expected: where its middle (3,) is expected [m].
+        middle: of the thing (3,), in its frame [m].
+        expected: where that is expected (3,) [m].
+        off: how far from there it is as likely [m].
     """
 
     def worth(tried: Pose) -> float:
-        pixels = scan.view.project(tried.place(seen))
+        pixels = scan.view.project(tried.place(shell.points))
         found = ndimage.map_coordinates(likeness, pixels[:, ::-1].T, order=1, mode="constant")
-        borne = support(surface, tried, scan.view, scan.depth)
-        far = float(np.linalg.norm(tried.place(surface.middle[None])[0] - expected))
-        against = 2.0 * borne.through / len(seen) + (far / EXPECTED) ** 2
+        borne = support(shell, tried, scan.view, scan.depth)
+        far = float(np.linalg.norm(tried.place(middle[None])[0] - expected))
+        against = 2.0 * borne.through / len(shell.points) + (max(far - off, 0.0) / EXPECTED) ** 2
         return float(found.mean()) / CERTAIN - against
 
     return worth
 
 
-def _likeness(surface: Surface, pose: Pose, scan: Scan) -> Array | None:
+def _likeness(surface: Surface, pose: Pose, scan: Scan, off: float) -> Array | None:
     """How much more each pixel (h, w) looks like the thing than like what is behind it, as a log
     likelihood ratio around it and 0 elsewhere; None where that cannot be told.
     """
-    view, depth, picture = scan.view, scan.depth, scan.picture.astype(np.float64)
+    view, depth, picture = scan.view, scan.depth, scan.picture
     _, points, pixels, _ = shown(surface, pose, view)
     (u, v), expected = pixels.T, view.depth_of(points)
     read = depth[v, u]
@@ -117,23 +123,31 @@ def _likeness(surface: Surface, pose: Pose, scan: Scan) -> Array | None:
     if len(bright) < OWN:
         return None
     own = np.vstack([bright * shade for shade in SHADES])
-    outline = np.zeros(depth.shape, np.uint8)
-    outline[v, u] = 1
-    closed = cv2.morphologyEx(outline, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
-    apart = cv2.distanceTransform(1 - closed, cv2.DIST_L2, 3)
-    ring = np.argwhere((apart >= GAP) & (apart <= RING))
+    dots = np.zeros(depth.shape, np.uint8)
+    dots[v, u] = 1
+    outline = cv2.morphologyEx(dots, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    outside = cv2.distanceTransform(1 - outline, cv2.DIST_L2, 3)
+    inside = cv2.distanceTransform(outline, cv2.DIST_L2, 3)
+    ring = np.argwhere((outside >= GAP) & (outside <= RING) & ((depth > 0) | (off == 0.0)))
+    around = view.lift(ring[:, ::-1].astype(np.float64), depth[ring[:, 0], ring[:, 1]])
+    ring = ring[~surface.has(pose, around, off)]
     if len(ring) < OWN:
         return None
     ring = ring[:: max(1, len(ring) // BEHIND)]
-    behind = picture[ring[:, 0], ring[:, 1]]
-    rows, columns = np.nonzero(apart <= RING + GAP)
-    colors = picture[rows, columns]
+    behind = picture[ring[:, 0], ring[:, 1]].astype(np.float64)
+    band = (outside <= RING + GAP) & (inside <= RING + GAP)
+    cells, cell = np.unique(picture[band] // LEVELS, axis=0, return_inverse=True)
+    colors = LEVELS * (cells.astype(np.float64) + 0.5)
     ratio = np.clip(_log_density(colors, own) - _log_density(colors, behind), -CERTAIN, CERTAIN)
+    likeness = np.where(inside > RING + GAP, CERTAIN, 0.0)
+    likeness[band] = ratio[cell.ravel()]
     # What something nearer hides looks like neither.
-    there = depth[rows, columns]
-    ratio[(there > 0) & (there < expected.min() - NEARER)] = 0.0
-    likeness = np.zeros(depth.shape)
-    likeness[rows, columns] = ratio
+    far = np.zeros(depth.shape)
+    far[v, u] = expected
+    rows, columns = ndimage.distance_transform_edt(
+        far == 0, return_distances=False, return_indices=True
+    )
+    likeness[(depth > 0) & (depth < far[rows, columns] - NEARER)] = 0.0
     stands_out = likeness[v, u].mean() - likeness[ring[:, 0], ring[:, 1]].mean()
     return likeness if stands_out > APART else None
 

@@ -135,6 +135,24 @@ def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
     )
 
 
+def loose(surface: Surface, pose: Pose, view: View, depth: Array, holding: float) -> Array | None:
+    """The level direction (3,) in which what is read of a surface says least about its pose; None
+    where it says enough.
+
+    Args:
+        surface: the thing.
+        pose: where it was found.
+        view: the camera.
+        depth: its picture (h, w) [m].
+        holding: how many readings of faces across a direction are enough.
+    """
+    chosen, points, pixels, _ = shown(surface, pose, view)
+    off = depth[pixels[:, 1], pixels[:, 0]] - view.depth_of(points)
+    normals = (surface.normals[chosen] @ pose.rotation.T)[np.abs(off) < TOLERANCE, :2]
+    held, axes = np.linalg.eigh(normals.T @ normals)
+    return np.append(axes[:, 0], 0.0) if held[0] < holding else None
+
+
 def improved(
     surface: Surface,
     pose: Pose,

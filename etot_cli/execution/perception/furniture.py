@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from etot_cli.execution.perception.fitting import Freedom, improved, outlined, support
+from etot_cli.execution.perception.coloring import by_color
+from etot_cli.execution.perception.fitting import GATES, Freedom, improved, loose, support
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
@@ -26,10 +27,15 @@ FIT_ROUNDS = 3
 """Body and parts are fitted in turn, so often at most: the second time mostly changes nothing."""
 SETTLED = 0.04
 """Share of a part's travel by which its value may change without the body being fitted anew."""
-MOVES = np.diag((0.012, 0.012, 0.0, 0.0, 0.0, 0.05))[[0, 1, 5]]
-"""First steps in which it is shifted and turned on its level to fit where it ends [m, rad]."""
-SEEN_THROUGH = 0.01
-"""Share of what is visible that may be seen through before the fit is doubted: noise is less."""
+TWICE = 2 * GATES
+"""Once is not enough for a body that is turned by 10° from where it should be: 1 to 3° are left."""
+FIRST_SHIFT = 0.012
+"""First step along what no face holds [m]: 35 mm are looked through either way."""
+OUTLINE_OFF = 0.02
+"""By how much its outline may be off before [m]."""
+HOLDING = 400
+"""Points of faces across a direction that agree before it is known: 8 cm square. With 50 or 150,
+what agrees by chance at edges held the chests of tasks 3 and 4 up to 6 mm beside their place."""
 MARGIN = 0.03
 """Readings this far outside of the bounding sphere may be furniture that stands elsewhere [m]."""
 OWN = 0.005
@@ -105,11 +111,14 @@ class Furniture:
         near = scan.unexplained & (np.linalg.norm(scan.points - middle, axis=1) < reach)
         for _ in range(FIT_ROUNDS):
             whole = self._whole(name, parts)
-            pose = improved(whole, start, scan.points[near], scan.view, freedom=Freedom.ON_LEVEL)
-            borne = support(whole, pose, scan.view, scan.depth)
-            if borne.through > SEEN_THROUGH * borne.visible:
-                # Two faces leave it free along both; where they end, it would be seen through.
-                pose, _ = outlined(whole, pose, scan.view, scan.depth, MOVES)
+            pose = improved(
+                whole, start, scan.points[near], scan.view, freedom=Freedom.ON_LEVEL, gates=TWICE
+            )
+            free = loose(whole, pose, scan.view, scan.depth, HOLDING)
+            if free is not None:
+                # A face alone, or two that it can slide along: where they end tells the rest.
+                shift = FIRST_SHIFT * np.append(free, np.zeros(3))
+                pose, _ = by_color(whole, pose, scan, [shift], OUTLINE_OFF)
             self._known.put(name, pose)
             seen = self._borne_out(name, parts, pose, scan)
             self.standing[name] = Standing(pose, seen)
