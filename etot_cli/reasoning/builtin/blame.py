@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from etot_cli.reasoning.builtin.effects import acted_object
 from etot_cli.reasoning.builtin.harm import Harm, HarmKind
 from etot_cli.reasoning.builtin.relations import container_address, contents, is_on
+from etot_cli.reasoning.builtin.rules import PUTS
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import DESK, Cause, CauseKind, ContactEvent, RolloutRecord, owner_of
 
@@ -18,20 +19,17 @@ pulls with some ten newtons for a tenth of a second; what lies in a drawer only 
 
 
 def cause_of_failure(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
-    """The physical cause of an action that lacks its effect.
+    """The physical cause of an action that lacks its effect, with harm to others added to it.
 
-    What the skill said itself comes first; harm to others is added to it.
+    The skill's own account comes first. Only what was put down may have left its place after the
+    skill was done.
     """
-    if record.cause is not None:
-        return _with_harm(_held_up(action, record) or record.cause, harmed)
-    derive = {
-        Verb.PICK_UP: _not_picked_up,
-        Verb.PUT_ON: _not_put,
-        Verb.PUT_INTO: _not_put,
-        Verb.OPEN: _not_moved,
-        Verb.CLOSE: _not_moved,
-    }[action.verb]
-    return _with_harm(derive(action, record, harmed), harmed)
+    cause = _held_up(action, record) or record.cause
+    if cause is None and action.verb in PUTS and record.before.holding is not None:
+        cause = _not_put(action, record, record.before.holding, harmed)
+    if cause is None:
+        cause = Cause(CauseKind.NO_EFFECT, (owner_of(action.target),), f"{action} had no effect")
+    return _with_harm(cause, harmed)
 
 
 def cause_of_harm(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
@@ -70,28 +68,8 @@ def _with_harm(cause: Cause, harmed: Sequence[Harm]) -> Cause:
     return Cause(cause.kind, objects, text, cause.time_s)
 
 
-def _not_picked_up(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
-    del harmed
-    target = action.target
-    if target not in record.before.infos:
-        return Cause(CauseKind.PRECONDITION, (), f"there is no {target} to pick up")
-    struck = _struck_by(ROBOT, record, excluding={target})
-    if struck:
-        text = f"the robot ran into {_listed(struck)} and did not get hold of {target}"
-        return Cause(CauseKind.COLLISION, (*struck, target), text, _first_touch(record, struck[0]))
-    if _first_touch(record, target) is not None:
-        text = f"{target} slipped out of the fingers"
-        return Cause(CauseKind.SLIP, (target,), text, _first_touch(record, target))
-    return Cause(CauseKind.NO_EFFECT, (target,), f"{target} is not in the hand")
-
-
-def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
-    held = acted_object(action, record)
+def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[Harm]) -> Cause:
     target, owner = action.target, owner_of(action.target)
-    if held is None:
-        return Cause(CauseKind.PRECONDITION, (), "there is nothing in the hand to put down")
-    if record.after.states[held].in_hand:
-        return Cause(CauseKind.NO_EFFECT, (held,), f"{held} stayed in the fingers")
     if any(harm.name == owner and harm.kind is HarmKind.TOPPLED for harm in harmed):
         text = f"{target} toppled when {held} was put into it"
         return Cause(CauseKind.TOPPLED, (owner,), text, _first_touch(record, owner))
@@ -122,24 +100,6 @@ def _not_put(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> C
         text = f"{held} does not go into {target}: it came to rest on its rim"
         return Cause(CauseKind.NO_ROOM, blamed, text)
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
-
-
-def _not_moved(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
-    del harmed
-    owner, before = owner_of(action.target), record.before
-    part = before.part(action.target)
-    if part is None:
-        return Cause(CauseKind.PRECONDITION, (), f"{action.target} has nothing to open or close")
-    touched = _struck_by({owner}, record, excluding=set(ROBOT))
-    inside = contents(before, part.address)
-    blocking = [name for name in touched if name in inside]
-    blocking += [name for name in touched if name not in inside]
-    verb = action.verb.value.lower()
-    fraction = f"{record.after.openness(part):.0%} of its travel"
-    if blocking:
-        text = f"{part.address} did not {verb} ({fraction}): {_listed(blocking)} blocks it"
-        return Cause(CauseKind.BLOCKED, (*blocking, owner), text, _first_touch(record, blocking[0]))
-    return Cause(CauseKind.NO_EFFECT, (owner,), f"{part.address} did not {verb} ({fraction})")
 
 
 def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:
