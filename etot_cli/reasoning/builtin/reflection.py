@@ -9,9 +9,8 @@ itself (too big, too heavy) has no correction.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from etot_cli.reasoning.builtin.keepouts import keepouts_of
 from etot_cli.reasoning.builtin.regrasping import regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -28,6 +27,7 @@ from etot_cli.reasoning.builtin.relocation import (
     Correction,
     other_places,
     relocated,
+    set_aside,
     shut_meanwhile,
     without_reopening,
 )
@@ -44,10 +44,17 @@ from etot_cli.reasoning.builtin.revision import (
     relocations,
     without_idle,
 )
-from etot_cli.reasoning.builtin.rules import check_plan, left_open
+from etot_cli.reasoning.builtin.rules import PUTS, check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import DESK, STAYS_OPEN_AT, Cause, CauseKind, PartInfo, owner_of
+from etot_cli.world.state import (
+    DESK,
+    STAYS_OPEN_AT,
+    Cause,
+    CauseKind,
+    PartInfo,
+    owner_of,
+)
 
 REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""
@@ -65,7 +72,7 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
         Whole branches from the root, no two of them the same.
     """
     cause = failed.verdict.cause or failed.record.cause
-    if cause is None or not 0 <= failed.index < len(failed.branch.actions):
+    if cause is None:
         return
     case = _Case(failed, cause)
     aim = purpose(case.actions, failed.start)
@@ -82,41 +89,31 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
             yield Branch(actions, f"{change}, because {cause.text}")
 
 
-@dataclass(frozen=True, slots=True)
 class _Case:
     """A failed step with what has to be known about it."""
 
-    failed: FailedStep
-    cause: Cause
-
-    @property
-    def actions(self) -> Actions:
-        return self.failed.branch.actions
-
-    @property
-    def action(self) -> Action:
-        return self.actions[self.failed.index]
-
-    @property
-    def acted(self) -> str | None:
+    def __init__(self, failed: FailedStep, cause: Cause) -> None:
+        self.failed, self.cause = failed, cause
+        self.index, self.actions, self.start = failed.index, failed.branch.actions, failed.start
+        self.action, self.scene = self.actions[self.index], failed.record.before
+        is_put = self.action.verb in PUTS
+        self.acted = self.scene.holding if is_put else owner_of(self.action.target)
         """The object that the failed action moves."""
-        if self.action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
-            return self.failed.record.before.holding
-        return owner_of(self.action.target)
+        self.is_full = cause.kind is CauseKind.NO_ROOM
+        """The action's target has no room, so that another place is the first thought."""
 
     def serves(self, actions: Actions, aim: Purpose) -> bool:
         """Whether a branch is for the same; a part that was only to stand as at first, and cannot
         be opened again, may stay closed, and one that stood half-open may be opened wide.
         """
-        start = self.failed.start
-        new, asked = purpose(actions, start), dict(aim.parts)
+        new, asked = purpose(actions, self.start), dict(aim.parts)
         opened = (
-            (start.part(address), address) for address, last in new.parts if last is Verb.OPEN
+            (self.start.part(address), address) for address, last in new.parts if last is Verb.OPEN
         )
         means = {
             (address, Verb.OPEN)
             for part, address in opened
-            if address not in asked and part is not None and not is_closed(start, part)
+            if address not in asked and part is not None and not is_closed(self.start, part)
         }
         if self.action.verb is Verb.OPEN and self.action.target not in asked:
             means.add((self.action.target, Verb.CLOSE))
@@ -140,77 +137,75 @@ class _Case:
         What this branch has changed did not stand in the way at the start. What has been taken out
         of the way already comes last.
         """
-        index, scene = self.failed.index, self.failed.record.before
+        scene = self.scene
         named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
         others = [
             name
             for name in named
             if name in scene.infos and name not in NOT_OBJECTS and name != self.acted
         ]
-        opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, index)}
+        opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, self.index)}
         if not others and self.cause.kind is CauseKind.NO_ROOM:
             others = self._occupants()
         return sorted(
             others,
             key=lambda name: (
-                not (name in opened or placed_by(self.actions, name, index) is not None),
+                not (name in opened or placed_by(self.actions, name, self.index) is not None),
                 relocations(self.actions, name) > 0,
             ),
         )
 
-    def _out_of_the_way(self, name: str, index: int) -> Iterator[Correction]:
+    def _out_of_the_way(self, name: str) -> Iterator[Correction]:
         """The branch with an object brought to its own place, or else to a safe one, first."""
-        for pick in range(self.failed.index + 1, len(self.actions)):
+        for pick in range(self.index + 1, len(self.actions)):
             action = self.actions[pick]
             if action.verb is Verb.PICK_UP and action.target == name:
                 yield from self._its_own_place_first(pick, name)
                 break
-        yield from relocated(self.failed, name, self.acted, index)
+        yield from relocated(self.failed, name, self.acted, self.index)
 
     def _its_own_place_first(self, pick: int, name: str) -> Iterator[Correction]:
         """The branch with a cycle brought forward that takes an object away for good."""
-        own, failing = cycle_of(self.actions, pick), cycle_of(self.actions, self.failed.index)
+        own, failing = cycle_of(self.actions, pick), cycle_of(self.actions, self.index)
         put = self.actions[pick + 1] if pick + 1 < len(self.actions) else None
-        if put is None or put.safe or pick not in own or self.failed.index in own:
+        if put is None or put.safe or pick not in own or self.index in own:
             return
         actions = moved_before(self.actions, own, failing.start)
         yield Correction(
-            reachable_throughout(actions, self.failed.start),
+            reachable_throughout(actions, self.start),
             f"{name} is put where it belongs before it is in the way",
         )
 
     def _earlier(self, before: int, name: str) -> Iterator[Correction]:
         """The branch with the failed cycle brought before the one that is at ``before``."""
-        own, other = cycle_of(self.actions, self.failed.index), cycle_of(self.actions, before)
+        own, other = cycle_of(self.actions, self.index), cycle_of(self.actions, before)
         if other.start < own.start and before not in own:
             actions = moved_before(self.actions, own, other.start)
             yield Correction(
-                reachable_throughout(actions, self.failed.start),
+                reachable_throughout(actions, self.start),
                 f"{self.action} comes before {name} is in the way",
             )
             if not relocations(self.actions, name):
                 # Of two that change places one has to wait elsewhere.
-                put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
-                waiting = inserted(actions, other.start, (Action(Verb.PICK_UP, name), put))
+                waiting = inserted(actions, other.start, set_aside(self.failed, name))
                 yield Correction(waiting, f"{name} waits elsewhere until {self.action} is done")
 
     def _taken_out_first(self, before: int, name: str) -> Iterator[Correction]:
         """What came along in or on an object waits elsewhere from before that was moved on."""
-        target, start = self.action.target, self.failed.start
-        if name not in carriers(start, target) or relocations(self.actions, target):
+        target = self.action.target
+        if name not in carriers(self.start, target) or relocations(self.actions, target):
             return
         other = cycle_of(self.actions, before).start
-        put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, target))
-        waiting = inserted(self.actions, other, (Action(Verb.PICK_UP, target), put))
+        waiting = inserted(self.actions, other, set_aside(self.failed, target))
         yield Correction(waiting, f"{target} is taken out before {name} is moved")
 
     def _occupants(self) -> list[str]:
         """What stands or lies where the action puts something, when nobody else is to blame."""
-        scene, target = self.failed.record.before, self.action.target
+        target = self.action.target
         if self.action.verb is Verb.PUT_INTO:
-            return list(contents(scene, target))
+            return list(contents(self.scene, target))
         if self.action.verb is Verb.PUT_ON and target != DESK:
-            return [name for name in scene.states if is_on(scene, name, target)]
+            return [name for name in self.scene.states if is_on(self.scene, name, target)]
         return []
 
     # -- by verb -----------------------------------------------------------------------------------
@@ -219,40 +214,38 @@ class _Case:
         """The branch with a vessel taken out of or from under furniture, where the hand does not
         get at what is in it.
         """
-        scene = self.failed.record.before
         for vessel in sorted(vessels):
-            state = scene.states[vessel]
-            places = (*state.on, state.inside or vessel)
-            if any(owner_of(place) == furniture and has_front(scene, place) for place in places):
-                yield from relocated(self.failed, vessel, None, self.failed.index)
+            state = self.scene.states[vessel]
+            places = {*state.on, state.inside or vessel}
+            if any(owner_of(p) == furniture and has_front(self.scene, p) for p in places):
+                yield from relocated(self.failed, vessel, None, self.index)
 
     def _of_pick(self) -> Iterator[Correction]:
-        index, scene = self.failed.index, self.failed.record.before
         for name in self._culprits():
-            placed = placed_by(self.actions, name, index)
+            placed = placed_by(self.actions, name, self.index)
             if placed is not None:
                 yield from self._earlier(placed, name)
                 yield from self._taken_out_first(placed, name)
-            elif scene.infos[name].movable:
-                yield from self._out_of_the_way(name, index)
+            elif self.scene.infos[name].movable:
+                yield from self._out_of_the_way(name)
             else:
                 yield from self._taken_before_opening(name)
                 yield from shut_meanwhile(self.failed, name)
                 yield from self._taken_while_shut(name)
-                yield from self._brought_out(name, carriers(scene, self.action.target))
+                yield from self._brought_out(name, carriers(self.scene, self.action.target))
         if self.cause.kind in _COVERED:
-            for opening in opened_before(self.actions, index):
-                part = self.failed.start.part(self.actions[opening].target)
+            for opening in opened_before(self.actions, self.index):
+                part = self.start.part(self.actions[opening].target)
                 if part is not None and self._is_near(part):
                     yield from self._taken_before_opening(part.owner)
-        yield from regrasped(self.failed, index, self.cause.kind)
+        yield from regrasped(self.failed, self.index, self.cause.kind)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""
-        name, index, start = self.action.target, self.failed.index, self.failed.start
+        name, index = self.action.target, self.index
         for opening in opened_before(self.actions, index):
             target = self.actions[opening].target
-            if owner_of(target) != owner or is_inside(start, name, target):
+            if owner_of(target) != owner or is_inside(self.start, name, target):
                 continue
             change = f"{name} is taken before {target} covers it"
             is_relocation = index + 1 < len(self.actions) and self.actions[index + 1].safe
@@ -262,33 +255,29 @@ class _Case:
                 rest = (*self.actions[:index], *self.actions[index + own.end :])
                 yield Correction(inserted(rest, opening, moved), change)
             elif not relocations(self.actions, name):
-                put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
-                extra = (Action(Verb.PICK_UP, name), put)
+                extra = set_aside(self.failed, name)
                 yield Correction(inserted(self.actions, opening, extra), change)
 
     def _taken_while_shut(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken out from beside a part that stands open, and has to again for
         the object to go there.
         """
-        name, index, scene = self.action.target, self.failed.index, self.failed.record.before
+        name, index = self.action.target, self.index
         following = self.actions[index + 1 : index + 2]
         filled = {owner_of(put.target) for put in following if put.verb is Verb.PUT_INTO}
         if owner not in filled or relocations(self.actions, name):
             return
-        put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(self.failed, name))
-        for part in scene.infos[owner].parts:
-            if is_closed(scene, part) or is_inside(scene, name, part.address):
+        for part in self.scene.infos[owner].parts:
+            if is_closed(self.scene, part) or is_inside(self.scene, name, part.address):
                 continue
             shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
-            extra = (shut, Action(Verb.PICK_UP, name), put, again)
+            extra = (shut, *set_aside(self.failed, name), again)
             change = f"{name} is taken from beside {part.address} while that is closed"
             yield Correction(inserted(self.actions, index, extra), change)
 
     def _is_near(self, part: PartInfo) -> bool:
         """Whether a part opens close to the object that could not be picked up."""
-        scene, name = self.failed.record.before, self.action.target
-        if name not in scene.infos:
-            return False
+        scene, name = self.scene, self.action.target
         owner = scene.infos[part.owner]
         # A door swings as far as it is wide.
         travel = part.travel if part.joint_type == "slide" else max(owner.size[:2])
@@ -296,15 +285,12 @@ class _Case:
         return distance(scene.states[part.owner], scene.states[name]) < limit
 
     def _of_put(self) -> Iterator[Correction]:
-        index, owner = self.failed.index, owner_of(self.action.target)
+        index, owner = self.index, owner_of(self.action.target)
         pick = next((i for i in range(index, -1, -1) if self.actions[i].verb is Verb.PICK_UP), None)
-        if (
-            self.cause.objects
-            and owner_of(self.cause.objects[0]) == owner
-            and (self.cause.kind is CauseKind.TOPPLED)
-        ):
+        toppled = self.cause.objects if self.cause.kind is CauseKind.TOPPLED else ()
+        if toppled and owner_of(toppled[0]) == owner:
             return  # the container does not stand what is put into it
-        if self.action.safe and self._is_full:
+        if self.action.safe and self.is_full:
             yield from other_places(self.failed, index)
             if self.action.target == DESK:
                 return  # what stands on a full desk has nowhere to go but where this could go
@@ -316,40 +302,34 @@ class _Case:
             if placed is not None:
                 if self.actions[placed + 1].target != self.action.target:
                     yield from self._earlier(placed, name)
-            elif self.failed.record.before.infos[name].movable:
-                yield from self._out_of_the_way(name, index)
+            elif self.scene.infos[name].movable:
+                yield from self._out_of_the_way(name)
             else:
                 for opening in opened_before(self.actions, index):
                     if owner_of(self.actions[opening].target) == name:
                         yield from self._earlier(opening, name)
                 yield from shut_meanwhile(self.failed, name)
-                if owner in self.failed.record.before.infos:
+                if owner in self.scene.infos:
                     yield from self._brought_out(name, [owner])
-        if self.action.safe and not self._is_full:
+        if self.action.safe and not self.is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
             yield from regrasped(self.failed, pick, self.cause.kind)
 
-    @property
-    def _is_full(self) -> bool:
-        """Whether the action's target has no room, so that another place is the first thought."""
-        return self.cause.kind is CauseKind.NO_ROOM
-
     def _of_articulation(self) -> Iterator[Correction]:
-        index, before = self.failed.index, self.failed.record.before
-        part = before.part(self.action.target)
+        part = self.scene.part(self.action.target)
         if part is None:
             return
         if self.action.verb is Verb.OPEN:
-            yield from without_reopening(self.actions, index, self.failed.start)
+            yield from without_reopening(self.actions, self.index, self.start)
         for name in self._culprits():
-            placed = placed_by(self.actions, name, index)
-            within = is_inside(before, name, part.address)
+            placed = placed_by(self.actions, name, self.index)
+            within = is_inside(self.scene, name, part.address)
             if placed is not None:
                 put_there = self.actions[placed + 1].target == part.address
                 if not (within or put_there):
                     yield from self._earlier(placed, name)
-            elif not within or before.openness(part) >= STAYS_OPEN_AT:
-                yield from self._out_of_the_way(name, index)
+            elif not within or self.scene.openness(part) >= STAYS_OPEN_AT:
+                yield from self._out_of_the_way(name)
                 yield from shut_meanwhile(self.failed, name)
         yield from shut_meanwhile(self.failed, part.owner)

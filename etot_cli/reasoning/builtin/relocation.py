@@ -34,6 +34,12 @@ class Correction(NamedTuple):
     change: str
 
 
+def set_aside(failed: FailedStep, name: str) -> Actions:
+    """Taking an object to where it is out of the way of what failed."""
+    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(failed, name))
+    return Action(Verb.PICK_UP, name), put
+
+
 def relocated(failed: FailedStep, name: str, acted: str | None, index: int) -> Iterator[Correction]:
     """The branch with an object taken to a safe place before ``index``.
 
@@ -65,7 +71,7 @@ def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correctio
     actions, start = failed.branch.actions, failed.start
     change = f"{name} goes to a safe place first"
     place = hand_free_at(actions, index, start)
-    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(failed, name))
+    _, put = set_aside(failed, name)
     if place is not None:
         yield Correction(
             inserted(actions, place, _fetched(name, put, actions[:place], start)), change
