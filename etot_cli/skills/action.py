@@ -25,6 +25,10 @@ class Verb(StrEnum):
     CLOSE = "CLOSE"
 
 
+PUTS = (Verb.PUT_ON, Verb.PUT_INTO)
+"""What empties the hand."""
+
+
 class GraspPose(StrEnum):
     """How an object is picked up: from the side with level fingers, or from above."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.skills.articulation.articulate import articulation_motions, articulation_outcome
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.pick import pick_motions, pick_outcome, pick_precondition
@@ -12,8 +12,6 @@ from etot_cli.skills.motion.motion import Motion, Trace
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.motion import put_motions, put_outcome
 from etot_cli.world.state import CauseKind, SceneState
-
-PUTS = (Verb.PUT_ON, Verb.PUT_INTO)
 
 
 def plan_motions(

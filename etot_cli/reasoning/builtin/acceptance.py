@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Relation, St
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import SceneState
 
 Doubts = Callable[[SceneState], str]
@@ -35,7 +35,7 @@ def undone(ends: Iterable[tuple[Action, SceneState]], final: SceneState) -> str:
         elif action.verb is Verb.PICK_UP:
             held = action.target
             placed.pop(held, None)
-        elif action.verb in (Verb.PUT_ON, Verb.PUT_INTO) and held in final.states:
+        elif action.verb in PUTS and held in final.states:
             placed |= {held: action} if _is_there(Sketch(after), held, action) else {}
     lost = (name for name, put in placed.items() if not _is_there(last, name, put))
     return next((f"{name} does not stay where {placed[name]} brings it" for name in lost), "")

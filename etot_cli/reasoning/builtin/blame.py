@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from etot_cli.reasoning.builtin.effects import acted_object
 from etot_cli.reasoning.builtin.harm import Harm, HarmKind
 from etot_cli.reasoning.builtin.relations import container_address, contents, is_on
-from etot_cli.reasoning.builtin.rules import PUTS
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import DESK, Cause, CauseKind, ContactEvent, RolloutRecord, owner_of
 
 ROBOT = frozenset({"robot", "gripper"})

@@ -12,10 +12,10 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import is_at
-from etot_cli.reasoning.builtin.rules import PUTS, check_plan, in_hand, left_open
+from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import Action
+from etot_cli.skills.action import PUTS, Action
 from etot_cli.world.state import SceneState
 
 

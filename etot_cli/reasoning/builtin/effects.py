@@ -10,7 +10,7 @@ from etot_cli.reasoning.builtin.relations import (
     is_open,
     rides_on_part,
 )
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world import spatial
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.state import RolloutRecord, owner_of
@@ -21,7 +21,7 @@ def acted_object(action: Action, record: RolloutRecord) -> str | None:
 
     A PUT with an empty hand moves nothing.
     """
-    if action.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+    if action.verb in PUTS:
         return record.before.holding
     name = owner_of(action.target)
     return name if name in record.before.infos else None

@@ -44,9 +44,9 @@ from etot_cli.reasoning.builtin.revision import (
     relocations,
     without_idle,
 )
-from etot_cli.reasoning.builtin.rules import PUTS, check_plan, left_open
+from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.relations import is_closed, is_open
-from etot_cli.reasoning.builtin.rules import PUTS, in_hand, left_open
+from etot_cli.reasoning.builtin.rules import in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import SceneState
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.relations import container_address
-from etot_cli.skills.action import MAX_PLAN_ACTIONS, Action, Verb
+from etot_cli.skills.action import MAX_PLAN_ACTIONS, PUTS, Action, Verb
 from etot_cli.world.state import DESK, STAYS_OPEN_AT, SceneState, owner_of
 
 
@@ -44,10 +44,6 @@ def check_plan(
     if len(actions) > MAX_PLAN_ACTIONS:
         return [Violation(MAX_PLAN_ACTIONS, 1, f"more than {MAX_PLAN_ACTIONS} actions")]
     return _Checker(scene, left_open).check(actions)
-
-
-PUTS = (Verb.PUT_ON, Verb.PUT_INTO)
-"""What empties the hand."""
 
 
 def in_hand(

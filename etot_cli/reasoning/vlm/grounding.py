@@ -10,11 +10,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.builtin.rules import PUTS, check_plan, in_hand
+from etot_cli.reasoning.builtin.rules import check_plan, in_hand
 from etot_cli.reasoning.vlm.reading.names import Names, Unresolved
 from etot_cli.reasoning.vlm.reading.plans import ReadPlan
 from etot_cli.reasoning.vlm.reading.steps import RawStep
-from etot_cli.skills.action import Action, Verb, read_whereabouts
+from etot_cli.skills.action import PUTS, Action, Verb, read_whereabouts
 from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, SceneState, owner_of
 
@@ -57,7 +57,7 @@ def ground(plan: ReadPlan, scene: SceneState, names: Names) -> Grounded:
                 )
         if step.verb is Verb.PICK_UP:
             held = target
-        elif step.verb in (Verb.PUT_ON, Verb.PUT_INTO):
+        elif step.verb in PUTS:
             held = None
         words = f"{step.note or ''} {step.target}"
         safe = step.verb is Verb.PUT_ON and bool(_SAFE.search(words))

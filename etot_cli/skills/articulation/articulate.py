@@ -11,12 +11,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.articulation.part_path import (
-    PreparedMove,
-    fraction_open,
-    way_back,
-)
+from etot_cli.skills.articulation.part_path import PreparedMove, way_back
 from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
+from etot_cli.skills.articulation.travel import fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
 from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
+from etot_cli.skills.articulation.travel import PENETRATION, PartTravel
 from etot_cli.skills.grasps.candidates import FINGER_ROOM
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Graspable
@@ -34,7 +34,8 @@ class Grip:
     """Fingers closed on a part: a tool pose fixed to it.
 
     ``narrow``: distance between the pads that just passes what they close on, for where the fingers
-    have little room [m]. ``cost``: lower is better.
+    have little room [m]. ``cost``: lower is better. ``overlap``: of robot and furniture, as planned
+    along the part's path (negative) [m].
     """
 
     in_part: Pose

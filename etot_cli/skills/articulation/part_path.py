@@ -1,22 +1,21 @@
-"""What gripping and pushing a door or drawer share: the part's path, and ways to and from it."""
+"""The hand's way to a door or drawer, along its path and back, whether it grips or pushes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
-import mujoco
 import numpy as np
 
+from etot_cli.skills.articulation.grips import Grip
+from etot_cli.skills.articulation.pushes import Push
+from etot_cli.skills.articulation.travel import CONTACT_CLEARANCE, PartTravel
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
 from etot_cli.skills.hindrance import Passage
 from etot_cli.skills.motion.kinematics import JUMP
 from etot_cli.world.arrays import Vector
-from etot_cli.world.index import Part
 from etot_cli.world.pose import Pose, straight
-from etot_cli.world.snapshot import copy_configuration
 
 PATH_STEP, FINE_STEP = 0.03, 0.007
 """Spacing of tool poses along the part's path [m]: at first, and where the arm turns fast."""
@@ -31,12 +30,11 @@ BACK_OUT_STEPS = 2
 """Where a folded arm cannot back out, it lets go so many steps earlier."""
 SHORT_RETREAT = 2
 """Poses of the straight way back that have to be possible at least."""
-CONTACT_CLEARANCE = 0.0005
-"""Distance that the robot keeps from what it has no business with, close to the part [m]."""
 OVERTRAVEL = 0.004
 """How far beyond the closed position the target of a push lies [m]."""
-PENETRATION = -0.004
-"""Planned overlap of fingers and furniture that is contact, not a collision [m]."""
+
+Contact = Grip | Push
+"""How the hand works on a part."""
 
 
 @dataclass(frozen=True)
@@ -57,107 +55,6 @@ class PreparedMove:
     reached: float
     retreat: Vector
     then: PreparedMove | None = None
-
-
-class Contact(Protocol):
-    """How the hand works on a part: gripping or pushing it at one place."""
-
-    @property
-    def grip(self) -> bool:
-        """The fingers close on the part; else they are closed and press against it."""
-        ...
-
-    @property
-    def opening(self) -> float:
-        """Distance between the pads on the way there [m]."""
-        ...
-
-    @property
-    def point(self) -> Vector:
-        """Where on the part (3,), part frame [m]."""
-        ...
-
-    @property
-    def overlap(self) -> float:
-        """Planned overlap of robot and furniture along the path (negative) [m]."""
-        ...
-
-    def touching(self, part: Pose) -> Pose:
-        """Tool pose where the contact begins, for the part's pose; base frame."""
-        ...
-
-    def entering(self, part: Pose) -> Pose:
-        """Tool pose by which the hand comes there, if there is room: as far from the face as that
-        may stand nearer than it is seen.
-        """
-        ...
-
-    def moving(self, part: Pose, lean: float) -> Iterator[tuple[Pose, float]]:
-        """Tool poses while the part moves and their leans [rad], the preferred one first."""
-        ...
-
-    @property
-    def lean(self) -> float:
-        """Lean of the hand at the beginning [rad]."""
-        ...
-
-
-class PartTravel:
-    """A part, and the joint values that it is taken from and to.
-
-    Args:
-        belief: the part stands in it where it begins.
-        part: door or drawer.
-        target: joint value to reach [m or rad].
-    """
-
-    def __init__(self, belief: Belief, part: Part, target: float) -> None:
-        self.belief, self.part, self.target = belief, part, target
-        self.value = float(belief.data.joint(part.joint).qpos[0])
-        self.owner = part.info.owner
-        self._poses: dict[float, Pose] = {}
-
-    def at(self, value: float) -> Pose:
-        """Pose of the part's frame at a joint value [m or rad]."""
-        if value not in self._poses:
-            world, data = self.belief.world, self.belief.scratch
-            copy_configuration(self.belief.data, data)
-            data.joint(self.part.joint).qpos[0] = value
-            mujoco.mj_kinematics(world.model, data)
-            body = data.body(self.part.body)
-            self._poses[value] = Pose(body.xpos.copy(), body.xmat.reshape(3, 3).copy())
-        return self._poses[value]
-
-    def length(self, point: Vector, reached: float) -> float:
-        """Way of a point of the part (3,) until a joint value is reached [m]."""
-        turned = self.part.info.joint_type == "hinge"
-        count = 8 if turned else 1
-        poses = [self.at(float(v)) for v in np.linspace(self.value, reached, count + 1)]
-        points = np.array([pose.position + pose.rotation @ point for pose in poses])
-        return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-
-    def place(self, value: float) -> None:
-        """Moves the part in the checker's frozen scene."""
-        low, high = sorted((self.part.lower, self.part.upper))
-        self.belief.checker.set_joint(self.part.joint, min(max(value, low), high))
-
-    def hits(self, contact: Contact, joints: Vector, value: float) -> list[str]:
-        """What the arm comes too close to at ``joints`` (n,) while it works on the part."""
-        self.place(value)
-        return self.belief.checker.hits(
-            joints,
-            clearance=CONTACT_CLEARANCE,
-            worked=(self.part.joint, contact.overlap),
-        )
-
-    def passage(self) -> Passage:
-        """A passage in which only the part's own furniture cannot be thought away."""
-        return Passage(self.belief.world.entries, {self.owner})
-
-
-def fraction_open(part: Part, value: float) -> float:
-    """Share of the travel that a joint value stands for."""
-    return (value - part.lower) / (part.upper - part.lower)
 
 
 def approaches(
@@ -300,7 +197,9 @@ def _next(
             continue
         tried = passage.copy()
         if not all(
-            tried.admits(travel.hits(contact, joints + (result.joints - joints) * share, at))
+            tried.admits(
+                travel.hits(contact.overlap, joints + (result.joints - joints) * share, at)
+            )
             for share, at in between
         ):
             continue

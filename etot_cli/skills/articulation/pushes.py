@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from etot_cli.skills.articulation.part_path import PENETRATION, PartTravel
+from etot_cli.skills.articulation.travel import PENETRATION, PartTravel
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Face, Part
 from etot_cli.world.pose import UP, Pose, cross, rotation_from_axes

@@ -12,17 +12,15 @@ import numpy as np
 
 from etot_cli.skills.articulation.grips import Grip, grips, spun
 from etot_cli.skills.articulation.part_path import (
-    CONTACT_CLEARANCE,
     Contact,
-    PartTravel,
     PreparedMove,
     approaches,
     away_from,
     backed_out,
     follow,
-    fraction_open,
 )
 from etot_cli.skills.articulation.pushes import pushes
+from etot_cli.skills.articulation.travel import CONTACT_CLEARANCE, PartTravel, fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
 from etot_cli.skills.motion.collision import HandPart
