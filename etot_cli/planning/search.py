@@ -265,7 +265,10 @@ class _Search:
             self._take(Corrections(node, path.revisions + 1, iter(branches)))
 
     def _foresee(self, node: PlanNode, record: RolloutRecord) -> Iterator[Branch]:
-        """The first corrections of a failure that has not been judged yet."""
+        """The first corrections of a failure that has not been judged yet.
+
+        In its turn it is judged and reflected on again: 0.2 ms each, of a second's simulation.
+        """
         verdict = self._reasoner.judge(node.action, record)
         if verdict.outcome is Outcome.SUCCESS or _is_abandoned(verdict):
             return

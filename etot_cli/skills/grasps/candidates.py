@@ -18,7 +18,7 @@ import mujoco
 import numpy as np
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.grasps.leaning import Slanted, across_walls
+from etot_cli.skills.grasps.leaning import across_walls
 from etot_cli.skills.grasps.lines import (
     Bounds,
     Line,
@@ -32,7 +32,7 @@ from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.pose import Pose, rotation_from_axes, turn_about
+from etot_cli.world.pose import UP, Pose, rotation_from_axes, turn_about
 
 FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""
@@ -62,7 +62,6 @@ at."""
 LEAST_ALIKE = 12
 """Of these, walls and whole widths from above, and walls through a mouth, at least as far as there
 are any: what stands in a cup keeps the fingers from all of its rim, and not from its outside."""
-_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 @dataclass(frozen=True)
@@ -110,11 +109,11 @@ def sample_grasps(
     # A model from a file may have its masses in bodies below the one that is called so.
     massive = world.entries[name].free and world.model.body(name).mass[0] > 0.0
     center = data.body(name).xipos.copy() if massive else (low + high) / 2
-    axis = _axis(world, data, name)
-    closings = closing_directions(axis)
+    own = world.entries[name].axis
+    axis = None if own is None else data.body(name).xmat.reshape(3, 3) @ np.array(own)
+    bounds, closings = (low, high, center, axis), closing_directions(axis)
     found = _Found(world.robot.spec.gripper.opening)
     if pose in (None, GraspPose.VERTICAL):
-        bounds = low, high, center, axis
         _from_above(world, solids, data, name, bounds, grid(bounds, closings), found)
         if all(pinch.friction > SLANTED for pinch in found.fitting):
             # Too wide at the middle, as large balls are. The lower, the less friction it takes.
@@ -124,7 +123,7 @@ def sample_grasps(
             lines = through_parts(world, data, name, bounds, closings)
             _from_above(world, solids, data, name, bounds, lines, found)
     if pose in (None, GraspPose.HORIZONTAL):
-        _from_side(solids, data, name, (low, high, center, axis), found)
+        _from_side(solids, data, name, bounds, found)
         _through_mouth(world, solids, data, name, found)
     return found.ranked()
 
@@ -201,13 +200,6 @@ class _Found:
         )
 
 
-def _axis(world: World, data: mujoco.MjData, name: str) -> Vector | None:
-    own = world.entries[name].axis
-    if own is None:
-        return None
-    return np.asarray(data.body(name).xmat.reshape(3, 3) @ np.array(own))
-
-
 def _from_above(
     world: World,
     solids: Solids,
@@ -227,7 +219,6 @@ def _from_above(
     tips[:, 2] = [high[2] - min(line.depth, deepest) - world.robot.tip for line in levels]
     lines = solids.intervals(data, name, origins, closings)
     at_tips = solids.intervals(data, name, tips, closings)
-    slanted: list[Slanted] = []
     chosen = [
         (number, interval, rim)
         for number, cuts in enumerate(zip(lines, at_tips, strict=True))
@@ -236,19 +227,18 @@ def _from_above(
     if not chosen:
         return
     of = np.array([number for number, _, _ in chosen])
-    twice = np.array([interval.start + interval.end for _, interval, _ in chosen])
-    middles = origins[of] + closings[of] * twice[:, None] / 2
+    along = np.array([interval.middle for _, interval, _ in chosen])
+    middles = origins[of] + closings[of] * along[:, None]
     middles[:, 2] = high[2] - np.minimum([levels[number].depth for number in of], deepest)
     scores = _scores(center, middles, axis, chosen, [levels[number].offset for number in of])
     for (number, interval, rim), middle, score in zip(chosen, middles, scores, strict=True):
-        closing = levels[number].closing
-        if rim and interval.squareness < SQUARE:
-            slanted.append(Slanted(middle, closing, score))
-        found.add(middle, _DOWN, closing, interval, GraspPose.VERTICAL, score, rim)
-    for wall in across_walls(solids, data, name, slanted):
+        found.add(middle, -UP, closings[number], interval, GraspPose.VERTICAL, score, rim)
+    slanted = [i for i, (_, wall, rim) in enumerate(chosen) if rim and wall.squareness < SQUARE]
+    for across in across_walls(solids, data, name, middles[slanted], closings[of[slanted]]):
+        score = scores[slanted[across.wall]] + LEAN_COST * across.lean
         found.add(
-            wall.middle, wall.approach, wall.closing, wall.interval,
-            GraspPose.VERTICAL, wall.score + LEAN_COST * wall.lean, wall=True,
+            across.middle, across.approach, across.closing, across.interval,
+            GraspPose.VERTICAL, score, wall=True,
         )  # fmt: skip
 
 
@@ -324,7 +314,7 @@ def _from_side(
         if not line:
             continue
         outer = line[0].to(line[-1])
-        middle = origin + closing * (outer.start + outer.end) / 2
+        middle = origin + closing * outer.middle
         score = 1.0 + abs(turn) * 0.3 + abs(origin[2] - center[2]) * 4 + abs(back) * 5
         if axis is not None and abs(float(axis @ closing)) > 0.5:
             continue
@@ -342,7 +332,7 @@ def _through_mouth(
     for (point, closing, approach), line in zip(lines, cuts, strict=True):
         for wall, is_rim in _choices(line, []):
             if is_rim:
-                middle = point + closing * (wall.start + wall.end) / 2
+                middle = point + closing * wall.middle
                 found.add(
                     middle, approach, closing, wall, GraspPose.HORIZONTAL, MOUTH_COST, wall=True
                 )

@@ -6,14 +6,14 @@ leans; across it the fingers close square.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
 from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.world.arrays import Vector
+from etot_cli.world.pose import UP
 
 LOWER = 0.006
 """How far below a wall is looked at again [m]: more than its surface is uneven, less than it is
@@ -24,63 +24,47 @@ SAME_WALL = 0.006
 """What is this close to where the wall should be is the wall [m]."""
 
 
-@dataclass(frozen=True)
-class Slanted:
-    """A wall that a level line meets at a slant.
-
-    Attributes:
-        middle: (3,) of the wall on that line, base frame [m].
-        closing: (3,) the line's direction.
-        score: of a grasp there; lower is better.
+class Across(NamedTuple):
+    """A line square to a leaning wall: of which wall, ``middle`` (3,) [m], ``closing`` and
+    ``approach`` (3,) unit vectors of the hand, the wall on that line, and the wall's ``lean`` from
+    the vertical [rad].
     """
 
-    middle: Vector
-    closing: Vector
-    score: float
-
-
-@dataclass(frozen=True)
-class Across:
-    """A line square to a leaning wall: ``middle`` (3,) [m], ``closing`` and ``approach`` (3,) unit
-    vectors of the hand, the wall on that line, and the wall's ``lean`` from the vertical [rad].
-    """
-
+    wall: int
     middle: Vector
     closing: Vector
     approach: Vector
     interval: Interval
     lean: float
-    score: float
 
 
 def across_walls(
-    solids: Solids, data: mujoco.MjData, name: str, walls: Sequence[Slanted]
+    solids: Solids, data: mujoco.MjData, name: str, middles: Vector, closings: Vector
 ) -> list[Across]:
-    """The lines square to walls, for those that lean no further than a hand can follow."""
-    if not walls:
+    """The lines square to walls, for those that lean no further than a hand can follow.
+
+    Args:
+        solids: the world's solids.
+        data: current poses.
+        name: the object.
+        middles: (m, 3) of walls on level lines that meet them at a slant, base frame [m].
+        closings: (m, 3) directions of these lines.
+    """
+    if not len(middles):
         return []
-    middles = np.array([wall.middle for wall in walls])
-    closings = np.array([wall.closing for wall in walls])
-    below = solids.intervals(data, name, middles - [0.0, 0.0, LOWER], closings)
-    leaning: list[tuple[Slanted, float]] = []
-    for wall, line in zip(walls, below, strict=True):
-        offset = min(((one.start + one.end) / 2 for one in line), key=abs, default=np.inf)
-        lean = float(np.arctan2(-offset, LOWER))
-        if abs(lean) <= STEEPEST:
-            leaning.append((wall, lean))
-    if not leaning:
+    below = solids.intervals(data, name, middles - LOWER * UP, closings)
+    offsets = [min((one.middle for one in line), key=abs, default=np.inf) for line in below]
+    leans = np.arctan2(-np.array(offsets), LOWER)
+    kept = np.flatnonzero(np.abs(leans) <= STEEPEST)
+    if not len(kept):
         return []
-    up = np.array([0.0, 0.0, 1.0])
-    squares = [np.cos(lean) * wall.closing - np.sin(lean) * up for wall, lean in leaning]
-    lines = solids.intervals(
-        data, name, np.array([wall.middle for wall, _ in leaning]), np.array(squares)
-    )
-    found = []
-    for (wall, lean), square, line in zip(leaning, squares, lines, strict=True):
-        down = -(np.sin(lean) * wall.closing + np.cos(lean) * up)
-        for one in line:
-            shift = (one.start + one.end) / 2
-            if abs(shift) <= SAME_WALL:
-                middle = wall.middle + square * shift
-                found.append(Across(middle, square, down, one, abs(lean), wall.score))
-    return found
+    sines, cosines = np.sin(leans[kept])[:, None], np.cos(leans[kept])[:, None]
+    squares = cosines * closings[kept] - sines * UP
+    downs = -(sines * closings[kept] + cosines * UP)
+    lines = solids.intervals(data, name, middles[kept], squares)
+    return [
+        Across(wall, middles[wall] + square * one.middle, square, down, one, abs(leans[wall]))
+        for wall, square, down, line in zip(kept.tolist(), squares, downs, lines, strict=True)
+        for one in line
+        if abs(one.middle) <= SAME_WALL
+    ]

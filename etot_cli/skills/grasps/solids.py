@@ -43,6 +43,11 @@ class Interval(NamedTuple):
         """Its length [m]."""
         return self.end - self.start
 
+    @property
+    def middle(self) -> float:
+        """Where its middle is along the line [m]."""
+        return (self.start + self.end) / 2
+
 
 class Solids:
     """Half-space description of all colliding geoms, in their own frames; computed once."""
