@@ -23,6 +23,9 @@ ROTATION_TOLERANCE = 0.02
 wrote it down: rounding to three digits leaves less."""
 UP = np.array([0.0, 0.0, 1.0])
 """Away from the floor, base frame."""
+LEVEL = 0.5
+"""What rises or falls by less than this (sine, 30°) is level, be it a rod, a mouth, a way in or a
+hand: nearer to lying than to standing."""
 
 
 @dataclass(frozen=True)

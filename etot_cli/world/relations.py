@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
+from etot_cli.world.pose import LEVEL
 from etot_cli.world.snapshot import Memory
 from etot_cli.world.state import (
     OPEN_AT,
@@ -24,9 +25,6 @@ from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does."""
-LIES = 0.5
-"""What is made to stand lies at the start where its axis rises by less than this (sine, 30°): more
-than half way to the side."""
 HOLLOW_KINDS = frozenset({"cup", "bowl"})
 """Kinds whose mouth is known to be along their z axis."""
 INSIDE_MARGIN = 0.010
@@ -65,7 +63,7 @@ def standing_axis(entry: ObjectEntry, rotation: NDArray[np.float64]) -> tuple[fl
     """
     size, kind = entry.info.size, entry.info.kind
     is_made_to = size[2] > max(size[:2]) or (entry.info.container and kind in HOLLOW_KINDS)
-    if is_made_to and abs(rotation[2, 2]) < LIES:
+    if is_made_to and abs(rotation[2, 2]) < LEVEL:
         return (0.0, 0.0, 1.0)
     return triple(rotation[2])
 

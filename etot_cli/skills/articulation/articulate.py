@@ -16,7 +16,17 @@ from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_a
 from etot_cli.skills.articulation.travel import fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
-from etot_cli.skills.motion.motion import Hand, Motion, Move, Phase, Trace, Wait, framed
+from etot_cli.skills.motion.motion import (
+    GRIP_TIME,
+    RELEASE_TIME,
+    Hand,
+    Motion,
+    Move,
+    Phase,
+    Trace,
+    Wait,
+    framed,
+)
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Part
@@ -26,7 +36,6 @@ ALREADY_OPEN, ALREADY_CLOSED = 0.98, 0.01
 """Shares of its travel from which on a part is left as it is."""
 TOOL_SPEED = 0.16
 """Quiet [m/s]: fast motion is where the prototype lost things, see docs/physics.md."""
-GRIP_TIME, RELEASE_TIME = 0.45, 0.35
 SETTLE_TIME = 1.2
 """Time for what stands in or on the part to come to rest, at most [s]."""
 PRESSED = 0.3

@@ -13,7 +13,7 @@ from etot_cli.skills.motion.collision import Attached, HandPart
 from etot_cli.skills.motion.kinematics import ANGLE_TOLERANCE, POSITION_TOLERANCE
 from etot_cli.skills.outcome import Blockers
 from etot_cli.world.arrays import Vector
-from etot_cli.world.pose import UP, Pose, straight
+from etot_cli.world.pose import LEVEL, UP, Pose, straight
 from etot_cli.world.relations import to_region
 from etot_cli.world.state import owner_of
 
@@ -30,8 +30,6 @@ CONTACT_CLEARANCE = 0.0008
 SURELY_MET = CONTACT_CLEARANCE - POSITION_TOLERANCE - 0.2 * ANGLE_TOLERANCE
 """Clearance that a hand has nowhere near a grasp, as exactly as the arm gets there: within the
 tolerances of inverse kinematics, for a hand of 0.2 m [m]."""
-LEVEL = 0.5
-"""A hand whose approach falls or rises less than this (sine) can take things out of a front."""
 CLEAR = 0.015
 """Height to which an object is raised before it is taken out level [m]."""
 OUT_LENGTHS = (0.24, 0.16)

@@ -13,9 +13,8 @@ import numpy as np
 
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
+from etot_cli.world.pose import LEVEL
 
-LIES = 0.5
-"""A mouth whose axis rises less than this (sine) can be entered by a level hand."""
 DEPTHS = (0.022, 0.012)
 """How far the tool point goes in through the mouth [m]: as deep as it goes below a rim that is
 taken from above, and as little as the pads still hold."""
@@ -42,7 +41,7 @@ def across_mouth(world: World, data: mujoco.MjData, name: str) -> list[MouthLine
     rotation = body.xmat.reshape(3, 3)
     opening = np.array(region.opening)
     out = rotation @ opening
-    if abs(out[2]) >= LIES:
+    if abs(out[2]) >= LEVEL:
         return []
     mouth = body.xpos + rotation @ (np.array(region.center) + np.abs(region.half) * opening)
     level = np.array([out[0], out[1], 0.0]) / np.hypot(out[0], out[1])

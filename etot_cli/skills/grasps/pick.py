@@ -13,10 +13,19 @@ from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
-from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
+from etot_cli.skills.motion.motion import (
+    GRIP_TIME,
+    Hand,
+    Motion,
+    Move,
+    PhaseEnd,
+    Trace,
+    Wait,
+    framed,
+)
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, arm_stopped, failed
 from etot_cli.world.build.pads import grip_friction
-from etot_cli.world.pose import Pose
+from etot_cli.world.pose import LEVEL, Pose
 from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
@@ -24,8 +33,6 @@ LIFT_SPEED = 0.15
 """Quiet [m/s]: fast motion is where the prototype lost things, see docs/physics.md."""
 SETTLE_TIME = 0.08
 """Time for the arm to come to rest before the fingers close [s]."""
-GRIP_TIME = 0.45
-"""Time for the fingers to close and the grasp to settle [s]."""
 HOLD_TIME = 0.4
 """Time the object must stay in the hand after the lift [s]."""
 HELD_SHARE = 0.4
@@ -86,7 +93,7 @@ def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Gras
     if rehearsed is None or rehearsed.tool_at is None:
         return
     tool = belief.object_pose(name) @ rehearsed.tool_at.pose
-    level = abs(float(tool.rotation[2, 2])) < 0.5
+    level = abs(float(tool.rotation[2, 2])) < LEVEL
     pose = GraspPose.HORIZONTAL if level else GraspPose.VERTICAL
     details = rehearsed.details
     yield Grasp(tool, details["width"], details["opening"], pose, 0.0, details.get("slant", 0.0))

@@ -60,6 +60,10 @@ class Move:
     dwell: float = 0.0
 
 
+GRIP_TIME, RELEASE_TIME = 0.45, 0.35
+"""Times for the fingers to close and a grasp to settle, and for them to open [s]."""
+
+
 @dataclass(frozen=True)
 class Hand:
     """The gripper moves while the arm holds still.

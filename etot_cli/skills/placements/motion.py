@@ -9,7 +9,16 @@ import numpy as np
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
-from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace, Wait, framed
+from etot_cli.skills.motion.motion import (
+    RELEASE_TIME,
+    Hand,
+    Motion,
+    Move,
+    PhaseEnd,
+    Trace,
+    Wait,
+    framed,
+)
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import put_places
@@ -21,7 +30,8 @@ LOWER_SPEED = 0.12
 BACK_SPEED = 1.5 * LOWER_SPEED
 """Lowering is slow [m/s], as the grasp carries the shock of contact; an empty hand may be
 quicker."""
-LOWERED_TIME, RELEASE_TIME = 0.1, 0.35
+LOWERED_TIME = 0.1
+"""Time for the arm to come to rest before the fingers open [s]."""
 SETTLE_TIME = 1.6
 """Time for what was put down to come to rest, at most [s]."""
 HOLDING_SHARE = 0.5

@@ -10,7 +10,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
-from etot_cli.world.pose import UP, rotation_between, turn_about
+from etot_cli.world.pose import LEVEL, UP, rotation_between, turn_about
 from etot_cli.world.relations import standing_axis
 
 HIGHEST_APPROACH = 0.1
@@ -19,8 +19,6 @@ TURNS_AT_ONCE = 4
 """The most comfortable turns mostly do, so the others are looked at only where they do not."""
 DOWN = 0.6
 """A hand points down rather than level while it falls by more than this (sine; 37°)."""
-LYING = 0.5
-"""What is long lies as long as it rises by less than this (sine)."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 TIPPED = np.radians(40)
@@ -61,7 +59,7 @@ def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | N
     size = np.array(belief.world.entries[attached.name].info.size)
     longest = int(np.argmax(size))
     along = pose.rotation[:, longest]
-    if abs(along[2]) > LYING or size[longest] <= 2 * float(support.half.max()):
+    if abs(along[2]) > LEVEL or size[longest] <= 2 * float(support.half.max()):
         return None
     ways = [rotation_between(along, end * UP) @ pose.rotation for end in (1.0, -1.0)]
     heights = [float((way @ attached.in_tool.rotation.T)[2, 2]) for way in ways]
@@ -105,7 +103,7 @@ def orientations(
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
     axis = now @ np.array(standing_axis(entry, now))
-    enters_level = support.from_front and axis[2] < LYING and _points_down(belief)
+    enters_level = support.from_front and axis[2] < LEVEL and _points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and (upright or enters_level):
         found = _turned(belief, attached, support, rotation_between(axis, UP) @ now, laid=False)

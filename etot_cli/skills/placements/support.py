@@ -10,17 +10,16 @@ from etot_cli.skills.belief import Belief
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Region
 from etot_cli.world.placing import object_bounds
+from etot_cli.world.pose import LEVEL
 from etot_cli.world.state import DESK, owner_of
 
 DESK_EDGE = 0.05
 """Distance kept from the desk's edges [m]: what is nudged there must not fall."""
-LEVEL = 0.95
+EVEN = 0.95
 """A named top counts as a floor while its normal is this close to the vertical (cosine; 18°);
 beyond, whatever side of the object is up serves."""
 UPRIGHT = 0.7
 """Containers that lean more than this (cosine) are not filled."""
-FRONT = 0.5
-"""Containers whose opening rises less than this (sine) are filled from the front."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +75,7 @@ def surface_support(belief: Belief, address: str) -> Support | None:
         return _space(belief, address, surface.space, is_container=False)
     body = belief.data.body(surface.body)
     rotation = body.xmat.reshape(3, 3)
-    if rotation[2, 2] < LEVEL:
+    if rotation[2, 2] < EVEN:
         return _whatever_is_up(belief, address)
     center = body.xpos + rotation @ np.array(surface.center)
     return Support(
@@ -104,7 +103,7 @@ def _space(belief: Belief, address: str, region: Region, *, is_container: bool) 
     floor = body.xpos + rotation @ (np.array(region.center) - np.array([0.0, 0.0, region.half[2]]))
     half, axes = np.array(region.half[:2]), _level_axes(rotation)
     out = rotation @ np.array(region.opening)
-    from_front = bool(abs(out[2]) < FRONT)
+    from_front = bool(abs(out[2]) < LEVEL)
     if from_front:
         # The axes in the order and with the signs that bring the way out to the front.
         first = axes @ out[:2]
