@@ -149,15 +149,15 @@ def fits(
         return ~fits(there, points, radius, landmarks, area, forward)
     ahead = np.array(forward)
     left = np.array([-forward[1], forward[0]])
+    sides = {
+        Nearby.LEFT: (left, ahead),
+        Nearby.RIGHT: (-left, ahead),
+        Nearby.BEHIND: (ahead, left),
+        Nearby.FRONT: (-ahead, left),
+    }
+    if where.relation in sides:
+        return _on_side(points, radius, landmarks[0], *sides[where.relation])
     match where.relation:
-        case Nearby.LEFT:
-            return _on_side(points, radius, landmarks[0], left, ahead)
-        case Nearby.RIGHT:
-            return _on_side(points, radius, landmarks[0], -left, ahead)
-        case Nearby.BEHIND:
-            return _on_side(points, radius, landmarks[0], ahead, left)
-        case Nearby.FRONT:
-            return _on_side(points, radius, landmarks[0], -ahead, left)
         case Nearby.NEXT_TO:
             return np.asarray(landmarks[0].distance(points) - radius <= NEXT_TO)
         case Nearby.NEAR:
@@ -267,14 +267,10 @@ def _in_region(
     offset = points - np.array(area.center)
     aside = offset @ left / max(area.extent(left), 1e-9)
     away = offset @ ahead / max(area.extent(ahead), 1e-9)
-    match relation:
-        case Nearby.AT_LEFT:
-            return np.asarray(aside >= THIRD)
-        case Nearby.AT_RIGHT:
-            return np.asarray(aside <= -THIRD)
-        case Nearby.AT_BACK:
-            return np.asarray(away >= THIRD)
-        case Nearby.AT_FRONT:
-            return np.asarray(away <= -THIRD)
-        case _:
-            return np.asarray((np.abs(aside) <= THIRD) & (np.abs(away) <= THIRD))
+    sides = {
+        Nearby.AT_LEFT: aside, Nearby.AT_RIGHT: -aside,
+        Nearby.AT_BACK: away, Nearby.AT_FRONT: -away,
+    }  # fmt: skip
+    if relation in sides:
+        return np.asarray(sides[relation] >= THIRD)
+    return np.asarray((np.abs(aside) <= THIRD) & (np.abs(away) <= THIRD))
