@@ -88,6 +88,8 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         for thing in dict.fromkeys(thing for option in every for thing in option)
         if any(touches(thing, target, context.scene) for target in targets)
     ]
+    if stays and targets and not there:
+        discourse.notes.append(f"{referent.text!r} is not there yet, and is put there")
     options = tuple(
         option for option in every if ({*option} <= {*there} if stays else not {*option} & {*there})
     )
