@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.surfaces import Surfaces
 from etot_cli.reconstruction.capture.view import Array, Mask
-from etot_cli.reconstruction.masks.foreground import LEAST_PIXELS
-from etot_cli.reconstruction.masks.fragments import rejoined
 from etot_cli.reconstruction.masks.labels import Labels, label_components, nearest_label, opened
 
 COLOR_STEP = 22.0
@@ -67,15 +65,7 @@ def part_by_color(seen: Calibrated, surfaces: Surfaces, piece: Mask) -> list[Mas
     for index in range(1, count + 1):
         key = root(index)
         groups[key] = groups.get(key, np.zeros_like(piece)) | (labels == index)
-    parts = [part for part in groups.values() if part.sum() >= LEAST_PIXELS]
-    if len(parts) < len(groups) and parts:
-        # What is too small for an object is part of the one beside it.
-        seeds = np.zeros(piece.shape, np.int32)
-        for index, part in enumerate(parts):
-            seeds[part] = index + 1
-        nearest = nearest_label(seeds)
-        parts = [piece & (nearest == index + 1) for index in range(len(parts))]
-    return rejoined(parts, surfaces.color) or [piece]
+    return list(groups.values())
 
 
 def _extent(mask: Mask, direction: Array) -> float:

@@ -166,20 +166,3 @@ def _compact(mask: Mask) -> float:
 def _bridged(mask: Mask) -> Mask:
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (TEAR + 2,) * 2)
     return cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_CLOSE, kernel) > 0
-
-
-def rejoined(parts: list[Mask], color: NDArray[np.float32]) -> list[Mask]:
-    """Joins parts of one colour that something in front of them or in them keeps apart."""
-    for second in range(len(parts) - 1, 0, -1):
-        for first in range(second):
-            one, two = parts[first], parts[second]
-            gap = np.linalg.norm(np.median(color[one], axis=0) - np.median(color[two], axis=0))
-            if gap > ONE_COLOR:
-                continue
-            union = one | two
-            between = np.any(parts, axis=0) & convex_hull_mask(union)
-            if between.sum() > 0.85 * convex_hull_mask(union).sum():
-                parts[first] = union
-                del parts[second]
-                break
-    return parts

@@ -15,13 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.reconstruction.capture.calibration import Calibrated
-from etot_cli.reconstruction.capture.view import Array, Mask
-from etot_cli.reconstruction.masks.labels import grown, label_components, opened
+from etot_cli.reconstruction.capture.view import Mask
+from etot_cli.reconstruction.masks.labels import grown, opened
 
 FLAT = 0.003
 """Heights up to this are the desk's [m]."""
-FLOOR = FLAT / 2
-"""Many readings together tell a thin floor on the desk from the desk [m]."""
 DISPLACED = 3
 """What depth says of a pixel may be true of one this far away [px]."""
 THINNEST = 3
@@ -42,18 +40,17 @@ LEAST_GAIN = 0.02
 @dataclass(frozen=True)
 class Readings:
     """Pixels (h, w) that are surely ``raised`` above the desk, those that are surely ``flat``,
-    patches that are ``lost``, and the ``height`` (h, w) above the desk [m].
+    and patches that are ``lost``.
     """
 
     raised: Mask
     flat: Mask
     lost: Mask
-    height: Array
 
     def moved(self, right: int, down: int) -> Readings:
         """As they are when depth is moved [px]."""
         move = partial(np.roll, shift=(down, right), axis=(0, 1))
-        return Readings(move(self.raised), move(self.flat), move(self.lost), move(self.height))
+        return Readings(move(self.raised), move(self.flat), move(self.lost))
 
 
 def sure_readings(seen: Calibrated) -> Readings:
@@ -68,7 +65,7 @@ def sure_readings(seen: Calibrated) -> Readings:
     raised = opened(raised, 2)
     by_raised, by_desk = grown(raised, DISPLACED), grown(flat, DISPLACED)
     lost = opened(~np.isfinite(seen.height), THINNEST)
-    return Readings(raised & ~by_desk, flat & ~by_raised, lost, seen.height)
+    return Readings(raised & ~by_desk, flat & ~by_raised, lost)
 
 
 def settled_by_depth(
@@ -127,22 +124,7 @@ def _settled(found: Mask, raised: Mask, foreign: Mask, shade: Mask, readings: Re
     # What rises above the desk is not desk, whatever its colour.
     result = ((found ^ differ) | (raised & shade & ~foreign)) & ~readings.flat
     closed = cv2.morphologyEx(result.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
-    return _filled(result | ((closed > 0) & ~foreign & ~readings.flat), foreign, readings)
-
-
-def _filled(mask: Mask, foreign: Mask, readings: Readings) -> Mask:
-    """A mask with the holes through which not the desk is seen but, say, a cup's floor."""
-    filled = mask.copy()
-    parts = label_components(~mask, 1)
-    outside = np.unique(np.concatenate([parts[0], parts[-1], parts[:, 0], parts[:, -1]]))
-    for index in range(1, int(parts.max()) + 1):
-        if index in outside:
-            continue
-        hole = parts == index
-        heights = readings.height[hole & ~readings.lost & np.isfinite(readings.height)]
-        if not len(heights) or np.median(heights) > FLOOR:
-            filled |= hole & ~foreign
-    return filled
+    return np.asarray(result | ((closed > 0) & ~foreign & ~readings.flat))
 
 
 def _displacement(
