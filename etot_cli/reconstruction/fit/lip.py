@@ -41,12 +41,6 @@ LEAST_CONTRAST = 2.5
 """Weaker edges are not believed (of 255)."""
 LEAST_COLUMNS = 8
 """An edge that fewer columns show may be a pattern on the wall."""
-UNEXPLAINED = 0.04
-"""With a larger share of the variance left by one edge, another one before it is looked for."""
-SECOND = 0.35
-"""Two edges leave at most this share of what one leaves, or there is only one."""
-APART = 1.5
-"""Two edges are at least so far apart [px]."""
 
 
 @dataclass(frozen=True)
@@ -80,15 +74,6 @@ class _Profile(NamedTuple):
         return float(self.weights @ (errors**2).sum(axis=1) / self.weights.sum())
 
 
-class _Edge(NamedTuple):
-    """An edge at ``height`` [m] and what the best fit with it leaves and explains."""
-
-    height: float
-    left: float
-    gain: float
-    variance: float
-
-
 def rim_height(seen: Calibrated, mask: Mask, cup: Array) -> float | None:
     """Height of the rim above the foot [m], or None where colour does not show it.
 
@@ -102,15 +87,7 @@ def rim_height(seen: Calibrated, mask: Mask, cup: Array) -> float | None:
     if wall is None:
         return None
     lowest = max(wall.reach - WIDEST * diameter, WIDEST * wall.reach)
-    edge = _search(wall, lowest, wall.reach, None)
-    if edge is None:
-        return None
-    if edge.left > UNEXPLAINED * edge.variance:
-        # Between the lip and what lies in the mouth there may be a stronger edge than the rim's.
-        first = _search(wall, lowest, edge.height - APART / wall.scale, edge.height)
-        if first is not None and first.left < SECOND * (first.left + first.gain):
-            edge = first
-    return edge.height
+    return _search(wall, lowest, wall.reach)
 
 
 def _unrolled(seen: Calibrated, mask: Mask, cup: Array) -> _Wall | None:
@@ -141,57 +118,31 @@ def _unrolled(seen: Calibrated, mask: Mask, cup: Array) -> _Wall | None:
     )
 
 
-def _search(wall: _Wall, low: float, high: float, second: float | None) -> _Edge | None:
-    """The edge in a range of heights that explains most.
-
-    Args:
-        wall: the unrolled wall.
-        low: lowest height [m].
-        high: highest height [m].
-        second: height of another edge that is there too, to a pixel [m]; what counts is then what
-            the first one explains besides.
-    """
+def _search(wall: _Wall, low: float, high: float) -> float | None:
+    """The height from ``low`` to ``high`` at which an edge explains most [m]."""
     rows = np.nonzero((wall.heights >= low) & (wall.heights < high))[0]
-    tried: dict[int, _Edge | None] = {}
+    tried: dict[int, float] = {}
     for _ in range(2):
         for row in rows[::COARSE] if not tried else rows:
             if int(row) not in tried:
-                tried[int(row)] = _edge_at(wall, float(wall.heights[row]), second)
-        found = {row: edge for row, edge in tried.items() if edge is not None}
-        if not found:
+                tried[int(row)] = _gain_at(wall, float(wall.heights[row]))
+        best = max(tried, key=lambda row: tried[row], default=None)
+        if best is None or tried[best] == -np.inf:
             return None
-        best = max(found, key=lambda row: found[row].gain)
         rows = np.arange(max(best - COARSE, rows[0]), min(best + COARSE, rows[-1]) + 1)
-    return found[max(found, key=lambda row: found[row].gain)]
+    return float(wall.heights[max(tried, key=lambda row: tried[row])])
 
 
-def _edge_at(wall: _Wall, height: float, second: float | None) -> _Edge | None:
+def _gain_at(wall: _Wall, height: float) -> float:
+    """Variance of the colours that an edge at a height explains; -inf where there is none."""
     profile = _profile(wall, height)
     if profile is None:
-        return None
-    variance, blurs = profile.variance, np.array(BLURS) / wall.scale
-    if second is None:
-        lefts, levels = _steps(profile, np.full((len(BLURS), 1), height), blurs)
-        best = int(np.argmin(lefts))
-        left = float(lefts[best])
-        return _believed(levels[best], _Edge(height, left, variance - left, variance))
-    edges: list[_Edge] = []
-    seconds = second + np.array([-1.0, -0.5, 0.0, 0.5]) / wall.scale
-    seconds = seconds[seconds > height + APART / wall.scale]
-    both = np.column_stack([np.full(len(seconds), height), seconds])
-    for blur in blurs if len(seconds) else ():
-        same = np.full(len(seconds), blur)
-        alone = float(_steps(profile, seconds[:, None], same)[0].min())
-        lefts, levels = _steps(profile, both, same)
-        best = int(np.argmin(lefts))
-        left = float(lefts[best])
-        edge = _believed(levels[best], _Edge(height, left, alone - left, variance))
-        edges += [] if edge is None else [edge]
-    return max(edges, key=lambda edge: edge.gain, default=None)
-
-
-def _believed(levels: Array, edge: _Edge) -> _Edge | None:
-    return edge if float(np.linalg.norm(levels[0])) > LEAST_CONTRAST else None
+        return -np.inf
+    lefts, levels = _steps(profile, height, np.array(BLURS) / wall.scale)
+    best = int(np.argmin(lefts))
+    if float(np.linalg.norm(levels[best])) <= LEAST_CONTRAST:
+        return -np.inf
+    return profile.variance - float(lefts[best])
 
 
 def _profile(wall: _Wall, height: float) -> _Profile | None:
@@ -213,17 +164,16 @@ def _profile(wall: _Wall, height: float) -> _Profile | None:
     return _Profile(heights[kept], mean, weights[kept])
 
 
-def _steps(profile: _Profile, edges: Array, blurs: Array) -> tuple[Array, Array]:
-    """What blurred steps leave unexplained (n,), and the steps' colours (n, k, 3).
+def _steps(profile: _Profile, edge: float, blurs: Array) -> tuple[Array, Array]:
+    """What a blurred step leaves unexplained (k,), and the step's colour (k, 3).
 
     Args:
         profile: the colours.
-        edges: heights (n, k) of k steps that are there together [m].
-        blurs: standard deviations (n,) of each set's blur [m].
+        edge: height of the step [m].
+        blurs: standard deviations (k,) of the blurs that are tried [m].
     """
-    shape = ndtr((profile.heights[:, None] - edges[:, None, :]) / blurs[:, None, None])
-    weighted = np.swapaxes(shape * profile.weights[:, None], 1, 2)
-    # Of steps beyond all that is seen nothing can be said: their colour is none.
-    levels = np.linalg.pinv(weighted @ shape, hermitian=True) @ (weighted @ profile.colors)
-    errors = ((profile.colors - shape @ levels) ** 2).sum(axis=2)
+    shape = ndtr((profile.heights - edge) / blurs[:, None])
+    weighted = shape * profile.weights
+    levels = (weighted @ profile.colors) / (weighted * shape).sum(axis=1)[:, None]
+    errors = ((profile.colors - shape[..., None] * levels[:, None]) ** 2).sum(axis=2)
     return errors @ profile.weights / profile.weights.sum(), levels
