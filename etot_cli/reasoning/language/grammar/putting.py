@@ -53,7 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import basic_color, singular
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.world.spatial import Nearby
 
 
@@ -117,12 +117,12 @@ PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 
 
 def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause | None:
-    """A place and what goes there; "next to the tape" is no "next, to the tape", and "to the red
-    bowl" no bowl to the red one.
+    """A place and what goes there; "next to the tape" is no "next, to the tape", and "to the big
+    bowl" no bowl to the big one.
     """
     last = [*where[-1].targets, *(np for item in where[-1].beside for np in item.phrases)][-1:]
     if not nps[0].determiner and any(
-        not (np.words or np.pronoun) or basic_color(np.head) for np in last
+        not (np.words or np.pronoun) or is_descriptive(np.head) for np in last
     ):
         return None
     vague = any(item.toward is Toward.TO for item in where)
