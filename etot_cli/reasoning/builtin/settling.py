@@ -55,7 +55,12 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
             before = goal.steps[:index]
             there = [i for i in last if not any(_moves(other, i) for other in before)]
             _check_removal(goal, there, scene)
-            kept = tuple(i for i in step.what if i in last or _must_be_out(goal, i, later, scene))
+            back = [i for i in step.what if i not in last and _goes_back(goal, i, index, scene)]
+            kept = tuple(
+                i
+                for i in step.what
+                if i in last or i in back or _must_be_out(goal, i, later, scene)
+            )
             if kept:
                 steps.append(replace(step, what=kept))
             continue
@@ -84,6 +89,31 @@ def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneS
         if not isinstance(step, Open) and around & _named(goal, referents_of(step)):
             return True
     return False
+
+
+def _goes_back(goal: Goal, referent: int, at: int, scene: SceneState) -> bool:
+    """Whether step ``at``, the first that moves it, takes something from where the next one puts
+    it: what is taken out and put back has been out.
+    """
+    names = _named(goal, (referent,))
+    moves = [
+        step for step in goal.steps if isinstance(step, Put) and names & _named(goal, step.what)
+    ]
+    if moves[0] is not goal.steps[at]:
+        return False
+    states = [scene.states[name] for name in names if name in scene.states]
+    # What is inside something is on its floor, too.
+    around = {(Relation.INSIDE, state.inside) for state in states if state.inside is not None}
+    around |= {(Relation.ON, at) for state in states if state.inside is None for at in state.on}
+    return all(
+        place.where is not None
+        and not place.beside
+        and any(
+            (place.relation, thing.address) in around
+            for thing in things_in(goal.referents[place.where].options)
+        )
+        for place in moves[1].places
+    )
 
 
 def _named(goal: Goal, referents: Iterable[int]) -> set[str]:

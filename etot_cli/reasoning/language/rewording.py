@@ -80,9 +80,8 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
 def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
     text, names = normalized(refused.instruction), _Names(scene)
     unmade = _UNMADE.findall(text)
-    meant = _UNMADE.split(_NEARNESS.sub("near", text), maxsplit=1)[0]
-    if unmade:
-        meant = re.sub("[^;.]*$", "", meant)  # the sentence with it means another
+    parts = re.split("[;.]", _NEARNESS.sub("near", text))
+    meant = ". ".join(part for part in parts if not _UNMADE.search(part))  # others mean another
     mentions = _mentions(meant, scene, names)
     said = [mention.info for mention in mentions]
     yield from (
@@ -90,7 +89,8 @@ def _near(refused: Refused, scene: SceneState) -> Iterator[str]:
         for near in _changed(refused, said, names, scene)
         if _UNMADE.findall(normalized(near)) == unmade
     )
-    barred = [mention.info for mention in _mentions(text, scene, names) if unmade]
+    spoken = [mention.info for mention in _mentions(text, scene, names)]
+    barred = [info for info in spoken if info not in said]
     yield from _same_shape(meant, mentions, names, scene, barred)
 
 
