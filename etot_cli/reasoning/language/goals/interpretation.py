@@ -11,19 +11,16 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Goal,
-    Keep,
     Open,
     Pick,
     Put,
     Referent,
-    Relation,
     Step,
-    things_in,
 )
-from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
+from etot_cli.reasoning.language.goals.checks import check_held, check_kept, check_run, check_turns
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.plausibility import (
@@ -51,8 +48,7 @@ from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
-from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import SceneState
 
 MAX_COMPARED = 6
 """Different goals of one sentence that are compared; more are too many to name."""
@@ -68,11 +64,11 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     state = _State(scene, Discourse(scene), Resolver(scene, vocabulary))
     for sentence in sentences:
         state = _best_reading(state, sentence)
-    _check_kept(state.goal())
-    _check_run(state.goal())
-    _check_turns(state.timed, state.context.discourse)
+    check_kept(state.goal())
+    check_run(state.goal())
+    check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
-    _check_held(state.timed, goal, scene)
+    check_held(state.timed, goal, scene)
     named = isinstance(state.last, ReorientClause) and state.last.only_named
     if not goal.steps and not state.asked and (goal.constraints or named):
         said = "how things are" if named else "what not to do"
@@ -96,87 +92,6 @@ def _without_places(state: _State) -> Goal:
                 referents[index] = replace(referents[index], options=(kept,))
                 notes.append(f"{referents[index].text!r}: without {out}, where things go")
     return replace(goal, referents=tuple(referents), notes=tuple(notes))
-
-
-def _check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
-    """Whether anything is to be done "then" while what was picked up stays in the hand, or moves
-    what it stands on before it is picked up.
-    """
-    moved = {
-        thing.name
-        for step in goal.steps
-        if isinstance(step, Put)
-        for index in step.what
-        for option in goal.referents[index].options
-        for thing in option
-    }
-    for out in (out for out in goal.constraints if (Relation.ON, DESK) in out.places):
-        for name in out.names:
-            if DESK in scene.states[name].on and name not in moved:
-                raise ReferenceProblem(name, "say where it is to go", 3)
-    for pick in (step for step in goal.steps if isinstance(step, Pick)):
-        for thing in things_in(goal.referents[pick.what].options):
-            if below := sorted(moved & carriers(scene, thing.name)):
-                why = f"it would go along with {below[0]}; say where it is to go before"
-                raise ReferenceProblem(goal.referents[pick.what].text, why, 4)
-    held: int | None = None
-    for item in said:
-        further = any(not (isinstance(step, Pick) and step.what == held) for step in item.steps)
-        if held is not None and further and item.order is Order.THEN:
-            why = "it is in the hand by then; say where it is to go before"
-            raise ReferenceProblem(goal.referents[held].text, why, 4)
-        picked = [step.what for step in item.steps if isinstance(step, Pick) and step in goal.steps]
-        held = picked[-1] if picked else held
-
-
-def _check_kept(goal: Goal) -> None:
-    """Whether anything is to be put somewhere and to stay where it is."""
-    still = (Keep.UNTOUCHED, Keep.UNMOVED)
-    kept = {name for item in goal.constraints if item.keep in still for name in item.names}
-    for index in (index for step in goal.steps if isinstance(step, Put) for index in step.what):
-        referent = goal.referents[index]
-        always = set.intersection(*({t.name for t in option} for option in referent.options))
-        for name in sorted(always & kept):
-            why = f"{name} cannot both be put somewhere and be left as it is"
-            raise ReferenceProblem(referent.text, why, 4)
-
-
-def _check_run(goal: Goal) -> None:
-    """Whether puts of one sentence that no word puts in an order send something to two places."""
-    gone: set[tuple[int, object]] = set()
-    for step in goal.steps:
-        returned = isinstance(step, Put) and any(
-            near.relation is Nearby.AT_POINT for place in step.places for near in place.beside
-        )
-        if isinstance(step, Put) and not (step.removal or step.aside or returned):
-            for index in step.what:
-                options = goal.referents[index].options
-                own = {(step.run, item) for item in (options[0] if len(options) == 1 else (index,))}
-                # "The cups on the tray, one at the front": whichever it is goes to both.
-                every = {(step.run, thing) for option in options for thing in option}
-                if own & gone or every <= gone:
-                    why = "it cannot go to two places at once; say 'then'"
-                    raise ReferenceProblem(goal.referents[index].text, why, 4)
-                gone |= own
-
-
-def _check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
-    """Whether "the small one goes in last" speaks of what was put there by another clause."""
-    put = [
-        {
-            thing
-            for step in item.steps
-            if isinstance(step, Put)
-            for index in step.what
-            for thing in discourse.things(index)
-        }
-        for item in said
-    ]
-    for number, item in enumerate(said):
-        others = set().union(*put[:number], *put[number + 1 :])
-        if item.order in (Order.FIRST, Order.LAST) and put[number] & others:
-            why = "it was asked for already; say there what goes first or last"
-            raise ReferenceProblem(str(item.order), why, 4)
 
 
 def _check_instead(spoken: Spoken, before: Clause | None) -> None:
