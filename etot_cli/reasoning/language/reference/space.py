@@ -179,7 +179,12 @@ def holds_at(
         Prep.BEARING: lambda landmark: rests_on(landmark, thing, scene),
         Prep.COLORED: lambda landmark: _alike(thing, landmark, scene),
         Prep.UNDER: lambda landmark: (
-            (thing.board is None and thing.name in _bearers(landmark, scene))
+            (
+                # Of levels none but the next is under what is in or on one of them.
+                thing.board is None
+                and (thing.part is None or _level_of(landmark, thing, scene) == landmark)
+                and thing.name in _bearers(landmark, scene)
+            )
             or _levels_up(thing, _level_of(landmark, thing, scene), scene) == 1
         ),
         Prep.ABOVE: lambda landmark: (

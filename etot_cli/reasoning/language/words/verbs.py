@@ -27,7 +27,7 @@ SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
 """Before a place alone, what was spoken of goes there."""
-THROW_AWAY = "throw[ing] (away|out), discard[ing], dispos(e|ing) of"
+THROW_AWAY = "throw[ing] (away|out), discard[ing], (dispos(e|ing)|get[ting] rid) of"
 GATHER = "gather[ing], collect[ing], assembl(e|ing)"
 """With a place it is bringing things there, rather than picking up what is there."""
 THROW = f"throw[ing], toss[ing], chuck[ing], {THROW_AWAY}"
@@ -43,7 +43,7 @@ TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
     remov(e|ing), clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
-    get[ting] (out|down|rid of), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
+    get[ting] (out|down), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
 TIDY = "tidy[ing] [up], tidy[ing] away, clear[ing] [away], clean[ing] up, sort[ing], clear[ing] up"
