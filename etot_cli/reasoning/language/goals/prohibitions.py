@@ -84,6 +84,11 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     things = context.discourse.things(*indices)
     parted = role is Role.PART
     names = tuple(dict.fromkeys(t.address if parted and t.part else t.name for t in things))
+    if clause.avoid is Avoid.OPEN:
+        own = [part for thing in things for part in parts_of(context.scene, thing)]
+        shut = [part for part in own if not is_open(context.scene, part)]
+        if shut != own:  # what stands open is neither opened nor to be closed
+            names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
     context.discourse.step_back(before)

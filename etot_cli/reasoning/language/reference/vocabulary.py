@@ -108,7 +108,8 @@ class Vocabulary:
         """
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
-        packed = [entry for entry in told if entry.is_pack_of(before, word)]
+        kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
+        packed = [entry for entry in told if entry.is_pack_of(kind, word)]
         said = is_descriptive(word) or word in STATES or word in MATERIALS
         if said or (word in PURPOSES and not packed):
             return []
