@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, islice
 
-from scipy.optimize import linear_sum_assignment
-
 from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -199,6 +197,8 @@ def _beside_each(context: Context, group: PutGroup) -> None:
     if len(things) < len(marks):
         why = f"there are {len(things)} for {len(marks)} places"
         raise ReferenceProblem(phrase.text, why, 2)
+    from scipy.optimize import linear_sum_assignment  # takes longer to load than the whole grammar
+
     away = [[gap(thing, mark, context.scene) for mark in marks] for thing in things]
     for i, j in zip(*linear_sum_assignment(away), strict=True):
         theme = context.single(things[i], phrase.text)

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
-_INNERMOST = re.compile(r"\(([^()\[\]]*)\)|\[([^()\[\]]*)\]")
+_PIECES = re.compile(r"[()\[\]|]|[^()\[\]|]+")
 
 
 def expand(pattern: str) -> list[str]:
     """All spellings of a pattern: ``(a|b)`` alternatives, ``[c]`` something optional, nested."""
-    found = _INNERMOST.search(pattern)
-    if found is None:
-        return [" ".join(pattern.split())]
-    choices = found[1].split("|") if found[2] is None else (*found[2].split("|"), "")
-    before, after = pattern[: found.start()], pattern[found.end() :]
-    each = (expand(f"{before}{choice}{after}") for choice in choices)
-    return list(dict.fromkeys(text for texts in each for text in texts))
+    texts = _alternatives(iter(_PIECES.findall(pattern)))
+    return list(dict.fromkeys(" ".join(text.split()) for text in texts))
+
+
+def _alternatives(pieces: Iterator[str]) -> list[str]:
+    """What the pieces up to the end of their bracket may be."""
+    done, texts = list[str](), [""]
+    for piece in pieces:
+        if piece == "|":
+            done, texts = done + texts, [""]
+        elif piece in ")]":
+            break
+        else:
+            each = _alternatives(pieces) if piece in "([" else [piece]
+            each = [*each, ""] if piece == "[" else each
+            texts = [f"{before}{text}" for before in texts for text in each]
+    return done + texts
 
 
 def spellings(patterns: str) -> list[str]:
