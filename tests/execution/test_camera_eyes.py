@@ -14,13 +14,9 @@ from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.perception.camera_eyes import CameraEyes
 from etot_cli.execution.perception.coloring import by_color
-from etot_cli.execution.perception.fitting import (
-    Freedom,
-    improved,
-    outlined,
-    support,
-)
+from etot_cli.execution.perception.fitting import Freedom, improved, outlined
 from etot_cli.execution.perception.scan import Scan, scan_of
+from etot_cli.execution.perception.support import support
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import out_of_sight
 from etot_cli.execution.simulated_device import SimulatedDevice

@@ -13,11 +13,11 @@ from scipy.spatial import cKDTree
 
 from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
-from etot_cli.execution.perception.fitting import TOLERANCE, shown
 from etot_cli.execution.perception.following import Following
 from etot_cli.execution.perception.furniture import Furniture
 from etot_cli.execution.perception.hand import HandContents
 from etot_cli.execution.perception.scan import Scan, scan_of, view_of
+from etot_cli.execution.perception.support import shown
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import contradicted, out_of_sight, slid, with_its_part
 from etot_cli.execution.protocols import Camera, Frame
@@ -99,10 +99,9 @@ class CameraEyes:
         """The last picture and an object's pixels (h, w) in it; None where it was not seen."""
         if self._frame is None or name not in self._found:
             return None
-        view, depth = view_of(self._frame), self._frame.depth
-        _, points, pixels, _ = shown(self._known.surfaces[name], self._found[name], view)
-        read = depth[pixels[:, 1], pixels[:, 0]]
-        own = pixels[(read == 0) | (read > view.depth_of(points) - TOLERANCE)]
+        depth = self._frame.depth
+        seen = shown(self._known.surfaces[name], self._found[name], view_of(self._frame), depth)
+        own = seen.pixels[~seen.hidden]
         mask = np.zeros(depth.shape, np.uint8)
         mask[own[:, 1], own[:, 0]] = 1
         return self._frame, cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((5, 5))) > 0

@@ -8,17 +8,9 @@ import cv2
 import numpy as np
 from scipy import ndimage
 
-from etot_cli.execution.perception.fitting import (
-    OUTLINE_POINTS,
-    TOLERANCE,
-    Support,
-    climbed,
-    moved,
-    shown,
-    support,
-    visible_points,
-)
+from etot_cli.execution.perception.fitting import OUTLINE_POINTS, climbed, moved
 from etot_cli.execution.perception.scan import Scan
+from etot_cli.execution.perception.support import Support, shown, support, visible_points
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.world.pose import Pose
@@ -116,10 +108,9 @@ def _likeness(surface: Surface, pose: Pose, scan: Scan, off: float) -> Array | N
     likelihood ratio around it and 0 elsewhere; None where that cannot be told.
     """
     view, depth, picture = scan.view, scan.depth, scan.picture
-    _, points, pixels, _ = shown(surface, pose, view)
-    (u, v), expected = pixels.T, view.depth_of(points)
-    read = depth[v, u]
-    bright = picture[v, u][(read > 0) & (np.abs(read - expected) < TOLERANCE)]
+    seen = shown(surface, pose, view, depth)
+    u, v = seen.pixels.T
+    bright = picture[v, u][seen.agree]
     if len(bright) < OWN:
         return None
     own = np.vstack([bright * shade for shade in SHADES])
@@ -143,7 +134,7 @@ def _likeness(surface: Surface, pose: Pose, scan: Scan, off: float) -> Array | N
     likeness[band] = ratio[cell.ravel()]
     # What something nearer hides looks like neither.
     far = np.zeros(depth.shape)
-    far[v, u] = expected
+    far[v, u] = view.depth_of(seen.points)
     rows, columns = ndimage.distance_transform_edt(
         far == 0, return_distances=False, return_indices=True
     )

@@ -1,27 +1,17 @@
-"""Poses of known surfaces in a depth picture: how well one is borne out, and a better one."""
+"""Better poses of known surfaces: nearer to readings, or to an outline."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from etot_cli.execution.perception.support import Support, support
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.world.pose import Pose, rotation_by
 
-TOLERANCE = 0.007
-"""Depth that is off by less, along the surface's normal, bears a pose out [m]: four standard
-deviations of the camera a metre away."""
-CELL = 3
-"""Pixels of a cell in which the nearest point of a surface hides those behind it."""
-SELF = 0.012
-"""Points this far behind the nearest one of their cell are hidden by it [m]."""
-GRAZING = 0.15
-"""Surfaces seen at a flatter angle (cosine) say nothing."""
 SIDEWAYS = 0.15
 """Weight of moving towards a reading along the surface, against moving along its normal."""
 MOST_READINGS = 400
@@ -44,113 +34,6 @@ class Freedom(Enum):
     ON_LEVEL = (0, 1, 5)
     UPRIGHT = (0, 1, 2, 5)
     ALL = (0, 1, 2, 3, 4, 5)
-
-
-@dataclass(frozen=True)
-class Support:
-    """How many points of a surface that face the camera agree with the picture, are hidden behind
-    something nearer or outside of the picture, are contradicted (what is seen lies farther away),
-    or fall where depth was lost.
-    """
-
-    agree: int
-    hidden: int
-    through: int
-    unread: int
-
-    @property
-    def visible(self) -> int:
-        """Points about which the picture says something."""
-        return self.agree + self.through
-
-    @property
-    def share(self) -> float:
-        """Share of them that agree; 0 when there are none."""
-        return self.agree / self.visible if self.visible else 0.0
-
-    @property
-    def outlined(self) -> float:
-        """As ``share``, with depth that was lost taken as the edge of something thin."""
-        total = self.visible + self.unread
-        return (self.agree + self.unread) / total if total else 0.0
-
-    @property
-    def worth(self) -> float:
-        """What an outline is moved by: depth is lost at the edges of things, so that where it was
-        lost speaks for a thin one, half as much as a reading does.
-        """
-        return self.agree + 0.5 * self.unread - 2.0 * self.through
-
-    @property
-    def covered(self) -> float:
-        """Share of all points that something nearer hides."""
-        return self.hidden / max(self.agree + self.hidden + self.through + self.unread, 1)
-
-
-def visible_points(surface: Surface, pose: Pose, view: View) -> NDArray[np.intp]:
-    """Indices of the points that face the camera and are not hidden by the thing itself."""
-    points = pose.place(surface.points)
-    towards = view.position - points
-    towards /= np.linalg.norm(towards, axis=1, keepdims=True)
-    facing = np.flatnonzero(((surface.normals @ pose.rotation.T) * towards).sum(axis=1) > GRAZING)
-    pixels = view.project(points[facing])
-    cells = np.floor(pixels / CELL).astype(np.int64)
-    cells -= cells.min(axis=0, initial=0)
-    key = cells[:, 0] * (int(cells[:, 1].max(initial=0)) + 1) + cells[:, 1]
-    depth = view.depth_of(points[facing])
-    nearest = np.full(int(key.max(initial=0)) + 1, np.inf)
-    np.minimum.at(nearest, key, depth)
-    return np.asarray(facing[depth < nearest[key] + SELF])
-
-
-def shown(
-    surface: Surface, pose: Pose, view: View
-) -> tuple[NDArray[np.intp], Array, NDArray[np.int64], int]:
-    """The visible points that the picture has: indices (k,), places (k, 3), pixels (k, 2); and how
-    many lie beside it.
-    """
-    chosen = visible_points(surface, pose, view)
-    points = pose.place(surface.points[chosen])
-    pixels = np.round(view.project(points)).astype(np.int64)
-    inside = ((pixels >= 0) & (pixels < [view.width, view.height])).all(axis=1)
-    return chosen[inside], points[inside], pixels[inside], int((~inside).sum())
-
-
-def support(surface: Surface, pose: Pose, view: View, depth: Array) -> Support:
-    """How far a depth picture (h, w) [m] bears a pose out."""
-    chosen, points, pixels, beside = shown(surface, pose, view)
-    read = depth[pixels[:, 1], pixels[:, 0]]
-    expected = view.depth_of(points)
-    towards = view.position - points
-    towards /= np.linalg.norm(towards, axis=1, keepdims=True)
-    slant = ((surface.normals[chosen] @ pose.rotation.T) * towards).sum(axis=1)
-    off = read - expected
-    known = read > 0
-    agree = known & (np.abs(off) * slant < TOLERANCE)
-    return Support(
-        int(agree.sum()),
-        int((known & ~agree & (off < 0)).sum()) + beside,
-        int((known & ~agree & (off > 0)).sum()),
-        int((~known).sum()),
-    )
-
-
-def loose(surface: Surface, pose: Pose, view: View, depth: Array, holding: float) -> Array | None:
-    """The level direction (3,) in which what is read of a surface says least about its pose; None
-    where it says enough.
-
-    Args:
-        surface: the thing.
-        pose: where it was found.
-        view: the camera.
-        depth: its picture (h, w) [m].
-        holding: how many readings of faces across a direction are enough.
-    """
-    chosen, points, pixels, _ = shown(surface, pose, view)
-    off = depth[pixels[:, 1], pixels[:, 0]] - view.depth_of(points)
-    normals = (surface.normals[chosen] @ pose.rotation.T)[np.abs(off) < TOLERANCE, :2]
-    held, axes = np.linalg.eigh(normals.T @ normals)
-    return np.append(axes[:, 0], 0.0) if held[0] < holding else None
 
 
 def improved(

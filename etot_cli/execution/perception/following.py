@@ -7,15 +7,10 @@ from collections.abc import Set
 import numpy as np
 
 from etot_cli.execution.perception.coloring import by_color
-from etot_cli.execution.perception.fitting import (
-    Freedom,
-    Support,
-    improved,
-    outlined,
-    support,
-)
+from etot_cli.execution.perception.fitting import Freedom, improved, outlined
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.search import NEAR, Match, chroma, find
+from etot_cli.execution.perception.support import Support, support
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import (

@@ -12,16 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from etot_cli.execution.perception.coloring import by_color
-from etot_cli.execution.perception.fitting import (
-    GATES,
-    TOLERANCE,
-    Freedom,
-    improved,
-    loose,
-    shown,
-    support,
-)
+from etot_cli.execution.perception.fitting import GATES, Freedom, improved
 from etot_cli.execution.perception.scan import Scan
+from etot_cli.execution.perception.support import loose, shown, support
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.execution.perception.unseen import GONE
@@ -48,9 +41,10 @@ FIRST_SHIFT = 0.012
 """First step along what no face holds [m]: 35 mm are looked through either way."""
 OUTLINE_OFF = 0.02
 """By how much its outline may be off before [m]."""
-HOLDING = 400
-"""Points of faces across a direction that agree before it is known: 8 cm square. With 50 or 150,
-what agrees by chance at edges held the chests of tasks 3 and 4 up to 6 mm beside their place."""
+HOLDING = 800
+"""Points of faces across a direction that agree before it is known: 11 cm square. With 400, what
+agrees by chance at edges, up to 600 points, held the chests of tasks 3 and 4 up to 5 mm beside
+their place; faces of the chest of task 7 have 930 and more."""
 MARGIN = 0.03
 """Readings this far outside of the bounding sphere may be furniture that stands elsewhere [m]."""
 OWN = 0.005
@@ -178,28 +172,25 @@ class Furniture:
     def _value(self, address: str, scan: Scan) -> float:
         """The joint value that is borne out best; the last one where nothing is to be seen."""
         surface = self._known.part_surfaces[address].thinned(PART_POINTS)
-        was, (low, high) = self.values[address], self._span(address)
+        low, high = self._span(address)
+        was = float(np.clip(self.values[address], low, high))
 
         def worth(value: float) -> float:
             pose = self._known.set_part(address, value)
             borne = support(surface, pose, scan.view, scan.depth)
             return borne.agree - 2.0 * borne.through
 
-        values = np.unique(np.append(np.linspace(low, high, PART_STEPS), np.clip(was, low, high)))
-        worths = np.array([worth(value) for value in values])
-        best = int(worths.argmax())
-        least = worth(float(np.clip(was, low, high)))
-        if worths[best] <= 0:
-            return was
-        if worths[best] <= PLAINLY * least:
-            return self._refined(address, float(np.clip(was, low, high)), scan)
-        value, step = float(values[best]), (high - low) / (PART_STEPS - 1)
-        top = worths[best]
-        for _ in range(PART_ROUNDS):
-            step /= 2.0
-            for tried in (value - step, value + step):
+        value, top = was, max(PLAINLY * worth(was), 0.0)
+        step = (high - low) / (PART_STEPS - 1)
+        tries = np.linspace(low, high, PART_STEPS)
+        for _ in range(PART_ROUNDS + 1):
+            for tried in tries:
                 if low <= tried <= high and (found := worth(tried)) > top:
-                    value, top = tried, found
+                    value, top = float(tried), found
+            if value == was:
+                break
+            step /= 2.0
+            tries = np.array([value - step, value + step])
         return self._refined(address, value, scan)
 
     def _refined(self, address: str, value: float, scan: Scan) -> float:
@@ -207,23 +198,16 @@ class Furniture:
         is borne out tells it to the tolerance alone.
         """
         surface, (low, high) = self._known.part_surfaces[address], self._span(address)
-        view, small = scan.view, (high - low) * 1e-3
+        small = (high - low) * 1e-3
         for _ in range(REFINED):
             further = self._known.set_part(address, value + small)
-            pose = self._known.set_part(address, value)
-            chosen, points, pixels, _ = shown(surface, pose, view)
-            normals = surface.normals[chosen] @ pose.rotation.T
-            moves = (further.place(surface.points[chosen]) - points) / small
-            ahead = (normals * moves).sum(axis=1)
-            towards = view.position - points
-            slant = (normals * towards).sum(axis=1) / np.linalg.norm(towards, axis=1)
-            read = scan.depth[pixels[:, 1], pixels[:, 0]]
-            off = (view.depth_of(points) - read) * slant
-            own = (read > 0) & (np.abs(off) < TOLERANCE)
-            held = float(np.square(ahead[own]).sum())
+            seen = shown(surface, self._known.set_part(address, value), scan.view, scan.depth)
+            moves = (further.place(surface.points[seen.chosen]) - seen.points) / small
+            along = (seen.normals * moves).sum(axis=1)[seen.agree]
+            held = float(np.square(along).sum())
             if held < TELLING * float(np.square(moves).sum(axis=1).mean()):
                 break
-            value = float(np.clip(value + (ahead[own] * off[own]).sum() / held, low, high))
+            value = float(np.clip(value + along @ seen.ahead[seen.agree] / held, low, high))
         return value
 
     def _explain(self, scan: Scan, surface: Surface, pose: Pose) -> None:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.execution.perception.fitting import Support, improved, support
+from etot_cli.execution.perception.fitting import improved
 from etot_cli.execution.perception.scan import Scan
+from etot_cli.execution.perception.support import Support, support
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.reconstruction.capture.view import Array, View
 from etot_cli.world.pose import UP, Pose, rotation_between, rotation_by

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from etot_cli.execution.perception.fitting import outlined, support
+from etot_cli.execution.perception.fitting import outlined
 from etot_cli.execution.perception.scan import Scan
 from etot_cli.execution.perception.search import start
+from etot_cli.execution.perception.support import support
 from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
