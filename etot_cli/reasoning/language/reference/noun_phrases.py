@@ -13,18 +13,23 @@ from functools import partial
 from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
-from etot_cli.reasoning.language.reference.entries import EXACT, GENERIC, HEAD, SHAPES
+from etot_cli.reasoning.language.reference.doubts import (
+    Asked,
+    check_determiner,
+    check_modified,
+    check_noun,
+    check_selected,
+)
+from etot_cli.reasoning.language.reference.entries import EXACT, HEAD
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import is_one
-from etot_cli.reasoning.language.reference.matching import is_object
-from etot_cli.reasoning.language.reference.modified import left_out, modified, names_of_things
+from etot_cli.reasoning.language.reference.modified import left_out, modified
 from etot_cli.reasoning.language.reference.nouns import (
-    all_among,
     matched,
     names_part,
     parts_of,
@@ -39,21 +44,15 @@ from etot_cli.reasoning.language.reference.usual_form import (
     usual_form,
 )
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
-from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
-    CONTAINER_NOUNS,
-    LEVELS,
-    ORDINALS,
-    REFUSE,
     SAID_OF_BOARDS,
-    THING_NOUNS,
     matches_any,
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
@@ -123,136 +122,74 @@ class Resolver:
             raise ReferenceProblem(phrase.text, UNCLEAR)
         if self.names_stack(phrase):
             return meant_by_stack(self._stack(Modifier(Prep.OF, (phrase,))), role, phrase.head)
+        asked = self._matched(phrase, role, noun, excluded, parts_first=parts_first)
+        check_noun(asked)
+        things = [entry.thing for entry in asked.match.entries]
+        if asked.quantity.other:
+            things = [thing for thing in things if thing not in excluded]
+            if not things:
+                raise ReferenceProblem(phrase.text, "there is no other one", 2)
+        things = usable_ones(things, role, phrase, self._scene)
+        return self._resolved(asked, things, pronoun)
+
+    def _matched(
+        self,
+        phrase: NounPhrase,
+        role: Role,
+        noun: str | None,
+        excluded: Sequence[Thing],
+        *,
+        parts_first: bool,
+    ) -> Asked:
+        """The phrase with all that its words fit."""
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
-        if quantity.unclear:
-            raise ReferenceProblem(
-                phrase.text, f"{quantity.unclear!r} is not supported: say how many", 3,
-                word=quantity.unclear,
-            )  # fmt: skip
-        counted = next((word for word in words[:-1] if word in ORDINALS), "")
-        if counted and phrase.determiner in ("every", "each"):
-            raise ReferenceProblem(phrase.text, "say which ones", 3, word=counted)
-        if quantity.same:
-            why = "'same': nothing was spoken of before that it could be"
-            raise ReferenceProblem(phrase.text, why, 1, word="same")
-        parts = parts_first or (quantity.other and any(thing.part for thing in excluded))
+        check_determiner(phrase, quantity)
+        if quantity.other and noun is None and not excluded:
+            raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         match = matched(
             phrase,
             words,
             noun,
             self._vocabulary,
-            parts_first=parts,
+            parts_first=parts_first or (quantity.other and any(item.part for item in excluded)),
             upon=role is Role.SURFACE
             or (role is Role.PLACE and matches_any(words[-1], SAID_OF_BOARDS)),
             place=role is Role.CONTAINER,
         )
-        bare = not phrase.determiner and singular(words[-1]) != words[-1]
-        generic = all(entry.grade(words[-1]) == GENERIC for entry in match.entries)
-        if role is Role.THEME and words[-1] in REFUSE and generic:
-            nearest = ", ".join(entry.exact[0] for entry in match.entries)
-            why = f"nothing in the scene is called {words[-1]!r}; nearest: {nearest}"
-            raise ReferenceProblem(phrase.text, why, 2)
-        plural = role is Role.PART and singular(words[-1]) != words[-1]
+        several = singular(words[-1]) != words[-1] and (not phrase.determiner or role is Role.PART)
         out = any(item.prep is Prep.EXCEPT for item in phrase.modifiers)
-        single = quantity.every or phrase.determiner == "one" or bare or plural or out
+        single = quantity.every or phrase.determiner == "one" or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
-        unnamed = noun is None or matches_any(noun, THING_NOUNS)
-        nameless = unnamed and words[-1] in ("one", "ones") and role is not Role.ANY
-        vague = matches_any(words[-1], THING_NOUNS) and (unnamed or not phrase.is_elliptic)
-        mere = [m for m in phrase.modifiers if m.prep is Prep.WITH and not (m.denied or m.words)]
-        if (nameless and match.selectors) or (vague and mere):  # "the thing with the letter"
-            raise ReferenceProblem(phrase.text, UNCLEAR, 2)
-        things = [entry.thing for entry in match.entries]
-        if phrase.determiner.split()[:1] == ["some"]:
-            why = "'some' is not supported: say how many"
-            raise ReferenceProblem(phrase.text, why, 3, word="some")
         if match.plural and phrase.determiner == "any":
             quantity = Quantity(every=True)
-        if quantity.other and noun is None and not excluded:
-            raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
-        if quantity.other:
-            things = [thing for thing in things if thing not in excluded]
-            if not things:
-                raise ReferenceProblem(phrase.text, "there is no other one", 2)
-        things = usable_ones(things, role, phrase, self._scene)
+        return Asked(phrase, role, words, noun, quantity, match)
+
+    def _resolved(self, asked: Asked, things: list[Thing], pronoun: Pronoun) -> Resolved:
+        """Which of the things its modifiers, its words for size and side and its number leave."""
+        phrase, quantity, match = asked.phrase, asked.quantity, asked.match
         modifiers = tuple(m for m in phrase.modifiers if not names_part(m, self._vocabulary))
         things, modifiers = of_stack(things, modifiers, self._stack)
         if phrase.owner is not None:
             modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
-        count = quantity.count or (None if match.plural or quantity.every else 1)
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
         things, others = modified(
-            things, modifiers, quantity, count, phrase, self._scene, sets, notes
+            things, modifiers, quantity, asked.count, phrase, self._scene, sets, notes
         )
         meant = partial(self._landmarks, pronoun)
+        words = asked.words
         things, unmeant = left_out(things, phrase, words, self._vocabulary, self._scene, meant)
-        places = role in (Role.CONTAINER, Role.SURFACE, Role.PART)
-        if places and any(not can_be(thing, role, self._scene) for thing in unmeant):
-            raise ReferenceProblem(phrase.text, "what is not meant is nothing like it", 1)
-        among = phrase.among or quantity.among
-        if among and among != len(
-            all_among(things, match, phrase, role, self._vocabulary, self._scene)
-        ):
-            why = f"not {among}, but {names_of_things(things)} fit"
-            raise ReferenceProblem(phrase.text, why, 2)
-        asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
-        if len(things) == 1 and any(item.words[0] in ("to", "from") for item in asides):
-            raise ReferenceProblem(phrase.text, "say to which side of what", 3)
-        if asides and phrase.determiner in ("a", "an", "one") and len(things) > 1:
-            why = f"say 'the' one of {names_of_things(things)}, or to which side of what"
-            raise ReferenceProblem(phrase.text, why, 3)
+        check_modified(asked, modifiers, things, unmeant, self._vocabulary, self._scene)
         idle = idle_words(match, modifiers, things, self._scene, phrase.text, notes)
-        things = select(match.selectors, modifiers, things, count, self._scene, phrase.text)
-        kinds = {self._scene.infos[thing.name].label for thing in things if thing.name != DESK}
-        unclear = phrase.loose and len(words) == 1 and len(things) > 1
-        unclear |= match.loose and quantity.definite and len(kinds) > 1
-        shape = generic and role is Role.THEME and singular(words[-1]) in {*SHAPES, "box"}
-        # A mat has the shape of a box, and is called none.
-        shape = (
-            shape
-            and len(kinds) > 1
-            and any(space.is_flat(self._scene.infos[t.name]) for t in things)
-        )
-        if shape or (unclear and count == 1):
-            raise ReferenceProblem(phrase.text, f"say which of {names_of_things(things)}", 2)
-        mass = words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1]
-        so_many = quantity.count or any(item.prep is Prep.EXCEPT for item in modifiers)
-        lone = (
-            role is Role.THEME
-            and not (phrase.modifiers or phrase.without or matches_any(words[-1], THING_NOUNS))
-            and len(words) == len(match.entries) == 1
-            and is_object(match.entries[0])
-        )
-        unsaid = not (so_many or mass) and (match.loose or lone)
-        if match.plural and unsaid and len(things) == 1:
-            why = f"only {things[0].name} is called so"
-            raise ReferenceProblem(phrase.text, why, 2, word=words[-1])
-        if quantity.sole and len(things) > 1:
-            why = f"it is not the only one: {names_of_things(things)}"
-            raise ReferenceProblem(phrase.text, why, 2, word="only")
-        level = next((word for word in words[:-1] if word in LEVELS), "")
-        own = words[-1] in phrase.text.split() and not phrase.loose  # "the top and bottom drawers"
-        if level and own and match.plural and len(things) == 1 and quantity.count is None:
-            why = f"{level!r} tells {names_of_things(things)} alone; name each of them"
-            raise ReferenceProblem(phrase.text, why, 2, word=level)
-        vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
-        single = quantity.definite and count == 1
-        if match.dropped and (single or vague) and len(things) > 1:
-            why = f"{match.dropped[0]!r} does not tell which of {names_of_things(things)} is meant"
-            raise ReferenceProblem(phrase.text, why, 3, word=match.dropped[0])
-        if nameless and count == 1 and len(things if quantity.definite else kinds) > 1:
-            raise AmbiguousReference(phrase.text, [thing.name for thing in things])
+        things = select(match.selectors, modifiers, things, asked.count, self._scene, phrase.text)
+        check_selected(asked, things, self._scene)
         things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)
-        options = options_of(things, count, quantity, phrase)
-        unnumbered = [word.rstrip("0123456789").rstrip("_") for word in words]
-        named = next((word for word in reversed(unnumbered) if word), words[-1])
-        head = noun if matches_any(named, THING_NOUNS) and noun else named
-        every = quantity.every or (count is None and match.plural)
+        options = options_of(things, asked.count, quantity, phrase)
+        every = quantity.every or (asked.count is None and match.plural)
         return Resolved(
-            options, quantity.definite, quantity.other, head, every, tuple(notes),
+            options, quantity.definite, quantity.other, asked.head, every, tuple(notes),
             adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
         )  # fmt: skip
 
