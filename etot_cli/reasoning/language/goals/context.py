@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -43,6 +43,8 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
+        self.last: Clause | None = None
+        """The clause before."""
 
     def single(self, thing: Thing, text: str) -> int:
         """A referent for one thing."""
@@ -80,6 +82,11 @@ class Context:
             if there and len(named.options[0]) - len(there) > plural:
                 here = replace(named, options=(there,), definite=False)
                 self.discourse.add(here, phrase.text, Role.ANY)
+
+    def all_called(self, phrase: NounPhrase, role: Role) -> tuple[Thing, ...]:
+        """All that is called by a phrase's noun."""
+        every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
+        return self.phrases.meaning(every, role).options[0]
 
     def only(self, index: int, why: str) -> tuple[Thing, ...]:
         """What a referent stands for, where there must be no choice."""

@@ -69,7 +69,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     check_held(state.timed, goal, scene)
-    named = isinstance(state.last, ReorientClause) and state.last.only_named
+    named = isinstance(state.context.last, ReorientClause) and state.context.last.only_named
     if not goal.steps and not state.asked and (goal.constraints or named):
         said = "how things are" if named else "what not to do"
         raise ReferenceProblem(sentences[0].text, f"this says {said}, but not what to do", 2)
@@ -109,7 +109,6 @@ class _State:
         self._scene, self._resolver = scene, resolver
         self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
-        self.last: Clause | None = None
         self.sentence = 0
 
     @property
@@ -124,7 +123,7 @@ class _State:
         other.context.done = self.context.done
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
-        other.sentence, other.last = self.sentence, self.last
+        other.sentence, other.context.last = self.sentence, self.context.last
         return other
 
     def read(self, reading: Sequence[Spoken]) -> None:
@@ -132,9 +131,9 @@ class _State:
         self.sentence += 1
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
-            _check_instead(spoken, self.last)
+            _check_instead(spoken, self.context.last)
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
-            self.last = spoken.clause
+            self.context.last = spoken.clause
         check_opposites(self.context.discourse)
         for spoken in reading:
             done = tuple(steps[id(spoken)])

@@ -13,6 +13,7 @@ from etot_cli.reasoning.builtin.goal import (
     Keep,
     Open,
     Place,
+    Put,
     Relation,
     Thing,
 )
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Destination,
+    EnsureClause,
     NounPhrase,
     Things,
 )
@@ -106,21 +108,34 @@ def avoid(context: Context, clause: AvoidClause) -> None:
 
 
 def check_alone(
-    context: Context, phrases: Sequence[NounPhrase], themes: Sequence[int], places: Sequence[Place]
+    context: Context,
+    phrases: Sequence[NounPhrase],
+    themes: Sequence[int],
+    places: Sequence[Place],
+    *,
+    chosen: bool = False,
 ) -> None:
-    """Whether "only the cup" is where only it is to be: all else would have to go from there."""
+    """Whether "only the cup" is where only it is to be: all else would have to go from there.
+    Of several cups "only the red one" says which: what else is there stays, which is told.
+    """
     own = {thing.name for thing in context.discourse.things(*themes)}
     where = [place.where for place in places if place.where is not None]
+    upon = all(place.relation is Relation.ON for place in places)
     there = [
         name
         for name, info in context.scene.infos.items()
         for at in context.discourse.things(*where)
         if info.movable and name not in own and touches(Thing(name), at, context.scene)
+        if not (upon and context.scene.states[name].inside)  # a chest is no less alone for that
     ]
     for phrase in phrases if there else ():
         if is_only(phrase.determiner):
             more = f"the {len(there) - 1} others" if there[2:] else there[-1]
             others = f"{there[0]} and {more}" if there[1:] else there[0]
+            alike = {thing.name for thing in context.all_called(phrase, Role.THEME)}
+            if chosen and alike - own and not alike & {*there}:
+                context.discourse.notes.append(f"{phrase.text!r}: {others} stays there")
+                continue
             why = f"say where to put {others} that would be there, too"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
 
@@ -161,6 +176,9 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
     others = tuple(
         name for name, info in context.scene.infos.items() if name not in spoken and info.movable
     )
+    for step in context.done if isinstance(context.last, EnsureClause) else ():
+        if isinstance(step, Put):
+            check_alone(context, (NounPhrase("only", text="nothing else"),), step.what, step.places)
     if others:
         context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
 

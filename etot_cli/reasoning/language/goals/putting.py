@@ -119,8 +119,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
-        if clause.stays or wherever:
-            check_alone(context, group.things.phrases, themes, places)
+        chosen_from = not (clause.stays or wherever)
+        check_alone(context, group.things.phrases, themes, places, chosen=chosen_from)
         check_taken(context, group, themes, places)
         check_poured(context, group, themes, places)
         if group.upright:
@@ -162,8 +162,7 @@ def ensure(context: Context, state: State) -> None:
                     keep_as_it_is(context, index, state.word, every=all_of_them)
                 context.steps.append(_made(index, opens=state.word == "open"))
             if is_only(phrase.determiner):
-                every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
-                for thing in context.phrases.meaning(every, Role.PART).options[0]:
+                for thing in context.all_called(phrase, Role.PART):
                     if thing not in context.discourse.things(index):
                         other = context.single(thing, thing.part or thing.name)
                         context.steps.append(_made(other, opens=state.word != "open"))

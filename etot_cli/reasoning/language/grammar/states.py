@@ -86,14 +86,14 @@ _STAYS = sequence(
 )
 
 
-def _holding(np: NounPhrase, held: tuple[NounPhrase, ...]) -> State | None:
-    """What is to be in a vessel; "only the ball" would have the rest out of it."""
-    only = any(nouns.is_only(item.determiner) for item in held)
-    return None if only else State(held, (Destination(Toward.INSIDE, (np,)),))
-
-
 def _contains(verb: str) -> Parser:
-    return sequence(noun_phrase, verb, NP_LIST, optional("in it, inside"), build=_holding)
+    return sequence(
+        noun_phrase,
+        verb,
+        NP_LIST,
+        optional("in it, inside"),
+        build=lambda np, held: State(held, (Destination(Toward.INSIDE, (np,)),)),
+    )
 
 
 def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.world.spatial import Nearby
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
 ROOMY = 2.0
@@ -70,9 +71,10 @@ def meant_by_it(
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
         if len(acted_on) == 1:
+            beside = [*_beside(discourse)] if role is Role.THEME else []
             rivals = [
                 place
-                for place in places
+                for place in (*places, *(mark for mark in landmarks if mark in beside))
                 if not topmost and _rivals(discourse, place, acted_on[0], role)
             ]
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
@@ -97,6 +99,12 @@ def meant_by_it(
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _beside(discourse: Discourse) -> Iterator[int]:
+    """What the latest places are beside; what something went away from is none of it."""
+    for near in (near for place in discourse.last_places for near in place.beside):
+        yield from near.landmarks if near.relation is not Nearby.AWAY else ()
 
 
 def _whatever(discourse: Discourse, clause: int) -> tuple[int, ...]:

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.reference.determiners import Quantity
 from etot_cli.reasoning.language.reference.landmarks import (
     HOLDING,
     RANKED,
+    ROUGHLY,
     between_the_others,
     is_one,
     means_the_others,
@@ -69,14 +70,14 @@ def modified(
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
             _check_cleared(modifier, landmark_sets(modifier), scene)
-        ways = {
-            tuple(found): tuple(more)
-            for landmarks in landmark_sets(modifier)
-            for found, more in [
-                related(modifier, things, landmarks, quantity, count, scene, notes, phrase.text)
-            ]
-            if found
-        }
+        ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
+        for landmarks in landmark_sets(modifier):
+            said: list[str] = []
+            found, more = related(
+                modifier, things, landmarks, quantity, count, scene, said, phrase.text
+            )
+            if found and (tuple(found) not in ways or not any(ROUGHLY in note for note in said)):
+                ways[tuple(found)] = more, said
         if len(ways) > 1 and unclear < len(waiting):
             # Another modifier may tell.
             waiting.append(modifier)
@@ -98,7 +99,9 @@ def modified(
             raise ReferenceProblem(phrase.text, why, 2)
         if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
             found = space.with_what_lies_on_them(found, things, scene)
-        things, others = found, next(iter(ways.values()))
+        ((more, said),) = ways.values()
+        things, others = found, tuple(more)
+        notes += said
     return things, others
 
 

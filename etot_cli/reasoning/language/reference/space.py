@@ -21,6 +21,9 @@ from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 OFFSET = 0.01
 """An object is on one side of another when it is off by more than this [m]."""
+ASKEW = 2.0
+"""What is so many times more askew than aside is not even roughly on that side: it is plainly on
+another one, as by definition is what is more askew than aside at all."""
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 DEEP = 2.0
@@ -197,15 +200,14 @@ def holds_at(
     if prep in RELATIONS and any(landmark.name == DESK for landmark in landmarks):
         return False  # what is beside the desk is off it
     match prep:
-        case Prep.LEFT:
-            return to_the_left(thing, scene) > to_the_left(first, scene) + OFFSET
-        case Prep.RIGHT:
-            return to_the_left(thing, scene) < to_the_left(first, scene) - OFFSET
-        case Prep.BEHIND:
-            return to_the_back(thing, scene) > to_the_back(first, scene) + OFFSET
-        case Prep.FRONT:
-            return to_the_back(thing, scene) < to_the_back(first, scene) - OFFSET
-        case Prep.NEAR | Prep.NEXT_TO:
+        case Prep.LEFT | Prep.RIGHT | Prep.BEHIND | Prep.FRONT:
+            left, back = (of(thing, scene) - of(first, scene) for of in (to_the_left, to_the_back))
+            aside, askew = (left, back) if prep in (Prep.LEFT, Prep.RIGHT) else (back, left)
+            aside = aside if prep in (Prep.LEFT, Prep.BEHIND) else -aside
+            return aside > OFFSET and abs(askew) <= ASKEW * aside
+        case Prep.NEXT_TO:
+            return first == ROBOT or is_plainly(Prep.NEAR, thing, landmarks, scene)
+        case Prep.NEAR:
             return first == ROBOT or gap(thing, first, scene) <= BESIDE
         case Prep.BETWEEN:
             here, there, at = (position(t, scene)[:2] for t in (*landmarks[:2], thing))
