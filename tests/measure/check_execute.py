@@ -68,7 +68,7 @@ CASES = (
          {"when": "after_action", "after_action": 5, "part": "drawer", "to": 0.2}),
     Case("drawer without a handle closed again", "task7",
          {"when": "after_action", "after_action": 5, "part": "drawer", "to": 0.0},
-         "finds nothing to hold"),
+         "nothing to hold"),
 )  # fmt: skip
 
 

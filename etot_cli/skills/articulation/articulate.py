@@ -126,7 +126,8 @@ def _no_move(search: PartSearch) -> SkillOutcome:
             f"the hand cannot get to {info.address} to {verb} it: {', '.join(blocking)} in the way",
         )
     if not search.has_hold:
-        text = f"the hand finds nothing to hold or push to {verb} {info.address}"
+        handle = "" if any(grasp.bar for grasp in search.part.grasps) else " has no handle and"
+        text = f"{info.address}{handle} offers the hand nothing to hold or push to {verb} it"
         return failed(CauseKind.NO_GRASP, [info.owner], text)
     return failed(
         CauseKind.UNREACHABLE,

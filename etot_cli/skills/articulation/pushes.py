@@ -25,8 +25,9 @@ SHARES = (0.86, 0.72, 0.58, 0.45, 0.32)
 """Where along a door to push, as shares of its width from the hinge."""
 SIDE_SHARES = (0.0, 0.45, -0.45, 0.85, -0.85)
 """Where across a panel's half width to push, the middle first."""
-TILTS = tuple(float(tilt) for tilt in np.radians((0.0, 20.0, 40.0, 60.0, 80.0)))
-"""Leans of the hand along a push [rad], looked at in turn until one goes."""
+TILTS = tuple(float(tilt) for tilt in np.radians((0.0, 20.0, 30.0, 40.0, 60.0, 80.0)))
+"""Leans of the hand along a push [rad], looked at in turn until one goes; between those with which
+a hand over a panel's edge reaches behind it (from 20° on) and has no more room (40°) lies one."""
 LEAN_CHANGES = (0.0, 0.15, -0.15, 0.3)
 """How the lean may change from one pose of a push to the next [rad]."""
 STEEPEST = 1.6
@@ -38,12 +39,13 @@ class Push:
     """Closed fingers against a face; the hand points down and leans where the arm would otherwise
     not reach: along the push, or outward from the robot's base, which reaches farther.
 
-    ``point`` (3,) on the face, part frame [m]; ``normal`` (3,) out of it.
+    ``point`` (3,) on the face, ``below`` its upper edge, part frame [m]; ``normal`` (3,) out of it.
     """
 
     robot: RobotIndex
     normal: Vector
     point: Vector
+    below: float
     outward: bool
     lean: float
     gap: float = FACE_GAP
@@ -74,6 +76,8 @@ class Push:
         forward = float(approach @ direction)
         side = float(np.sqrt(max(0.0, 1.0 - forward**2)))
         offset = self.robot.tip * max(forward, 0.0) + self.robot.finger_half * side
+        # A hand that reaches over the panel pulls it by its upper edge, on which the fingers lean.
+        offset += self.below * max(-forward, 0.0) / max(float(-approach @ UP), 1e-9)
         return Pose(
             point - direction * (offset - inside), rotation_from_axes(approach, cross(UP, level))
         )
@@ -87,7 +91,7 @@ def pushes(travel: PartTravel, face: Face) -> list[Push]:
     error, owner = travel.belief.world.scene.perception, travel.belief.object_pose(travel.owner)
     part = travel.at(travel.value)
     ranked: list[tuple[float, Push]] = []
-    for place, point in contact_points(travel.part, face):
+    for place, point, below in contact_points(travel.part, face):
         lever = float(np.linalg.norm(part.position + part.rotation @ point - owner.position))
         gap = error.position_m + lever * math.radians(error.yaw_deg)
         gap = min(max(gap, FACE_GAP), WIDEST_GAP)
@@ -97,25 +101,25 @@ def pushes(travel: PartTravel, face: Face) -> list[Push]:
                     continue  # an upright hand leans nowhere
                 # Hands that lean outwards reach farther, but seldom have room.
                 cost = place + 2 * rank + 3 * outward
-                ranked.append((cost, Push(robot, normal, point, outward, lean, gap)))
+                ranked.append((cost, Push(robot, normal, point, below, outward, lean, gap)))
     return [push for _, push in sorted(ranked, key=lambda item: item[0])]
 
 
-def contact_points(part: Part, face: Face) -> Iterator[tuple[int, Vector]]:
-    """Contact points (3,) on a face, part frame, with their rank: along the width, near the upper
-    edge and at mid height.
+def contact_points(part: Part, face: Face) -> Iterator[tuple[int, Vector, float]]:
+    """Contact points on a face: rank, where (3,), part frame, and how far below the upper edge [m];
+    along the width, near the upper edge and at mid height.
     """
     center, u, v = (np.array(item) for item in (face.center, face.half_u, face.half_v))
     if abs(u[2]) > abs(v[2]):
         u, v = v, u
     v = v if v[2] >= 0 else -v
     height = float(np.linalg.norm(v))
-    levels = [v * max(1.0 - depth / height, 0.0) for depth in EDGE_DEPTHS] + [np.zeros(3)]
+    depths = [min(depth, height) for depth in (*EDGE_DEPTHS, height)]
     if part.info.joint_type == "hinge":
         hinge = min((center - u, center + u), key=lambda end: float(np.linalg.norm(end)))
         columns = [hinge + (center - hinge) * 2 * share for share in SHARES]
     else:
         columns = [center + u * share for share in SIDE_SHARES]
     for rank, column in enumerate(columns):
-        for lower, level in enumerate(levels):
-            yield rank + lower, column + level
+        for lower, depth in enumerate(depths):
+            yield rank + lower, column + v * (1.0 - depth / height), depth

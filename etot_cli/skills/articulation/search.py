@@ -35,7 +35,7 @@ OPEN_SPARE = 0.04
 """Share of the travel by which an opening move goes beyond what counts as open."""
 AJAR = 0.05
 """Way of a handle that leaves room for a finger behind the part [m]."""
-MAX_FOLLOWED = 60
+MAX_FOLLOWED = 120
 """Grips, and pushes, whose kinematics are looked at; where the hand has no room costs little."""
 MAX_BETTER = 8
 """Holds that are looked at for a better one once one gets the part far enough, or ajar."""
