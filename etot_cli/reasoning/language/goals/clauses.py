@@ -94,7 +94,7 @@ def _all_of(context: Context, index: int) -> int:
 
 
 def _one_of_any(things: Things) -> Things:
-    """Whoever is to pick up "anything but the cup" picks up one thing; elsewhere it is all."""
+    """Whoever is to pick up "anything red" picks up one thing; elsewhere it is all."""
     phrases = tuple(
         replace(phrase, words=("something",)) if phrase.words == ("anything",) else phrase
         for phrase in things.phrases

@@ -22,7 +22,11 @@ def put_back(
     if len(group.destinations) > 1 or ruled_out:
         raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
     for index in themes:
-        for thing in context.only(index, "say which one goes back"):
+        things = context.only(index, "say which one goes back")
+        if not {*things} & {*context.discourse.things(*context.discourse.put)}:
+            text = context.discourse.referents[index].text
+            raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
+        for thing in things:
             place = context.home(thing)
             context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 

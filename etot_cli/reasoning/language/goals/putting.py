@@ -76,6 +76,7 @@ from etot_cli.reasoning.language.reference.determiners import is_distributive, q
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.nouns import is_only
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
 
@@ -94,6 +95,10 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     for group in clause.groups:
         if add_pairs(context, clause, group):
             continue
+        for phrase in group.things.phrases:
+            said = {item.prep for item in phrase.modifiers}
+            if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
+                raise AmbiguousReference(phrase.text, ["one thing", "everything"])
         context.tell_others(group.things, group.destinations)
         away = context.places.no_themes(group.destinations)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)

@@ -206,10 +206,13 @@ def _other_than(found: tuple[NounPhrase, ...]) -> Modifier | None:
 
 
 def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | None:
-    """What is left out; or (``only``) in "but only the red one" all else is."""
+    """What is left out; or (``only``) in "but only the red one" all else is. All of
+    "everything but the cup off the tray" is off the tray.
+    """
     said = {nouns.is_only(np.determiner) for np in nps}
     left_out = tuple(map(_one_of_them, nps))
-    fits = said == {only} and not any(np.without for np in nps)
+    source = any(item.prep is Prep.FROM for np in nps for item in np.modifiers)
+    fits = said == {only} and not (source or any(np.without for np in nps))
     return Modifier(Prep.EXCEPT, left_out, denied=only) if fits else None
 
 

@@ -280,9 +280,11 @@ def object_entry(info: ObjectInfo) -> Entry:
 
 def part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
     """The words of an object's drawers and doors, ``owner`` being its own."""
+    nouns = {part: JOINT_NOUNS.get(part.joint_type, ()) for part in info.parts}
     return [
-        _level_entry(info, owner, Thing(info.name, part.name), JOINT_NOUNS.get(part.joint_type, ()))
-        for part in info.parts
+        # A door is no lid.
+        _level_entry(info, owner, Thing(info.name, part.name), said[: 1 if part.front else None])
+        for part, said in nouns.items()
     ]
 
 

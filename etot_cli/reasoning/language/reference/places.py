@@ -66,7 +66,8 @@ class Places:
         """
         referents = self.discourse.referents
         if any(item.toward is Toward.HOME for item in destinations):
-            return [index for index in range(len(referents)) if index not in self.discourse.put]
+            put = self.discourse.put
+            return [index for index in range(len(referents)) if put and index not in put]
         named = [phrase for item in destinations for phrase in item.targets if phrase.words]
         named += [p for item in destinations for b in item.beside for p in b.phrases if p.words]
         meant = []

@@ -59,8 +59,7 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
     last = phrase.head
     if last in GENERAL and len(phrase.words) == 1:
         determiner = GENERAL[last]
-        described = any(item.prep is not Prep.EXCEPT for item in phrase.modifiers)
-        if last == "anything" and (described or phrase.modifiers):
+        if last == "anything" and phrase.modifiers:
             determiner = "all"  # whatever is so
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
