@@ -58,6 +58,9 @@ def test_refused(name: str, text: str, wanted: str) -> None:
     for part in wanted.split(" | "):
         assert part in first
     head, _, instead = reworded.partition("read: ")
+    if not instead:
+        assert reworded.startswith("  or write the goal")
+        return
     assert head == "  what would be "
     assert goal_of(instead, SCENES[name]) is not None
     assert "_" not in instead, "things are called what people call them"
@@ -73,7 +76,13 @@ def test_refused(name: str, text: str, wanted: str) -> None:
         ("breakfast", "Kick the apple into the bowl.", "Put the apple into the bowl."),
         ("breakfast", "Peel the banana.", "Pick up the banana."),
         ("breakfast", "Put the banana where the apple is.", "Put the banana next to the apple."),
-        ("breakfast", "Put the apple in the fridge.", "Put the apple in the red cup."),
+        ("breakfast", "Put the apple in the fridge.", ""),
+        (
+            "breakfast",
+            "Put the apple on the plate and the banana next to it.",
+            "Put the apple on the plate and the banana next to the apple.",
+        ),
+        ("breakfast", "Do not touch the cup.", ""),
         ("black_bowls", "Put the red bowl on the plate.", "Put bowl 1 on the plate."),
         ("drawers_and_desk", "Close the blue drawer.", "Close the chest."),
         ("numbered", "Put cube 5 in bin 1.", "Put cube 1 in bin 1."),
@@ -85,7 +94,7 @@ def test_refused(name: str, text: str, wanted: str) -> None:
 def test_a_rewording_keeps_what_was_understood(name: str, text: str, instead: str) -> None:
     with pytest.raises(InstructionError) as raised:
         goal_of(text, SCENES[name])
-    assert f"read: {instead}" in str(raised.value)
+    assert re.findall("read: (.*)", str(raised.value)) == ([instead] if instead else [])
 
 
 def test_the_corpus_is_large_and_has_many_traps() -> None:

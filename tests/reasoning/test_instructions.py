@@ -261,9 +261,8 @@ def test_refusals_say_what_and_how_to_go_on(name: str, text: str, named: str) ->
     message = str(raised.value)
     assert named in message
     assert "understood" in message
-    example = re.search(r"what would be read: (.*)", message)
-    assert example is not None
-    plans(example[1], getattr(scenes, name)())
+    for example in re.findall(r"what would be read: (.*)", message):
+        plans(example, getattr(scenes, name)())
     assert "goal:" in message
     assert "--reasoner vlm" in message
     assert raised.value.exit_code == 2

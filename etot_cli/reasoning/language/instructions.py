@@ -83,9 +83,7 @@ def _message(
         why = foreign or error.why
         head = f"cannot read the instruction at {error.words!r}" + (f": {why}" if why else "")
         second = f"  understood up to there: {error.understood or 'nothing'}"
-        refused = Refused(
-            instruction, error.words, without=error.without, understood=error.understood
-        )
+        refused = Refused(instruction, error.words, without=error.without)
     else:
         why = foreign or error.why
         phrase = plain(error.phrase)

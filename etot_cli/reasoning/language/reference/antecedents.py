@@ -20,7 +20,8 @@ class AmbiguousReference(ReferenceProblem):
     """
 
     def __init__(self, text: str, named: Sequence[str], why: str = "it may mean") -> None:
-        super().__init__(text, f"{why} {' or '.join(dict.fromkeys(named))}; name it", 4)
+        found = tuple(dict.fromkeys(named))
+        super().__init__(text, f"{why} {' or '.join(found)}; name it", 4, candidates=found)
 
 
 @dataclass(frozen=True, slots=True)
