@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 
 from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.input import Input
+from etot_cli.reasoning.language.grammar.parsing import phrase
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -42,7 +44,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
-from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.reasoning.language.words.small_words import FRAMES, WITHOUT_MEANING
 from etot_cli.world.spatial import Nearby
@@ -66,32 +67,20 @@ _FIXED = """
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    s (top|surface), in any order, (no|any) longer, only then, any [one] but
+    's (top|surface), in any order, (no|any) longer, only then, any [one] but
 """
 """Phrases in which such words say something else, or nothing of their own."""
-_SAY_NOTHING = re.compile(
-    r"\b(?:"
-    + "|".join(
-        sorted(
-            map(re.escape, spellings(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")),
-            key=len,
-            reverse=True,
-        )
-    )
-    + r")\b"
-)
-
+_SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 
-def unaccounted(words: Iterable[str], reading: tuple[Spoken, ...]) -> str | None:
+def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
-    text = " ".join(words)
-    plain = _SAY_NOTHING.sub(" ", text)
     left = Counter(_traces(reading))
+    text = " ".join(words)
     if _NOT_BOTH.search(text) and any(isinstance(said.clause, AvoidClause) for said in reading):
         return "both"  # one of them may go there
-    for word in plain.split():
+    for word in _telling(words):
         kinds = _kinds(word)
         if not kinds:
             continue
@@ -101,6 +90,16 @@ def unaccounted(words: Iterable[str], reading: tuple[Spoken, ...]) -> str | None
         if kind not in (_DENIAL, _ORDER):  # one of either may take several words
             left[kind] -= 1
     return None
+
+
+def _telling(words: Sequence[str]) -> Iterator[str]:
+    """Words that stand in no phrase that says nothing."""
+    given, at = Input(tuple(words)), 0
+    while at < len(words):
+        phrases = _SAY_NOTHING.find(given, at)
+        if not phrases:
+            yield words[at]
+        at = phrases[-1][0] if phrases else at + 1  # the longest is the last
 
 
 def _kinds(word: str) -> tuple[str, ...]:

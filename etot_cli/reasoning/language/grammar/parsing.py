@@ -8,12 +8,12 @@ the words that their readings may begin with, and are not asked where another on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, cached_property
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.input import NO_WORD, Find, Input, Result
-from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.patterns import Row, begun, phrases_of
 
 First = frozenset[str] | None
 """Words that readings may begin with, NO_WORD for those of none; None where a test tells them."""
@@ -81,7 +81,7 @@ def phrase(patterns: str, value: Any = None) -> Parser:
     """One of several phrases; its value is the phrase itself unless one is given.
 
     Args:
-        patterns: see :func:`spellings`.
+        patterns: see :mod:`etot_cli.reasoning.language.words.patterns`.
         value: of every phrase.
     """
     return one_of({value: patterns})
@@ -97,17 +97,17 @@ def _parser(part: Part) -> Parser:
 
 
 def one_of(table: Mapping[Any, str]) -> Parser:
-    """One of several phrases with the value that they stand behind, the phrase itself for None."""
-    root = _Node()
-    for value, patterns in table.items():
-        for text in spellings(patterns):
-            node = root
-            for item in text.split():
-                node = node.following.setdefault(item, _Node())
-            node.values.append(text if value is None else value)
+    """One of several phrases with the value that they stand behind, the phrase itself for None.
+
+    The longest is found last.
+    """
+
+    @cache
+    def root() -> _Node:
+        return _Node("", [(value, (phrases_of(table[value]),)) for value in table])
 
     def parse(given: Input, at: int) -> list[Result]:
-        words, node = given.words, root
+        words, node = given.words, root()
         found: list[Result] = []
         while at < len(words):
             further = node.following.get(words[at])
@@ -117,21 +117,48 @@ def one_of(table: Mapping[Any, str]) -> Parser:
             if node.values:
                 given.reach(at)
                 found += [(at, value) for value in node.values]
-        if node is not root and node.following:
+        if node is not root() and node.following:
             given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
 
-    return Parser(parse, lambda: frozenset(root.following))
+    return Parser(parse, lambda: frozenset(root().following))
 
 
 class _Node:
-    """Phrases that begin alike: the values of what ends here, and the words that may follow."""
+    """Phrases that begin alike; how they go on is worked out once a sentence gets there.
 
-    __slots__ = ("following", "values")
+    Args:
+        said: how they begin.
+        left: values, each with what is to follow of a phrase for it.
+    """
 
-    def __init__(self) -> None:
-        self.following: dict[str, _Node] = {}
-        self.values: list[Any] = []
+    def __init__(self, said: str, left: Iterable[tuple[Any, Row]]) -> None:
+        self._said = said
+        self._left = left
+
+    @cached_property
+    def _further(self) -> dict[str, dict[tuple[Any, Row], None]]:
+        """What is left behind each word that may follow, NO_WORD for phrases that end here."""
+        further: dict[str, dict[tuple[Any, Row], None]] = {}
+        for value, row in self._left:
+            for item, rest in begun(row):
+                further.setdefault(item, {})[value, rest] = None
+        return further
+
+    @cached_property
+    def values(self) -> list[Any]:
+        """Of what ends here."""
+        ends = self._further.get(NO_WORD, ())
+        return [self._said if value is None else value for value, _ in ends]
+
+    @cached_property
+    def following(self) -> dict[str, _Node]:
+        """By the words that may follow."""
+        return {
+            item: _Node(f"{self._said} {item}".strip(), left)
+            for item, left in self._further.items()
+            if item != NO_WORD
+        }
 
 
 def word(test: Callable[[Input, str], bool]) -> Parser:
