@@ -152,7 +152,10 @@ _contents = either(
             optional("currently"),
             optional(phrase("not", True), False),
             one_of({Prep.CONTAINING: "in", Prep.BEARING: "on"}),
-            build=lambda np, denied, prep: Modifier(prep, (np,), denied=denied),
+            # "The cup that is not on" is one that nothing is said of.
+            build=lambda np, denied, prep: (
+                None if np.text == "that" else Modifier(prep, (np,), denied=denied)
+            ),
         )
     ),
     quiet(
