@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
@@ -12,6 +13,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
@@ -88,11 +90,16 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         for thing in dict.fromkeys(thing for option in every for thing in option)
         if any(touches(thing, target, context.scene) for target in targets)
     ]
+    sweeping = stays and targets and referent.text.startswith(tuple(GENERAL))
+    if sweeping and not there:
+        raise ReferenceProblem(referent.text, "there is nothing to be left", 3)
     if stays and targets and not there:
         discourse.notes.append(f"{referent.text!r} is not there yet, and is put there")
     options = tuple(
         option for option in every if ({*option} <= {*there} if stays else not {*option} & {*there})
     )
+    if sweeping:
+        options = (tuple(there),)  # "leave everything on the tray"
     if options and {*there} & {*discourse.things(theme)} and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
         names = ", ".join(thing.name for thing in there)
@@ -115,16 +122,18 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
 
 def leave_among(context: Context, themes: Sequence[int]) -> None:
     """What is left somewhere is none of those that the clause before puts elsewhere ("put the
-    vegetables in the fridge, but leave the potato in the pot").
+    vegetables in the fridge, but leave the potato in the pot", "one of them").
     """
     referents = context.discourse.referents
-    options = [referents[index].options for index in themes]
-    left = {thing for ways in options if len(ways) == 1 for thing in ways[0]}
+    ways = [things_in(way) for way in product(*(referents[index].options for index in themes))]
+    chosen = tuple(index for index in themes if len(referents[index].options) > 1)
     for index in (i for step in context.done if isinstance(step, Put) for i in step.what):
         (every, *others) = referents[index].options
-        kept = tuple(thing for thing in every if thing not in left)
-        if kept and not others:
-            referents[index] = replace(referents[index], options=(kept,))
+        kept = tuple(tuple(thing for thing in every if thing not in left) for left in ways)
+        if all(kept) and not others:
+            options = tuple(dict.fromkeys(kept))
+            apart = (*referents[index].distinct_from, *chosen)
+            referents[index] = replace(referents[index], options=options, distinct_from=apart)
 
 
 def tell_apart(

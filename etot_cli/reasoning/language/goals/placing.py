@@ -89,7 +89,9 @@ def add_put(
         )
         if not options or not all(options):
             raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
-        _check_left(context, referent.text, discourse.left_out.get(theme, ()), options)
+        # "The box on the tray, not the pear": that is no tray, and must not be in the box.
+        for index in (theme, *(place.where for place in places if place.where is not None)):
+            _check_left(context, referent.text, discourse.left_out.get(index, ()), options)
         discourse.referents[theme] = replace(referent, options=options)
         where = places[0].where if len(places) == 1 else None
         if where is not None and places[0].relation is Relation.INSIDE:

@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Put,
     Relation,
     Thing,
+    things_in,
 )
 from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -69,9 +70,8 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         context.discourse.mentions[before:] = kept
         return
     indices = context.phrases.things(clause.things, role)
-    for referent in (context.discourse.referents[index] for index in indices):
-        if referent.distinct_from and len(referent.options) > 1:
-            raise ReferenceProblem(referent.text, "say which one", 3)
+    if all(_is_not_chosen(context, index) for index in indices) and role is not Role.PART:
+        return  # no step moves it
     if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in clause.things.phrases):
         homes = [context.home(thing) for thing in context.discourse.things(*indices)]
         check_alone(context, clause.things.phrases, indices, homes)
@@ -105,6 +105,23 @@ def avoid(context: Context, clause: AvoidClause) -> None:
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
         return
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _is_not_chosen(context: Context, index: int, *, which: bool = False) -> bool:
+    """Whether "the other one" is what a choice leaves, of which is noted; ``which``: it matters.
+
+    Raises:
+        ReferenceProblem: it matters, or the choice leaves several.
+    """
+    referents = context.discourse.referents
+    referent = referents[index]
+    if not referent.distinct_from or len(referent.options) < 2:
+        return False
+    chosen = sum(len(referents[other].options[0]) for other in referent.distinct_from)
+    if which or len(things_in(referent.options)) - chosen > 1:
+        raise ReferenceProblem(referent.text, "say which one", 3)
+    context.discourse.notes.append(f"{referent.text!r} is the one that is not chosen")
+    return True
 
 
 def check_alone(
@@ -187,6 +204,8 @@ def rule_out(
     context: Context, themes: Sequence[int], destinations: Sequence[Destination]
 ) -> tuple[Place, ...]:
     """Says where things must not be put; returns these places."""
+    for index in themes:
+        _is_not_chosen(context, index, which=True)
     names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []

@@ -109,8 +109,6 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if placed & own or things_of(context, themes) <= placed:
             group = set_closer(context, group, clause.groups[0], themes, chosen)
         placed |= own
-        if clause.stays:
-            leave_among(context, themes)
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
             continue
@@ -134,6 +132,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             places = tuple(spread(context, place) for place in places)
         for index in () if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
+        if clause.stays:
+            leave_among(context, themes)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)

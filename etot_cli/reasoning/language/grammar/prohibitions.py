@@ -87,7 +87,7 @@ KEEP_STILL = either(
     sequence(
         "leav(e|ing), keep[ing]",
         "everything else, all else, the (rest|others) [of it|of them]",
-        manner.AS_IT_IS,
+        optional(manner.AS_IT_IS),
         build=lambda: AvoidClause(Avoid.MOVE, None),
     ),
     sequence(

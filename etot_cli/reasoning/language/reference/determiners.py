@@ -62,10 +62,11 @@ def quantity_of(determiner: str) -> Quantity:
     if first in ("the", "those", "these") and "remaining" in words and count is None:
         return Quantity(every=True, definite=True, other=True)
     of_so_many = words[-1] in NUMBERS and "of" in words and len(words) > 2
-    if first in ("any", "either", "each", "every", "one") and of_so_many:
+    if first in ("any", "either", "each", "every", *NUMBERS) and of_so_many:
         # "Either of the two": one of so many.
         every = first in ("each", "every")
-        return Quantity(None if every else 1, every=every, definite=every, among=count or 0)
+        some = None if every else NUMBERS.get(first, 1)
+        return Quantity(some, every=every, definite=every, among=count or 0)
     if first in ("all", "every", "each"):
         counted = count if first == "all" else None
         return Quantity(count=counted, every=True, definite=True, other=other)

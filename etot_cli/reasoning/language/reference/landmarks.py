@@ -93,7 +93,11 @@ def related(
         return [], []  # "the table next to the phone" on a table says where on that
     fitting = plainly or fitting
     if modifier.denied:
-        return [thing for thing in things if thing not in fitting], []
+        # "What is not on the tray" is no tray, either, nor in a bowl that is on it.
+        whole = {m.name for m in landmark_things if m == Thing(m.name)}
+        below = whole if prep in (Prep.ON, Prep.IN, Prep.FROM) else set()
+        left = [t for t in things if t not in fitting and not below & space.below(t, scene)]
+        return [thing for thing in left if thing not in landmark_things] or left, []
     if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
         # "The block under the blue one" of a tower is the one that bears it.
         touching = [

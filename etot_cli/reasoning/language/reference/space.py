@@ -135,7 +135,7 @@ def _alike(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
 
 def carries(one: Thing, other: Thing, scene: SceneState) -> bool:
     """Whether one of two things stands in or on the other."""
-    return one.name in _bearers(other, scene) or other.name in _bearers(one, scene)
+    return one.name in below(other, scene) or other.name in below(one, scene)
 
 
 def _levels_up(low: Thing, high: Thing, scene: SceneState) -> int:
@@ -186,12 +186,12 @@ def holds_at(
                 # Of levels none but the next is under what is in or on one of them.
                 thing.board is None
                 and (thing.part is None or _level_of(landmark, thing, scene) == landmark)
-                and thing.name in _bearers(landmark, scene)
+                and thing.name in below(landmark, scene)
             )
             or _levels_up(thing, _level_of(landmark, thing, scene), scene) == 1
         ),
         Prep.ABOVE: lambda landmark: (
-            landmark.name in _bearers(thing, scene)
+            landmark.name in below(thing, scene)
             or _levels_up(_level_of(landmark, thing, scene), thing, scene) == 1
         ),
     }
@@ -288,7 +288,7 @@ def upon_each_other(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     """Those of the things that lie on one another, from the bottom up; none of several stacks."""
     stacked = [one for one in things if any(carries(one, other, scene) for other in things)]
     stacked.sort(key=lambda thing: position(thing, scene)[2])
-    chain = all(low.name in _bearers(high, scene) for low, high in pairwise(stacked))
+    chain = all(low.name in below(high, scene) for low, high in pairwise(stacked))
     return stacked if chain else []
 
 
@@ -321,5 +321,6 @@ def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
     return max(aside) - min(aside), max(away) - min(away)
 
 
-def _bearers(thing: Thing, scene: SceneState) -> frozenset[str]:
+def below(thing: Thing, scene: SceneState) -> frozenset[str]:
+    """Names of all that a thing stands on or lies in."""
     return bearers(scene, thing.name) if thing.name in scene.states else frozenset()

@@ -19,7 +19,7 @@ DETERMINERS = f"""
     (all|any) (the|of the|of these|of those|) (other|remaining|{_COUNT}),
     (every|any|each|some) other,
     ({_COUNT}) [of] [the|these|those|other|more|of the other],
-    one of (the|these|those) ({_COUNT}),
+    ({_COUNT}) of (the|these|those) ({_COUNT}),
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     any of (the|these|those|),
     exactly one, exactly two, just one, half of the, none of the, no, neither [of the],
