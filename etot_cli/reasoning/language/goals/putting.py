@@ -265,8 +265,9 @@ def _like_a_place(context: Context, step: Put, theme: int) -> bool:
 def remove(context: Context, clause: RemoveClause) -> None:
     """Adds the steps that take things from where they are to the desk."""
     if clause.without and clause.source is not None:
-        for phrase in (np for np in clause.things.phrases if not (np.words or np.pronoun)):
-            raise ReferenceProblem(phrase.text, "say without what")
+        for np in clause.things.phrases:
+            if not (np.pronoun or (np.determiner and np.words)):
+                raise ReferenceProblem(np.text, "say without what")
         above = context.phrases.meaning(clause.source, Role.THEME).options
         below = [context.phrases.meaning(np, Role.ANY) for np in clause.things.phrases]
         under = [thing for item in below for thing in things_in(item.options)]
