@@ -75,7 +75,8 @@ KEEP_OUT = sequence(
 KEEP_STILL = either(
     sequence(
         THINGS,
-        "(should|must|has to|have to|is to|are to|shall) (stay|remain|be left),stay[s], remain[s]",
+        "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left)"
+        ", stay[s], remain[s]",
         f"{manner.AS_IT_IS}, put",
         build=partial(AvoidClause, Avoid.MOVE),
     ),

@@ -95,6 +95,8 @@ class Meanings:
         if chosen is not None:
             return chosen
         phrase = as_rest(phrase, noun_before, self.discourse)
+        if not phrase.words and phrase.text.split()[-1:] == ["other"]:
+            phrase = replace(phrase, words=("one",))  # of "one of the pots"
         quantity = quantity_of(phrase.determiner)
         if quantity.other and quantity.definite and (quantity.count or 1) > 1:
             # "One cup … the other two": which they are depends on the one.
