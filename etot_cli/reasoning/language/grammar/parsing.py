@@ -8,12 +8,12 @@ the words that their readings may begin with, and are not asked where another on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, cached_property
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.input import NO_WORD, Find, Input, Result
-from etot_cli.reasoning.language.words.patterns import Row, begun, phrases_of
+from etot_cli.reasoning.language.words.patterns import Begun
 
 First = frozenset[str] | None
 """Words that readings may begin with, NO_WORD for those of none; None where a test tells them."""
@@ -103,8 +103,8 @@ def one_of(table: Mapping[Any, str]) -> Parser:
     """
 
     @cache
-    def root() -> _Node:
-        return _Node("", [(value, (phrases_of(table[value]),)) for value in table])
+    def root() -> Begun:
+        return Begun.of(table)
 
     def parse(given: Input, at: int) -> list[Result]:
         words, node = given.words, root()
@@ -122,43 +122,6 @@ def one_of(table: Mapping[Any, str]) -> Parser:
         return found
 
     return Parser(parse, lambda: frozenset(root().following))
-
-
-class _Node:
-    """Phrases that begin alike; how they go on is worked out once a sentence gets there.
-
-    Args:
-        said: how they begin.
-        left: values, each with what is to follow of a phrase for it.
-    """
-
-    def __init__(self, said: str, left: Iterable[tuple[Any, Row]]) -> None:
-        self._said = said
-        self._left = left
-
-    @cached_property
-    def _further(self) -> dict[str, dict[tuple[Any, Row], None]]:
-        """What is left behind each word that may follow, NO_WORD for phrases that end here."""
-        further: dict[str, dict[tuple[Any, Row], None]] = {}
-        for value, row in self._left:
-            for item, rest in begun(row):
-                further.setdefault(item, {})[value, rest] = None
-        return further
-
-    @cached_property
-    def values(self) -> list[Any]:
-        """Of what ends here."""
-        ends = self._further.get(NO_WORD, ())
-        return [self._said if value is None else value for value, _ in ends]
-
-    @cached_property
-    def following(self) -> dict[str, _Node]:
-        """By the words that may follow."""
-        return {
-            item: _Node(f"{self._said} {item}".strip(), left)
-            for item, left in self._further.items()
-            if item != NO_WORD
-        }
 
 
 def word(test: Callable[[Input, str], bool]) -> Parser:

@@ -8,10 +8,10 @@ a word: ``pick[ing]``, ``clos(e|ing)``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from functools import cache
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache, cached_property
 from itertools import product
-from typing import Union
+from typing import Any, Union
 
 Row = tuple[Union[str, "Phrases"], ...]
 """Words, and phrases to choose from, one after the other."""
@@ -56,7 +56,7 @@ def _choice(tokens: Iterator[str]) -> Phrases:
     return tuple(map(tuple, rows))
 
 
-def begun(row: Row) -> Iterator[tuple[str, Row]]:
+def _begun(row: Row) -> Iterator[tuple[str, Row]]:
     """The words that a row may begin with, each with what is left; no word where nothing is."""
     if not row:
         yield "", ()
@@ -64,7 +64,49 @@ def begun(row: Row) -> Iterator[tuple[str, Row]]:
         yield row[0], row[1:]
     else:
         for choice in row[0]:
-            yield from begun((*choice, *row[1:]))
+            yield from _begun((*choice, *row[1:]))
+
+
+class Begun:
+    """Phrases that begin alike; how they go on is worked out once a sentence gets there.
+
+    Args:
+        said: how they begin.
+        left: values, each with what is to follow of a phrase for it.
+    """
+
+    def __init__(self, said: str, left: Iterable[tuple[Any, Row]]) -> None:
+        self._said = said
+        self._left = left
+
+    @classmethod
+    def of(cls, table: Mapping[Any, str]) -> Begun:
+        """What a table says: values and the patterns of what is said for them."""
+        return cls("", [(value, (phrases_of(table[value]),)) for value in table])
+
+    @cached_property
+    def _further(self) -> dict[str, dict[tuple[Any, Row], None]]:
+        """What is left behind each word that may follow, "" for phrases that end here."""
+        further: dict[str, dict[tuple[Any, Row], None]] = {}
+        for value, row in self._left:
+            for item, rest in _begun(row):
+                further.setdefault(item, {})[value, rest] = None
+        return further
+
+    @cached_property
+    def values(self) -> list[Any]:
+        """Of what ends here."""
+        ends = self._further.get("", ())
+        return [self._said if value is None else value for value, _ in ends]
+
+    @cached_property
+    def following(self) -> dict[str, Begun]:
+        """By the words that may follow."""
+        return {
+            item: Begun(f"{self._said} {item}".strip(), left)
+            for item, left in self._further.items()
+            if item
+        }
 
 
 def _texts(phrases: Phrases) -> Iterator[str]:
