@@ -12,7 +12,7 @@ import numpy as np
 from etot_cli.control.controller import replay, run_motion
 from etot_cli.control.robot import Guards
 from etot_cli.control.simulated_robot import SimulatedRobot
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import Action
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.deadline import Deadline
 from etot_cli.skills.motion.kinematics import Arm
@@ -31,9 +31,6 @@ from etot_cli.world.state import Cause, ContactEvent, RolloutRecord, SceneState,
 
 SHOVED = 0.03
 """A robot that strikes another object further than this chose its way badly [m]."""
-PUSHED = 0.25
-"""... or one that takes or puts something and moves a door or drawer by more than this share of its
-travel: as much as the built-in judge calls disturbed."""
 SETTLE_AT_START = 1.0
 """Time for a new scene to come to rest [s]."""
 SLEEP_BELOW = 3e-4
@@ -159,8 +156,7 @@ class PhysicsWorld:
         performed, trace = self.drive(start, motion, recorded)
         outcome = outcome_of(belief, action, motion, trace, performed.record.after)
         record = replace(performed.record, effect=outcome.effect, cause=outcome.cause)
-        badly = _struck(record, action) >= SHOVED or _pushed(record, action) > PUSHED
-        struck = outcome.effect and badly
+        struck = outcome.effect and _struck(record, action) >= SHOVED
         return replace(performed, record=record), outcome.another_way or struck
 
     def drive(
@@ -234,15 +230,6 @@ def _struck(record: RolloutRecord, action: Action) -> float:
         (moved for name, moved in record.displacement.items() if name in hit - carried),
         default=0.0,
     )
-
-
-def _pushed(record: RolloutRecord, action: Action) -> float:
-    """How far a door or drawer moved that was to stay as it was [share of its travel]."""
-    if action.verb in (Verb.OPEN, Verb.CLOSE):
-        return 0.0
-    parts = [part for info in record.before.infos.values() for part in info.parts]
-    moves = (abs(record.after.openness(part) - record.before.openness(part)) for part in parts)
-    return max(moves, default=0.0)
 
 
 def _both_ways(event: ContactEvent) -> tuple[tuple[str, str], tuple[str, str]]:

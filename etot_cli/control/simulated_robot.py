@@ -7,6 +7,7 @@ from collections import deque
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.errors import WorldError
@@ -63,9 +64,10 @@ class SimulatedRobot:
         # A position servo with velocity damping follows this much later than its target.
         self._lag = damping / np.maximum(gain, 1e-9)
         self._delay_steps = round(world.scene.actuation.delay_s / model.opt.timestep)
-        # What was commanded last; where nothing is late, what is in effect.
-        self._command: Vector = data.ctrl.copy() if self._delay_steps else data.ctrl
-        self._under_way: deque[tuple[int, Vector]] = deque()
+        # What was commanded last, and what is still to take effect.
+        self._command: Vector = data.ctrl.copy()
+        self._under_way: deque[Vector] = deque([data.ctrl.copy()] * self._delay_steps)
+        self._shares = np.arange(1, self._steps_per_period + 1)[:, None] / self._steps_per_period
         self._low, self._high = model.actuator_ctrlrange[robot.ctrl].T
         free = [name for name, entry in world.entries.items() if entry.free]
         first = np.array([model.joint(name).dofadr[0] for name in free], dtype=np.int64)
@@ -102,27 +104,26 @@ class SimulatedRobot:
         commands = np.clip(targets + lead, self._low, self._high)
         late, guarded, holding = 0, guards.holding is not None, guards.holding or 0.0
         for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
-            self._command[ctrl] = command
-            self._tick()
+            self._tick(command)
             if period % GUARD_EVERY:
                 continue
             if guarded and self._opening() < holding:
-                self._command[ctrl] = target
+                self._jump(ctrl, target)
                 return PhaseEnd.SLIPPED
             error = _largest(qpos[joints] - target)
             late = late + GUARD_EVERY if error > BLOCKED_ERROR else 0
             if late >= BLOCKED_PERIODS:
-                self._command[ctrl] = qpos[joints]
+                self._jump(ctrl, qpos[joints])
                 return PhaseEnd.BLOCKED
             if self._periods > MOST_PERIODS:
                 return PhaseEnd.OUT_OF_TIME
-        self._command[ctrl] = targets[-1]
+        self._jump(ctrl, targets[-1])
         return PhaseEnd.DONE
 
     def set_opening(self, opening: float) -> None:
         """Sends the gripper to a distance between the pads [m]."""
         robot = self._world.robot
-        self._command[robot.gripper_ctrl] = robot.spec.gripper.command(opening)
+        self._jump(robot.gripper_ctrl, robot.spec.gripper.command(opening))
 
     def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
         """Holds still; at rest, stepping on would change nothing."""
@@ -139,8 +140,8 @@ class SimulatedRobot:
 
     def rest(self) -> None:
         """What has been commanded last is in effect from now on."""
-        self._under_way.clear()
         self._data.ctrl[:] = self._command
+        self._under_way = deque([self._command.copy()] * self._delay_steps)
 
     def contacts(self) -> Contacts:
         """Who touches the robot, and who is pressed by whom, now."""
@@ -155,17 +156,17 @@ class SimulatedRobot:
                 presses.append(Press(*pair, sideways))
         return Contacts(tuple(touched_by_robot(world, data)), tuple(presses))
 
-    def _tick(self) -> None:
-        """One control period of physics.
+    def _tick(self, targets: Vector | None = None) -> None:
+        """One control period of physics, in which the joints are led to their next targets.
 
         Raises:
             WorldError: the simulation diverged.
             OutOfTimeError: the deadline has passed.
         """
-        if self._delay_steps:
-            self._step_late()
-        else:
+        if targets is None and not self._delay_steps:
             mujoco.mj_step(self._model, self._data, self._steps_per_period)
+        else:
+            self._lead(targets)
         self._periods += 1
         if self._periods % OBSERVE_EVERY == 0:
             self._deadline.check()
@@ -174,17 +175,24 @@ class SimulatedRobot:
             if not math.isfinite(self._qpos.dot(self._qpos)):
                 raise WorldError("the simulation diverged (NaN)")
 
-    def _step_late(self) -> None:
-        """A control period in which commands take effect some steps after they are given."""
-        now = self._periods * self._steps_per_period
-        end = now + self._steps_per_period
-        self._under_way.append((now + self._delay_steps, self._command.copy()))
-        while self._under_way and self._under_way[0][0] < end:
-            due, command = self._under_way.popleft()
-            if due > now:
-                mujoco.mj_step(self._model, self._data, due - now)
-            self._data.ctrl[:], now = command, due
-        mujoco.mj_step(self._model, self._data, end - now)
+    def _jump(self, ctrl: slice | NDArray[np.int64] | int, command: Vector | float) -> None:
+        """Commands what nothing leads to; where nothing is late, it is in effect."""
+        self._command[ctrl] = command
+        if not self._delay_steps:
+            self._data.ctrl[ctrl] = command
+
+    def _lead(self, targets: Vector | None) -> None:
+        """A control period in which servos are led evenly to what is commanded next, as the robot's
+        own controller does it. At a jump they would pull with all their force, hand and arm
+        tremble, and what is held creeps out of the fingers by millimetres a transit.
+        """
+        before = self._command.copy()
+        if targets is not None:
+            self._command[self._ctrl] = targets
+        for command in before + self._shares * (self._command - before):
+            self._under_way.append(command)
+            self._data.ctrl[:] = self._under_way.popleft()
+            mujoco.mj_step(self._model, self._data)
 
     def _opening(self) -> float:
         return self._world.robot.fingers.opening(self._qpos[self._fingers])

@@ -8,10 +8,8 @@ import pytest
 
 from etot_cli.control import physics_world, simulated_world
 from etot_cli.control.physics_world import Performed
-from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.control.simulated_world import ATTEMPTS
 from etot_cli.skills.motion.motion import Motion, Trace
-from etot_cli.skills.motion.timing import JointLimits
 from etot_cli.skills.outcome import DONE, SkillOutcome, failed
 from etot_cli.world.state import CauseKind
 from tests.skills.helpers import BALL, Episode, episode
@@ -95,25 +93,3 @@ def test_what_is_wider_than_the_gripper_is_not_pinched_again_and_again(
     assert record.cause is not None
     assert record.cause.kind in (CauseKind.SLIP, CauseKind.NO_GRASP)
     assert len(tried) == 1 and tried[0].details["width"] > 0.085
-
-
-def test_a_way_that_pushes_a_drawer_is_not_the_only_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The edge of an open drawer is close below what is carried to it."""
-    chest = {"kind": "drawer_unit", "at": [0.45, 0.16], "yaw_deg": -90, "mass": 2.0,
-             "size": [0.24, 0.2, 0.15],
-             "drawers": [{"name": "top", "travel": 0.14, "open": 0.13}]}  # fmt: skip
-    run = episode(ball=BALL | {"at": [0.3, -0.2]}, chest=chest)
-    run.must("[PICK UP, ball]")
-    carried_out, tried = physics_world.run_motion, list[Motion]()
-
-    def clumsy(motion: Motion, robot: SimulatedRobot, limits: JointLimits) -> Trace:
-        trace = carried_out(motion, robot, limits)
-        tried.append(motion)
-        if len(tried) == 1:
-            run.simulated.data.joint("chest.top").qpos[0] = 0.0
-        return trace
-
-    monkeypatch.setattr(physics_world, "run_motion", clumsy)
-    run.must("[PUT INTO, chest.top]")
-    assert len(tried) == 2 and run.state.states["chest"].openness["top"] > 0.8
-    assert run.state.states["ball"].inside == "chest"
