@@ -98,7 +98,7 @@ def _check_instead(spoken: Spoken, before: Clause | None) -> None:
     """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
     room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
     denied = isinstance(before, AvoidClause) and before.negated
-    if spoken.instead and not (room or denied):
+    if spoken.instead and before is not None and not (room or denied):
         raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
 
 

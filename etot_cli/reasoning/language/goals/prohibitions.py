@@ -93,7 +93,7 @@ def avoid(context: Context, clause: AvoidClause) -> None:
             names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-    context.discourse.step_back(before)
+    context.discourse.step_back(before, indices)
     # A drawer moves by being opened or closed, not with its chest.
     parts = [p for t in things if t.part for p in parts_of(context.scene, t)]
     ways = [

@@ -171,6 +171,7 @@ SWAP = either(
         build=lambda new, old: SwapClause(Things((old, new)), replaces=True),
     ),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
+    sequence(THINGS, verbs.CHANGE_PLACES, build=SwapClause),
     sequence(
         one_of({False: "swap[ping], exchang(e|ing), switch[ing]", True: "replac(e|ing)"}),
         noun_phrase,

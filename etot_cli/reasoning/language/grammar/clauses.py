@@ -127,6 +127,15 @@ def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
     return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
 
 
+_ELSEWHERE = sequence(
+    nouns.EXCEPT,
+    exceptions,
+    "~comma which",
+    verbs.MODAL,
+    DESTINATIONS,
+    build=lambda nps, where: PutGroup(Things(nps), where),
+)
+"""What goes to another place ("…, except the blue one, which goes on the mat")."""
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
@@ -146,7 +155,9 @@ CLAUSE = located(
                 either(CONTRASTED, APPOSED),
                 build=_of_the_things,
             ),
-            sequence(PUT, OPTIONAL_COMMA, "but", PUT_GROUP, build=_but_some),
+            sequence(
+                PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
+            ),
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

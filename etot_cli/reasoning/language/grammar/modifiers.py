@@ -43,7 +43,9 @@ from etot_cli.reasoning.language.words.places import Prep
 noun_phrase = Rule()
 exceptions = Rule()
 ADJECTIVE = either(
-    word(lambda given, text: is_descriptive(text) or text in given.nouns), phrase(manner.STATES)
+    word(lambda given, text: is_descriptive(text) or text in given.nouns),
+    phrase(manner.STATES),
+    sequence(phrase("farther, further, farthest, furthest"), "away"),
 )
 ADJECTIVES = separated(ADJECTIVE, LIST, most=3)
 PREPOSITION = one_of(places.PREPOSITIONS)
@@ -228,7 +230,8 @@ def _without_place(given: Input, at: int) -> list[Result]:
     return [
         (end, value)
         for end, value in QUALITY.find(given, at)
-        if not (SIDES.get(words[end - 1]) in ("near", "far") and words[end] in ("to", "from"))
+        if words[end] not in ("to", "from")
+        or (SIDES.get(words[end - 1]) not in ("near", "far") and words[end - 1] != "away")
     ]
 
 
@@ -264,7 +267,11 @@ _modifier = either(
     _contents,
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
-    sequence("~comma which (is|are)", either(PLAIN_MODIFIER, QUALITY), COMMA),
+    sequence(
+        "~comma which [is|are|stands|stand|lies|lie|sits|sit] [currently|already]",
+        DESCRIBED,
+        either(COMMA, at_end),
+    ),
     APPOSED,
     sequence(nouns.RELATIVE_NOT, either(DESCRIBED, _none_of), build=_denied),
     sequence(
@@ -280,6 +287,7 @@ _modifier = either(
         build=_denied,
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
+    sequence(COMMA, CONTRASTED, COMMA),
     sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, build=excepting),
 )
 MODIFIER.define(_modifier)

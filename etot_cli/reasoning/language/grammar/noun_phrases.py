@@ -211,7 +211,16 @@ noun_phrase.define(
             ),
             sequence(OPTIONAL_DETERMINER, _DESCRIPTIVE, _OR_OTHER, WORDS, MODIFIERS, build=_any_of),
             sequence(
+                OPTIONAL_DETERMINER,
+                WORDS,
+                nouns.RELATIVE,
+                _DESCRIPTIVE,
+                _OR_OTHER,
+                build=lambda det, words, first, more: _any_of(det, first, more, words, ()),
+            ),
+            sequence(
                 "everything, anything",
+                optional(nouns.RELATIVE),
                 _DESCRIPTIVE,
                 _OR_OTHER,
                 MODIFIERS,
@@ -316,9 +325,8 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 ALL_THINGS = valued(NP_LIST, Things)
 """Several things, and no choice between them."""
-THINGS = Rule(
+CHOICE = Rule(
     either(
-        ALL_THINGS,
         sequence(alternatives(noun_phrase, 5), build=_one_of),
         sequence(
             alternatives(noun_phrase, 1),
@@ -327,3 +335,5 @@ THINGS = Rule(
         ),
     )
 )
+"""One of several things."""
+THINGS = Rule(either(ALL_THINGS, CHOICE))

@@ -45,7 +45,13 @@ _FORBIDDEN = either(
         optional(small_words.TRAILING_THEN),
         build=_avoid,
     ),
-    sequence(phrase(f"{verbs.SET}, leav(e|ing)", Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(
+        "leav(e|ing)",
+        THINGS,
+        DESTINATIONS,
+        build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
+    ),
     sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
     sequence(
         either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),
@@ -53,7 +59,10 @@ _FORBIDDEN = either(
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
-AVOID = sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True))
+AVOID = either(
+    sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
+    sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
+)
 WITHOUT = sequence(
     OPTIONAL_COMMA,
     either(

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -249,6 +249,13 @@ _BROUGHT = either(
 """What is to go somewhere, in any mood."""
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
+    sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        noun_phrase,
+        verbs.RECEIVE,
+        ALL_THINGS,
+        build=lambda np, things: put_to(things, (Destination(Toward.TO, (np,)),)),
+    ),
     sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _SAID_AHEAD,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
@@ -166,9 +166,12 @@ class Discourse:
         noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
         self.mentions.append(Mention(referent, role, self.clause, noun))
 
-    def step_back(self, first: int) -> None:
-        """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is."""
+    def step_back(self, first: int, meant: Collection[int] = ()) -> None:
+        """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is, what
+        was ``meant`` rather than what that was told by.
+        """
         said = [replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]]
+        said.sort(key=lambda mention: mention.referent in meant)
         self.mentions[:] = [*said, *self.mentions[:first]]
 
     def things(self, *referents: int) -> tuple[Thing, ...]:

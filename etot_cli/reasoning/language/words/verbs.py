@@ -6,7 +6,7 @@ PICK = """
     pick[ing] up, pick[ing], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up], fetch[ing],
     get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up], seiz(e|ing), collect[ing], hand me,
     rais(e|ing), choose and pick up, bring me, giv(e|ing) me, pass[ing] me, retriev(e|ing),
-    gather[ing], (fetch|fetching|get|getting|grab|find|take) me, hand[ing] over
+    gather[ing], (fetch|fetching|get|getting|grab|find|take) me, hand[ing] over, let me have
 """
 TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me), hand[ing] over
@@ -85,6 +85,7 @@ WANT = """
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
 """
+NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand) [left|kept|put],
     (does|do) not (belong|go)
@@ -95,6 +96,7 @@ STAY = """
     (stay|stays|remain|remains),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
 """
+RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
@@ -117,6 +119,10 @@ OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
     (swap|exchange|switch) the (places|positions) of
+"""
+CHANGE_PLACES = """
+    [should|must|shall|have to|need to|are to] (change|swap|switch|trade|exchange)
+    (places|place|positions|position|spots)
 """
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
