@@ -291,6 +291,42 @@ def test_what_the_goal_wants_in_place_comes_back() -> None:
     )
 
 
+@pytest.mark.parametrize("openness", [0.0, 0.4])
+def test_what_was_opened_for_use_that_comes_earlier_now_is_not_opened_at_the_end(
+    openness: float,
+) -> None:
+    start = changed(
+        scenes.scene(
+            scenes.cabinet("cupboard", (0.4, 0.4), openness),
+            scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.4, 0.4)),
+        ),
+        egg={"inside": "cupboard", "on": ("cupboard",)},
+    )  # fmt: skip
+    reasoner = BuiltinReasoner()
+    text = "Put the nut into the cupboard. Then take the egg out of the cupboard to the desk."
+    (branch,) = reasoner.propose(Assignment(text), start)
+    index = [str(action) for action in branch.actions].index("[PICK UP, egg]")
+    before = changed(start, nut={"inside": "cupboard", "on": ("cupboard",)},
+                     cupboard={"openness": {"door": 1.0}})  # fmt: skip
+    rollout = record(before, effect=False, cause=cause(CauseKind.NO_GRASP, "nut", "egg"))
+    verdict = reasoner.judge(branch.actions[index], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, index, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions).endswith("[PUT INTO, cupboard] [CLOSE, cupboard]")
+
+
+def test_what_is_to_be_open_is_opened_at_the_end() -> None:
+    start, reasoner = scenes.microwave(), BuiltinReasoner()
+    (branch,) = reasoner.propose(Assignment("Open the microwave."), start)
+    after = changed(start, tennis_ball={"lost": True, "position": (0.0, 0.3, -0.5)})
+    reason = cause(CauseKind.LOST, "tennis_ball")
+    rollout = record(start, after, effect=False, cause=reason)
+    verdict = reasoner.judge(branch.actions[0], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions).endswith("[OPEN, microwave]")
+
+
 def test_without_a_cause_nothing_is_revised() -> None:
     start = scenes.pens()
     step = failed(start, "[PICK UP, pen]", 0, cause(CauseKind.SLIP, "pen"))

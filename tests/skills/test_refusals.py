@@ -90,6 +90,7 @@ def test_fastened_things_that_fill_a_place_together_are_named() -> None:
 OPEN_OVEN = OVEN | {"size": [0.25, 0.28, 0.28], "at": [0.6, 0.0], "yaw_deg": 180,
                     "door": {"open_deg": 100}}  # fmt: skip
 SMALL_CUP = CUP | {"diameter": 0.07}
+TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "mass": 0.12, "inside": "oven"}
 
 
 @pytest.mark.parametrize(
@@ -114,8 +115,15 @@ SMALL_CUP = CUP | {"diameter": 0.07}
                        "at": [0.63, 0.0]}},
             ["cup"],
         ),
+        (
+            "[PICK UP, thing] (horizontal)",
+            {"oven": OPEN_OVEN, "left": TIN | {"at": [0.56, 0.03]},
+             "right": TIN | {"at": [0.56, -0.03]}, "thing": TIN | {"at": [0.66, 0.0]}},
+            ["left", "right"],
+        ),
     ],
-    ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof"],
+    ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof",
+         "two before it under a roof"],
 )  # fmt: skip
 @pytest.mark.slow
 def test_no_grasp_names_who_is_in_the_way(

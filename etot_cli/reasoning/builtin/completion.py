@@ -1,7 +1,8 @@
-"""Brings back what a revision took out of a place that the goal wants it in.
+"""How a revision ends: with what the goal wants, and with nothing that nobody asked for.
 
 A branch has no steps for what already holds at its start. When a revision relocates such an object,
-its goal has to be restored at the end of the branch.
+its goal has to be restored at the end of the branch. What a revision left behind of an opening
+whose use has come earlier is dropped.
 """
 
 from __future__ import annotations
@@ -10,24 +11,29 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.choices import address_of
-from etot_cli.reasoning.builtin.goal import Goal, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import is_at
+from etot_cli.reasoning.builtin.goal import Goal, Open, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import is_at, is_open
+from etot_cli.reasoning.builtin.revision import Actions
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import PUTS, Action
-from etot_cli.world.state import SceneState
+from etot_cli.skills.action import PUTS, Action, Verb
+from etot_cli.world.state import SceneState, owner_of
 
 
-def completed(revised: Branch, failed: FailedStep, goals: Iterable[Goal]) -> Branch:
-    """The revision with steps that restore what held at the start and was asked for.
+def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Branch:
+    """The revision without last openings that nobody asked for, and with steps that restore what
+    held at the start and was asked for.
 
     Args:
         revised: a well-formed revision.
         failed: what it was revised from.
-        goals: what the branches were proposed for; nothing is restored without them.
+        goals: what the branches were proposed for; without them the revision stays as it is.
     """
+    if not goals:
+        return revised
     start = failed.start
+    revised = replace(revised, actions=_without_last_openings(revised.actions, goals, start))
     sketch = Sketch(start, revised.actions)
     for name in _taken_away(revised.actions):
         for relation, target in _wanted_from_start(name, goals, start):
@@ -39,6 +45,25 @@ def completed(revised: Branch, failed: FailedStep, goals: Iterable[Goal]) -> Bra
     if actions == revised.actions or check_plan(actions, start, opened):
         return revised
     return replace(revised, actions=actions)
+
+
+def _without_last_openings(actions: Actions, goals: Iterable[Goal], start: SceneState) -> Actions:
+    """The branch without what it opens at its end, unless that stood open at the start or a goal
+    speaks of opening there.
+    """
+    asked = {
+        owner_of(thing.name)
+        for goal in goals
+        for step in goal.steps
+        if isinstance(step, Open)
+        for thing in things_in(goal.referents[step.what].options)
+    }
+    while actions[-1].verb is Verb.OPEN and owner_of(actions[-1].target) not in asked:
+        part = start.part(actions[-1].target)
+        if part is None or is_open(start, part):
+            break
+        actions = actions[:-1]
+    return actions
 
 
 def _taken_away(actions: Sequence[Action]) -> list[str]:

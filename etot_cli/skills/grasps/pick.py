@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
-from itertools import chain, islice
+from itertools import chain
 
 import numpy as np
 
@@ -41,9 +41,7 @@ way by up to half a thin wall's thickness, and empty fingers close to nothing.""
 MAX_PREPARED = 140
 """Grasp candidates whose kinematics are looked at."""
 MAX_SUSPECTS = 4
-"""Objects that are taken away one at a time to see whether that helps ..."""
-MAX_TRIED_AGAIN = 48
-"""... and the grasps that are then looked at again."""
+"""Objects that are taken away, one at a time and together, to see whether that helps."""
 TILTS = {GraspPose.VERTICAL: (-0.3, 0.3, -0.6, 0.6), GraspPose.HORIZONTAL: (0.25, 0.5)}
 """Leans of the hand about the closing direction [rad]. A level one only dips: its wrist is thicker
 than what lies low on a desk is high, and up to 30° it still goes in and out through fronts."""
@@ -250,22 +248,24 @@ def _explain(
 
 
 def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str]) -> Sequence[str]:
-    """Whose absence lets some grasp go, what can be moved first: each one's that does alone, else
-    all those together that turn up one behind the other, as in a pile.
+    """Whose absence lets some grasp go, what can be moved first: each one's that does alone; where
+    nothing that can be moved does, all those together that turn up one behind the other, as in a
+    pile or before something at the back of a cupboard.
     """
-    blockers = Blockers(belief.world)
+    blockers, entries = Blockers(belief.world), belief.world.entries
     guilty = [one for one in suspects if _goes_without(belief, name, found, [one], blockers)]
-    if guilty:
-        return sorted(guilty, key=lambda one: not belief.world.entries[one].info.movable)
-    absent = list(suspects)
-    for _ in range(MAX_SUSPECTS):
+    if any(entries[one].info.movable for one in guilty):
+        return sorted(guilty, key=lambda one: not entries[one].info.movable)
+    absent: list[str] = []
+    behind = suspects
+    while more := [one for one in behind if entries[one].info.movable or not guilty]:
+        absent += more[: MAX_SUSPECTS - len(absent)]
         if len(absent) > 1 and _goes_without(belief, name, found, absent, blockers):
-            return absent
-        behind = blockers.most(excluding=[name, *absent])
-        if not behind or len(absent) >= MAX_SUSPECTS:
+            return [*absent, *guilty]
+        if len(absent) == MAX_SUSPECTS:
             break
-        absent += behind[: MAX_SUSPECTS - len(absent)]
-    return []
+        behind = blockers.most(excluding=[name, *absent])
+    return guilty
 
 
 def _too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
@@ -284,7 +284,7 @@ def _goes_without(
 ) -> bool:
     """Whether some grasp goes once these objects are taken away; notes who is in the way then."""
     with belief.checker.without(absent):
-        for candidate in islice(_variants(found), MAX_TRIED_AGAIN):
+        for candidate in _variants(found):
             belief.checker.freeze(belief.data)
             result = prepare_grasp(belief, name, candidate, blockers)
             if isinstance(result, PreparedGrasp):
