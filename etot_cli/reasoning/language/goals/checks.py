@@ -79,6 +79,25 @@ def check_run(goal: Goal) -> None:
                 gone |= own
 
 
+def check_circle(goal: Goal) -> None:
+    """Whether anything is to go where what is to be in or on itself goes, choices included."""
+    below: dict[object, object] = {}
+
+    def meant(index: int) -> object:
+        (option, *more) = goal.referents[index].options
+        return index if more or len(option) > 1 else option[0].name
+
+    for step in (step for step in goal.steps if isinstance(step, Put)):
+        for theme in step.what:
+            where = None if step.removal or len(step.places) > 1 else step.places[0].where
+            at = below[meant(theme)] = None if where is None else meant(where)
+            for _ in goal.steps:
+                at = below.get(at)
+            if at is not None:
+                why = "it cannot be in or on what is to be in or on it"
+                raise ReferenceProblem(goal.referents[theme].text, why, 4)
+
+
 def check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
     """Whether "the small one goes in last" speaks of what was put there by another clause."""
     put = [

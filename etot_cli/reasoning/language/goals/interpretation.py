@@ -20,7 +20,13 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
-from etot_cli.reasoning.language.goals.checks import check_held, check_kept, check_run, check_turns
+from etot_cli.reasoning.language.goals.checks import (
+    check_circle,
+    check_held,
+    check_kept,
+    check_run,
+    check_turns,
+)
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.plausibility import (
@@ -66,6 +72,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         state = _best_reading(state, sentence)
     check_kept(state.goal())
     check_run(state.goal())
+    check_circle(state.goal())
     check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     check_held(state.timed, goal, scene)

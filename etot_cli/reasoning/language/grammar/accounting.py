@@ -189,7 +189,9 @@ def _said(node: object) -> Iterator[str]:
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:
     if clause.one_each or clause.grouping is Grouping.SEPARATELY:
-        yield from ("each", "every")
+        yield from ("each", "every", "another")
+    if clause.grouping is Grouping.TOGETHER:
+        yield from ("same", "all")
     places = [target for group in clause.groups for item in group.destinations for target in
               (item.targets or (item,)) if not item.denied]  # fmt: skip
     if len(places) > 1 or clause.grouping is not Grouping.ANY:

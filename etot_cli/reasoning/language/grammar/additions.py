@@ -41,11 +41,10 @@ CONDITION = sequence("with", NP_LIST, optional("still"), SO, build=state_of)
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
-        GROUPING,
         CONDITION,
         phrase(manner.STANDING, ("upright", ())),
         manner.FITTING,
-        sequence(optional("but"), TURN),
+        sequence(optional("but"), either(GROUPING, TURN)),
         BY_COLOR,
         phrase(manner.ONE_EACH, ("each", ())),
         sequence(

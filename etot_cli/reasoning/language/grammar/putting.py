@@ -40,6 +40,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
     variants,
 )
+from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -95,8 +96,17 @@ _PARTICLE = """
     down, up, away, back, over, out, inside, somewhere, anywhere, some place,
     one (by one|at a time|after the other|after another)
 """
+
+
+def _quantified(things: Things, said: str) -> Things | None:
+    """Things of which it is said before the place that each of them, or all, go there."""
+    nps = tuple(all_of((np,), said) for np in things.phrases)
+    several = len(nps) > 1 or nps[0] != things.phrases[:1]
+    return replace(things, phrases=sum(nps, ())) if several and not things.either else None
+
+
 PUT_GROUP = sequence(
-    THINGS,
+    either(THINGS, sequence(THINGS, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
     _ASIDE,
     WHERE,

@@ -96,11 +96,14 @@ def _contains(verb: str) -> Parser:
     )
 
 
+_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
+
+
 def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     """All of them, as a word beside the verb says."""
     (first, *more) = nps
     if said and not more and first.determiner in nouns.THE_WORDS:
-        return (replace(first, determiner="both" if said == "both" else "all the"),)
+        return (replace(first, determiner=_QUANTITIES[said]),)
     return nps
 
 

@@ -122,7 +122,7 @@ class Surroundings:
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
             landmarks += self._landmark(phrase, themes, beside.relation)
         if beside.text.startswith(("closer", "nearer")):
-            self._check_closer(beside.text, themes, landmarks)
+            beside = replace(beside, relation=self._closer(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*_OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
@@ -134,13 +134,21 @@ class Surroundings:
             self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
 
-    def _check_closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> None:
-        """Whether what is to be closer to something is not near it yet: near is where it goes."""
+    def _closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby:
+        """Where is closer to something: near it, for what is near it already next to it."""
         things = [thing.name for index in themes for thing in self._discourse.things(index)]
         marks = [mark.name for index in landmarks for mark in self._discourse.things(index)]
-        near = (Whereabouts(Nearby.NEAR, (mark,)) for mark in marks)
-        if any(holds(where, name, self._scene) for where in near for name in things):
-            raise ReferenceProblem(text, "it is near that already; say next to it", 3)
+
+        def are(relation: Nearby) -> bool:
+            around = [Whereabouts(relation, (mark,)) for mark in marks]
+            return any(holds(where, name, self._scene) for where in around for name in things)
+
+        if not are(Nearby.NEAR):
+            return Nearby.NEAR
+        if are(Nearby.NEXT_TO):
+            raise ReferenceProblem(text, "it is next to that already", 3)
+        self._discourse.notes.append(f"{text!r} is next to it, as it is near that already")
+        return Nearby.NEXT_TO
 
     def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,

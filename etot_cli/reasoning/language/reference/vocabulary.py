@@ -65,7 +65,7 @@ class Vocabulary:
 
     def as_labelled(self, phrase: NounPhrase) -> NounPhrase:
         """A phrase with its words as in a label: "the teacher's desk" where no teacher is in the
-        scene, "the tube of paint", "the bin for paper".
+        scene, "the tube of paint", "the jar with jam", "the bin for paper".
         """
         words, rest = phrase.words, phrase
         before: tuple[str, ...] = ()
@@ -75,7 +75,7 @@ class Vocabulary:
         elif "for" in words[1:-1]:
             at = words.index("for")
             words, before = words[:at], words[at + 1 :]
-        elif of is not None and of.prep is Prep.OF and len(of.phrases) == 1:
+        elif of is not None and of.prep in (Prep.OF, Prep.WITH) and len(of.phrases) == 1:
             (inner,) = of.phrases
             if not (inner.determiner or inner.pronoun or inner.owner or inner.modifiers):
                 before, rest = inner.words, replace(phrase, modifiers=more)
@@ -86,14 +86,19 @@ class Vocabulary:
             *(self.parts if whose else ()),
             *(self.boards if whose else ()),
         )
-        told = any(
-            entry.grade(words[-1]) is not None
-            and all(matches_any(word, (*entry.own, *entry.owner)) for word in before)
+        told = [
+            entry
             for entry in everything
-            if words and before
-        )
-        there = whose and any(
-            entry.grade(before[-1]) in (EXACT, HEAD) for entry in everything if before
+            if words
+            and before
+            and entry.grade(words[-1]) is not None
+            and all(matches_any(word, (*entry.own, *entry.owner)) for word in before)
+        ]
+        # What belongs to or holds a thing that is there is told by that.
+        others = everything if whose else [entry for entry in everything if entry not in told]
+        landmark = whose or (of is not None and of.prep is Prep.WITH)
+        there = landmark and any(
+            entry.grade(before[-1]) in (EXACT, HEAD) for entry in others if before
         )
         return replace(rest, words=(*before, *words)) if told and not there else phrase
 

@@ -46,8 +46,11 @@ ANYHOW = """
     [either] [both] together or (separately|apart|individually|one by one),
     [either] (separately|apart|individually) or together, in any combination
 """
-TOGETHER = "[all|both] together"
-SEPARATELY = "separately, apart from each other, individually, apart"
+TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
+SEPARATELY = """
+    separately, apart from each other, individually, apart,
+    each (in|on) (its|their) own [one], each (in|on) (a different|a separate|another) (one|place)
+"""
 ONE_EACH = """
     one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
     one to each, one in each one
