@@ -90,7 +90,7 @@ def test_fastened_things_that_fill_a_place_together_are_named() -> None:
 OPEN_OVEN = OVEN | {"size": [0.25, 0.28, 0.28], "at": [0.6, 0.0], "yaw_deg": 180,
                     "door": {"open_deg": 100}}  # fmt: skip
 SMALL_CUP = CUP | {"diameter": 0.07}
-TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "mass": 0.12, "inside": "oven"}
+TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.13, "mass": 0.12, "inside": "oven"}
 
 
 @pytest.mark.parametrize(
@@ -117,8 +117,9 @@ TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.16, "mass": 0.12, "insi
         ),
         (
             "[PICK UP, thing] (horizontal)",
-            {"oven": OPEN_OVEN, "left": TIN | {"at": [0.56, 0.03]},
-             "right": TIN | {"at": [0.56, -0.03]}, "thing": TIN | {"at": [0.66, 0.0]}},
+            {"oven": OPEN_OVEN | {"size": [0.26, 0.3, 0.25], "at": [0.395, 0.43], "yaw_deg": -90},
+             "left": TIN | {"at": [0.35, 0.375]}, "right": TIN | {"at": [0.44, 0.375]},
+             "thing": TIN | {"at": [0.415, 0.475]}},
             ["left", "right"],
         ),
     ],
