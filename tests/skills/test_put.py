@@ -233,6 +233,23 @@ def test_goes_into_a_cabinet_from_the_front(thing: dict[str, Any], seed: int) ->
     assert after.openness(door) > 0.85, "the door stays as it was"
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
+def test_goes_in_well_above_the_edge_of_a_front(seed: int) -> None:
+    """So that what has slid down in the fingers on the way there does not stumble over it."""
+    can = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15, "at": [0.42, -0.15]}
+    run = episode(seed, keep_frames=True, oven=FURNACE, can=can)
+    run.must("[PICK UP, can] (horizontal)")
+    edge = run.must("[PUT INTO, oven]").states["oven"].position[1] - FURNACE["size"][0] / 2
+    trajectory = run.done[-1].trajectory
+    assert trajectory is not None
+    model = run.simulated.world.model
+    first = int(model.jnt_qposadr[model.body("can").jntadr[0]])
+    way = np.array(trajectory.qpos)[:, first : first + 3]
+    over = way[np.searchsorted(way[:, 1], edge), 2] - way[-1, 2]
+    assert 0.010 < over < 0.03
+
+
 @pytest.mark.slow
 def test_what_lies_is_stood_up_where_the_hand_has_to_come_level() -> None:
     """From above it has no room under the roof."""

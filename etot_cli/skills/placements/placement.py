@@ -26,6 +26,9 @@ OUTSIDE = 0.03
 SURFACE_GAP, FLOOR_GAP = 0.002, 0.006
 """The object is let go this far above a surface [m]; and above a container's floor or a board,
 which may be dragged along by what is pressed on it, and over which it goes in."""
+ENTRY_HIGHER = 0.012
+"""Before a front it is higher than it is let go by this where the roof leaves room [m]: what slides
+down in the fingers on the way there (5 mm and more, half-way around) must not meet the edge."""
 RETREAT = 0.09
 """Distance of the straight retreat [m]."""
 LOWER_STEP = 0.016
@@ -221,18 +224,17 @@ class _Way:
         out = np.array([*support.axes[0], 0.0])
         depth = float(support.local(self._target.position[None, :2])[0, 0])
         length = support.half[0] - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
-        poses = straight(tool, tool.moved(out * length), LOWER_STEP)
-        path, count = arm.line(poses, inside.joints)
-        if count < len(poses):
-            self.reached = False
-            return None
-        if any(self._is_hit(row, self._bearers) for row in path):
-            return None
-        release = self._widest_release([inside.joints, *path], CLEARANCE)
-        if release is None:
-            return None
-        down = np.vstack([path[-2::-1], inside.joints])
-        return Placement(path[-1], down, path, release, 0.0, length)
+        for higher in (ENTRY_HIGHER, 0.0):
+            poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
+            path, count = arm.line(poses, inside.joints)
+            self.reached = count == len(poses)
+            if not self.reached or any(self._is_hit(row, self._bearers) for row in path):
+                continue
+            release = self._widest_release([inside.joints, *path], CLEARANCE)
+            if release is not None:
+                down = np.vstack([path[-2::-1], inside.joints])
+                return Placement(path[-1], down, path, release, 0.0, length)
+        return None
 
     def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
         hits = self._belief.checker.hits(
