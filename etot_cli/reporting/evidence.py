@@ -44,6 +44,8 @@ class MovedModel(Model):
     before: str
     """Where it was, in words, e.g. ``on desk``."""
     after: str
+    toppled: bool = False
+    """It stood before and lies now."""
 
 
 class ContactModel(Model):
@@ -72,6 +74,11 @@ class JudgedModel(ActionModel):
     simulated_s: Seconds
     """Physics time stepped for it, all worlds together."""
     wall_s: Seconds
+
+    def told(self) -> list[str]:
+        """``changes``, for people: what was put down lying is said to lie."""
+        lying = {item.object for item in self.moved if item.toppled}
+        return [f"{name} (lying)" if name in lying else name for name in self.changes]
 
 
 def judged_fields(
@@ -107,6 +114,7 @@ def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedMod
                     largest_m=largest,
                     before=whereabouts(before),
                     after=whereabouts(after),
+                    toppled=after.toppled and not before.toppled,
                 )
             )
     return sorted(found, key=lambda item: -item.largest_m)

@@ -58,7 +58,7 @@ def _steps(out: Printer, nodes: Sequence[NodeModel]) -> None:
     columns = widest(nodes)
     for number, node in enumerate(nodes, 1):
         notes = [node.origin] if out.verbosity is Verbosity.VERBOSE else []
-        out.action(number, node.status, node.action, node.safe, notes + node.changes, columns)
+        out.action(number, node.status, node.action, node.safe, notes + node.told(), columns)
 
 
 def _failures(out: Printer, failures: Sequence[Failure], steps: int) -> None:

@@ -20,7 +20,7 @@ def simulate_summary(out: Printer, report: SimulateReport, path: Path) -> None:
     out.headline(report.status, report.task.instruction)
     columns = widest(report.steps)
     for step in report.steps:
-        out.action(step.index + 1, step.status, step.action, step.safe, step.changes, columns)
+        out.action(step.index + 1, step.status, step.action, step.safe, step.told(), columns)
         if step.status != "success":
             kind = step.status if step.cause is None else f"{step.status}, {step.cause.kind}"
             out.why(step.status, kind, step.cause.text if step.cause else "", 6)

@@ -16,6 +16,7 @@ from etot_cli.commands.simulate import SimulateOptions, run_simulate
 from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.search import search
 from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reporting.evidence import JudgedModel, moved_models
 from etot_cli.reporting.live import LiveView, window
 from etot_cli.reporting.log import PlainLog
 from etot_cli.reporting.plan_report import PlanReport
@@ -25,6 +26,8 @@ from etot_cli.reporting.run_summary import simulate_summary
 from etot_cli.reporting.style import LOOKS, Verbosity, make_console
 from etot_cli.world.state import CauseKind
 from tests.planning.fakes import ToyReasoner, ToySimulator, fails
+from tests.reasoning import scenes
+from tests.reasoning.records import changed, record
 from tests.reporting.toy_rooms import ToyRooms
 
 
@@ -221,6 +224,16 @@ def test_simulate_summary() -> None:
     assert "✗ the plan fails" in text
     assert "not tried" in text
     assert "✓ cup on desk: holds" in text
+
+
+def test_what_was_put_down_lying_is_told() -> None:
+    """It stood before; what lay before is not told again."""
+    start = scenes.scene(scenes.cup("tin", (0.4, 0.1)), scenes.ball("nut", (0.4, -0.1)))
+    lying = changed(start, tin={"toppled": True, "tilt_deg": 90.0})
+    for before, told in ((start, "tin (lying)"), (lying, "tin")):
+        moved = moved_models(record(before, lying), ["tin", "nut"])
+        judged = JudgedModel.model_construct(changes=["tin", "nut"], moved=moved)
+        assert judged.told() == [told, "nut"]
 
 
 def test_every_status_of_a_report_has_a_look() -> None:
