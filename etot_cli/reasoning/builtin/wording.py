@@ -78,5 +78,8 @@ def _near(near: Near, goal: Goal) -> str:
 
 
 def _choice(index: int, goal: Goal, joint: str = " and ") -> str:
-    options = goal.referents[index].options
-    return " or ".join(dict.fromkeys(joint.join(t.address for t in things) for things in options))
+    referent = goal.referents[index]
+    options = dict.fromkeys(joint.join(t.address for t in item) for item in referent.options)
+    before = (goal.referents[other] for other in referent.distinct_from if other < index)
+    again = len(options) > 1 and any(referent.options == other.options for other in before)
+    return " or ".join(options) + (" (another)" if again else "")

@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
     BY_COLOR,
     CONDITION,
+    EXTRA,
     EXTRAS,
     GROUPING,
     left,
@@ -260,6 +261,13 @@ _BROUGHT = either(
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        verbs.MODAL,
+        DESTINATIONS,
+        some(EXTRA, least=1, most=2),
+        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
+    ),
     sequence(
         noun_phrase,
         verbs.RECEIVE,

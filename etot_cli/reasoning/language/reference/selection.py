@@ -217,8 +217,9 @@ def _by_size(
         return equal  # "the small pots" of two small ones and a big one
     last = measure(_leading(ordered, count, phrase)[-1])
     said = [own for thing in ordered for own in scene.infos[thing.name].label.casefold().split()]
-    if measure(ordered[0]) == measure(ordered[-1]) and any(map(word.startswith, {*said} - {word})):
-        # "The lightest brown pad" of a light brown and a dark brown one
+    alike = len(ordered) > 1 and measure(ordered[0]) == measure(ordered[-1])
+    if alike and (word.endswith("er") or any(map(word.startswith, {*said} - {word}))):
+        # "The bigger of two that are as big", "the lightest brown pad" of a dark and a light brown
         names = " and ".join(thing.name for thing in ordered)
         raise ReferenceProblem(phrase, f"{word!r} tells nothing of {names}", 2, word=word)
     return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant

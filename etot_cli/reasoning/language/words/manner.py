@@ -8,7 +8,7 @@ ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
     if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so},
-    if (it is|they are|) not [already] {so}, if (necessary|needed),
+    if (it is|they are|) not [already] {so} [already|yet], if (necessary|needed),
     until (it is|they are) [fully|completely] {so}
 """
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")

@@ -24,7 +24,8 @@ TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) tim
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
 FRAMES = f"""
-    robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well,
+    robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
+    great, um,
     alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,

@@ -72,7 +72,8 @@ MODAL = f"""
     (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
-    (is|are) supposed to be, goes, go, belong[s], (can|could|may|might|will) (go|be put|be placed)
+    (is|are) supposed to be, goes, go, belong[s], live[s],
+    (can|could|may|might|will) (go|be put|be placed)
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] be [{_BROUGHT}]"
