@@ -74,9 +74,12 @@ class Asked:
         unnamed = self.noun is None or matches_any(self.noun, THING_NOUNS)
         return unnamed and self.words[-1] in ("one", "ones") and self.role is not Role.ANY
 
-    def problem(self, why: str, rank: int, word: str = "") -> ReferenceProblem:
-        """That it is unclear."""
-        return ReferenceProblem(self.phrase.text, why, rank, word=word)
+    def problem(
+        self, why: str, rank: int, word: str = "", meant: Sequence[Thing] = ()
+    ) -> ReferenceProblem:
+        """That it is unclear; ``meant``: what may be meant."""
+        names = tuple(thing.address for thing in meant)
+        return ReferenceProblem(self.phrase.text, why, rank, word=word, candidates=names)
 
 
 def check_determiner(phrase: NounPhrase, quantity: Quantity) -> None:
@@ -177,9 +180,9 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
         and any(space.is_flat(scene.infos[thing.name]) for thing in things)
     )
     if shape or (unclear and asked.count == 1):
-        raise asked.problem(f"say which of {names_of_things(things)}", 2)
+        raise asked.problem(f"say which of {names_of_things(things)}", 2, meant=things)
     if match.plural and len(things) == 1 and _says_several(asked):
-        raise asked.problem(f"only {things[0].name} is called so", 2, words[-1])
+        raise asked.problem(f"only {things[0].name} is called so", 2, words[-1], things)
     if quantity.sole and len(things) > 1:
         raise asked.problem(f"it is not the only one: {names_of_things(things)}", 2, "only")
     level = next((word for word in words[:-1] if word in LEVELS), "")
