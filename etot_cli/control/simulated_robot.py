@@ -73,7 +73,7 @@ class SimulatedRobot:
         first = np.array([model.joint(name).dofadr[0] for name in free], dtype=np.int64)
         self._free_dofs = (first[:, None] + np.arange(3)).ravel()
         # Asking ``data`` for its arrays at every look takes longer than reading them.
-        self._qpos, self._qvel = data.qpos, data.qvel
+        self._qpos, self._qvel, self._in_effect = data.qpos, data.qvel, data.ctrl
         self._ctrl, self._joints = consecutive(robot.ctrl), consecutive(robot.qpos)
         self._fingers = consecutive(robot.finger_qpos)
 
@@ -103,8 +103,10 @@ class SimulatedRobot:
         lead[0] = 0.0
         commands = np.clip(targets + lead, self._low, self._high)
         late, guarded, holding = 0, guards.holding is not None, guards.holding or 0.0
-        for period, (target, command) in enumerate(zip(targets, commands, strict=True)):
-            self._tick(command)
+        starts = np.vstack([self._command[ctrl][None], commands[:-1]])
+        ways = starts[:, None] + self._shares * (commands - starts)[:, None]
+        for period, (target, way) in enumerate(zip(targets, ways, strict=True)):
+            self._tick(way)
             if period % GUARD_EVERY:
                 continue
             if guarded and self._opening() < holding:
@@ -140,7 +142,7 @@ class SimulatedRobot:
 
     def rest(self) -> None:
         """What has been commanded last is in effect from now on."""
-        self._data.ctrl[:] = self._command
+        self._in_effect[:] = self._command
         self._under_way = deque([self._command.copy()] * self._delay_steps)
 
     def contacts(self) -> Contacts:
@@ -156,17 +158,34 @@ class SimulatedRobot:
                 presses.append(Press(*pair, sideways))
         return Contacts(tuple(touched_by_robot(world, data)), tuple(presses))
 
-    def _tick(self, targets: Vector | None = None) -> None:
-        """One control period of physics, in which the joints are led to their next targets.
+    def _tick(self, way: Vector | None = None) -> None:
+        """One control period of physics.
+
+        Servos are led evenly to their next targets, as the robot's own controller does it. At a
+        jump they would pull with all their force, hand and arm tremble, and what is held creeps out
+        of the fingers by millimetres a transit.
+
+        Args:
+            way: targets of the joints (steps, n), one per physics step; None to stay.
 
         Raises:
             WorldError: the simulation diverged.
             OutOfTimeError: the deadline has passed.
         """
-        if targets is None and not self._delay_steps:
-            mujoco.mj_step(self._model, self._data, self._steps_per_period)
+        model, data, ctrl, in_effect = self._model, self._data, self._ctrl, self._in_effect
+        if self._delay_steps:
+            for step in range(self._steps_per_period):
+                self._command[ctrl] = self._command[ctrl] if way is None else way[step]
+                self._under_way.append(self._command.copy())
+                in_effect[:] = self._under_way.popleft()
+                mujoco.mj_step(model, data)
+        elif way is None:
+            mujoco.mj_step(model, data, self._steps_per_period)
         else:
-            self._lead(targets)
+            for targets in way:
+                in_effect[ctrl] = targets
+                mujoco.mj_step(model, data)
+            self._command[ctrl] = way[-1]
         self._periods += 1
         if self._periods % OBSERVE_EVERY == 0:
             self._deadline.check()
@@ -179,20 +198,7 @@ class SimulatedRobot:
         """Commands what nothing leads to; where nothing is late, it is in effect."""
         self._command[ctrl] = command
         if not self._delay_steps:
-            self._data.ctrl[ctrl] = command
-
-    def _lead(self, targets: Vector | None) -> None:
-        """A control period in which servos are led evenly to what is commanded next, as the robot's
-        own controller does it. At a jump they would pull with all their force, hand and arm
-        tremble, and what is held creeps out of the fingers by millimetres a transit.
-        """
-        before = self._command.copy()
-        if targets is not None:
-            self._command[self._ctrl] = targets
-        for command in before + self._shares * (self._command - before):
-            self._under_way.append(command)
-            self._data.ctrl[:] = self._under_way.popleft()
-            mujoco.mj_step(self._model, self._data)
+            self._in_effect[ctrl] = command
 
     def _opening(self) -> float:
         return self._world.robot.fingers.opening(self._qpos[self._fingers])
