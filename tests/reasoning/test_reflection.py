@@ -265,13 +265,14 @@ def test_what_goes_in_through_a_front_is_held_from_the_side() -> None:
     assert revision(asked) is None, "an asked pose is not replaced"
 
 
-def test_what_is_taken_out_through_a_front_is_held_from_the_side() -> None:
+@pytest.mark.parametrize("kind", [CauseKind.NO_GRASP, CauseKind.BLOCKED, CauseKind.COLLISION])
+def test_what_is_taken_out_through_a_front_is_held_from_the_side(kind: CauseKind) -> None:
     start = changed(scenes.microwave(), tennis_ball={"inside": "microwave", "on": ("microwave",)})
     before = changed(start, microwave={"openness": {"door": 1.0}})
     plan = "[OPEN, microwave] [PICK UP, tennis_ball]{0} [PUT ON, desk]"
-    reason = cause(CauseKind.NO_GRASP, "microwave", "tennis_ball")
+    reason = cause(kind, "microwave", "tennis_ball")
     step = failed(start, plan.format(""), 1, reason, before)
-    assert revision(step) == plan.format(" (horizontal)")
+    assert plan.format(" (horizontal)") in revisions(step)
 
 
 def test_what_the_goal_wants_in_place_comes_back() -> None:

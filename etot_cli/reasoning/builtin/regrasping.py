@@ -11,8 +11,11 @@ from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.state import CauseKind, owner_of
 
-_NO_ROOM_ABOVE = frozenset({CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE})
-"""Causes that a roof above the place may be behind."""
+_NO_ROOM_ABOVE = frozenset(
+    {CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE,
+     CauseKind.BLOCKED, CauseKind.COLLISION}
+)  # fmt: skip
+"""Causes that a roof above the place may be behind: no room for the hand, or hardly any."""
 
 
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
