@@ -225,3 +225,17 @@ def test_a_wide_vessel_that_lies_is_taken_through_its_mouth(
     cup = CUP | {"diameter": 0.095, "height": 0.09, "at": list(at), "quaternion": list(quaternion)}
     after = episode(cup=cup).must("[PICK UP, cup]", "[PUT ON, desk] (upright)")
     assert not after.states["cup"].toppled and after.states["cup"].on == ("desk",)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("far", [0.09, 0.10, 0.106])
+@pytest.mark.slow
+def test_what_lies_partly_under_the_edge_of_a_unit_comes_out_slanting(
+    far: float, seed: int
+) -> None:
+    """Straight up it strikes the edge."""
+    high = {"name": "high", "height": 0.08, "travel": 0.14, "open": far}
+    unit = UNIT | {"at": [0.45, 0.24], "yaw_deg": -90, "size": [0.22, 0.22, 0.168]}
+    unit |= {"drawers": [high, {"name": "low", "height": 0.07}]}
+    ball = BALL | {"diameter": 0.04, "inside": "unit.high", "at": [0.45, 0.24 - far]}
+    episode(seed, unit=unit, ball=ball).must("[PICK UP, ball]")

@@ -125,9 +125,14 @@ def _lift(
                 if path is not None:
                     return path, CLEAR + length
             return None
-        up = straight(grasp.tool, grasp.tool.moved(LIFT * UP))
-        path = _carried(belief, name, grasp, up, joints, blockers, thorough=False)
-        return None if path is None else (path, LIFT)
+        # Partly under an edge it comes out the way that a slanting hand went in.
+        slants = LEVEL < -approach[2] < 1 - 1e-3
+        for direction in (UP, -approach) if slants else (UP,):
+            way = straight(grasp.tool, grasp.tool.moved(LIFT * direction))
+            path = _carried(belief, name, grasp, way, joints, blockers, thorough=False)
+            if path is not None:
+                return path, LIFT
+        return None
     finally:
         checker.freeze(belief.data)
 
@@ -162,7 +167,7 @@ def _carried(
     path, count = belief.arm.line(poses, joints)
     if count < (len(poses) if thorough else 2):
         return None
-    resting = {*_supports(belief, name)}
+    resting = _supports(belief, name)
     with checker.without(belief.riders(name)):
         for row in path if thorough else (path[-1], path[len(path) // 2]):
             hits = checker.hits(
@@ -175,14 +180,14 @@ def _carried(
 
 
 def _supports(belief: Belief, name: str) -> set[str]:
-    """Objects that touch it now, from below or the side, and so may do during the lift."""
+    """Addresses of what touches it now, from below or the side, and so may do during the lift: a
+    drawer, not the unit that it slides in.
+    """
     world, data = belief.world, belief.data
     state = belief.scene.states[name]
-    found = {owner_of(address) for address in (*state.on, state.inside or name)} - {name}
+    found = {*state.on, state.inside or name}
     for one, two in data.contact.geom:
-        first, second = world.geom_object[int(one)], world.geom_object[int(two)]
-        if first == name:
-            found.add(second)
-        elif second == name:
-            found.add(first)
-    return found
+        touching = world.geom_object[int(one)], world.geom_object[int(two)]
+        if name in touching:
+            found |= {world.geom_address[int(one)], world.geom_address[int(two)]}
+    return found - {name}
