@@ -45,7 +45,7 @@ def tower(context: Context, clause: TowerClause) -> None:
             bottom = under
     for (below, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
         context.steps.append(Put((above,), (_upon(context, lower, upper, below),)))
-    context.discourse.stacks[context.discourse.clause] = bottom
+    context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
 
 
 def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> list[int]:

@@ -67,7 +67,7 @@ _FIXED = """
     each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    's (top|surface), in any order, (no|any) longer, only then, any [one] but
+    closer together, 's (top|surface), in any order, (no|any) longer, only then, any [one] but
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")

@@ -132,11 +132,12 @@ TOWER = either(
         verbs.OUT_OF,
         THINGS,
         optional(_UPWARD, None),
+        optional(DESTINATIONS, ()),
         _TOWER_ENDS,
-        build=lambda before, things, after, ends: (
+        build=lambda before, things, after, base, ends: (
             None
             if before is not None and after is not None
-            else _tower(things, before if after is None else after, ends)
+            else _tower(things, before if after is None else after, ends, base)
         ),
     ),
     variants(

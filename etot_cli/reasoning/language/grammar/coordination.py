@@ -31,7 +31,8 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
         named = bool(item.words) and item.words[-1] in COMMON_NOUNS  # "lime", "orange"
         if adjectives and following is None and not item.determiner and not named:
             return None
-        if adjectives and following is not None and len(following.words) > 1:
-            item = replace(item, words=(*item.words, following.words[-1]))
+        if adjectives and following is not None:
+            noun = "_".join(following.words).split("_")[1:]  # labels of several words are joined
+            item = replace(item, words=(*item.words, *noun[-1:]))
         found[index] = item
     return tuple(found)

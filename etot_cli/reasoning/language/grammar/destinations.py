@@ -69,7 +69,7 @@ _SIDE_OF_IT = one_of(
 )
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
 _ABREAST = valued(
-    either("side by side", sequence(_CLOSE_BY, "each other, one another")),
+    either("side by side, close[r] together", sequence(_CLOSE_BY, "each other, one another")),
     lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
 )
 BESIDE = spanned(

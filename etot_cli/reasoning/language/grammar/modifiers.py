@@ -150,13 +150,16 @@ _contents = either(
         sequence(
             optional("that, which"),
             noun_phrase,
-            "is, are, stands, stand, lies, lie, sits, sit",
+            either(
+                phrase("is, are, stands, stand, lies, lie, sits, sit", ()),
+                phrase("was, were, stood, lay, sat", (HERE_BEFORE,)),
+            ),
             optional("currently"),
             optional(phrase("not", True), False),
             one_of({Prep.CONTAINING: "in", Prep.BEARING: "on"}),
             # "The cup that is not on" is one that nothing is said of.
-            build=lambda np, denied, prep: (
-                None if np.text == "that" else Modifier(prep, (np,), denied=denied)
+            build=lambda np, words, denied, prep: (
+                None if np.text == "that" else Modifier(prep, (np,), words, denied)
             ),
         )
     ),

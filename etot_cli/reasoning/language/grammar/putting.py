@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     put_of,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
@@ -113,9 +114,14 @@ PUT_GROUP = sequence(
     WHERE,
     build=lambda things, upright, where: PutGroup(things, where, upright),
 )
+_BROUGHT = either(
+    sequence(verbs.PUT, THINGS),
+    sequence(verbs.WANT, ALL_THINGS),
+    sequence(ALL_THINGS, verbs.MODAL),
+)
+"""What is to go somewhere, in any mood."""
 _SAID_AHEAD = sequence(
-    verbs.PUT,
-    THINGS,
+    _BROUGHT,
     either(
         sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
         sequence(COMMA, either(TURN, CONDITION), COMMA),
@@ -192,7 +198,8 @@ def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -
     apposed = any(not then and np.head == "one" for then, np in more)
     if (placed and not first_said) or apposed or not any(then for then, _ in more):
         return None
-    return Things((first, *(np for _, np in more)))
+    nps = coordinated(first, tuple(np for _, np in more))
+    return None if nps is None else Things(nps)
 
 
 _FIRST_THEN = sequence(
@@ -252,12 +259,6 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
-_BROUGHT = either(
-    sequence(verbs.PUT, THINGS),
-    sequence(verbs.WANT, ALL_THINGS),
-    sequence(ALL_THINGS, verbs.MODAL),
-)
-"""What is to go somewhere, in any mood."""
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
@@ -275,6 +276,14 @@ PUT = either(
         build=lambda np, things: put_to(things, (Destination(Toward.TO, (np,)),)),
     ),
     sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
+    sequence(
+        _BROUGHT,
+        places.NEARBY[Nearby.NEXT_TO],
+        noun_phrase,
+        OPTIONAL_COMMA,
+        "one (on|to) (each|either) side",
+        build=lambda things, np: _flanking(things, "each", np),
+    ),
     sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
     _SAID_AHEAD,
     _FRONTED,

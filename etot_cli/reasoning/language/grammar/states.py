@@ -239,7 +239,14 @@ ENSURE = either(
     quiet(
         sequence(
             either(
-                sequence(NP_LIST, verbs.NOT_BE), sequence("(i|we) do not want", NP_LIST, _TO_BE)
+                sequence(NP_LIST, verbs.NOT_BE),
+                sequence("(i|we) do not want", NP_LIST, _TO_BE),
+                sequence(
+                    "neither",
+                    separated(noun_phrase, "nor"),
+                    verbs.MODAL,
+                    build=lambda nps: nps if nps[1:] else None,
+                ),
             ),
             either(OPEN_OR_CLOSED, DESTINATIONS),
             optional("any more, anymore, any longer"),

@@ -66,6 +66,8 @@ def meant_by_it(
         ReferenceProblem: nothing before it fits.
     """
     for clause in _clauses(discourse):
+        if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
+            return discourse.stacks[clause][1]
         acted_on, places, landmarks = _mentioned_in(discourse, clause, role, excluded)
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
@@ -211,9 +213,10 @@ def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
 
 def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
     for clause in sorted({mention.clause for mention in discourse.mentions}, reverse=True):
-        if clause in discourse.stacks and role in (Role.THEME, Role.ANY):
-            # What stands on the bottom goes with it.
-            return (discourse.stacks[clause],)
+        if clause in discourse.stacks and role is not Role.CONTAINER:
+            # What stands on the bottom goes with it; what goes on them goes on top.
+            bottom, top = discourse.stacks[clause]
+            return (bottom if role in (Role.THEME, Role.ANY) else top,)
         found = _acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
         several = len(found) > 1 or any(
             len(option) > 1 for index in found for option in discourse.referents[index].options

@@ -38,8 +38,8 @@ class Discourse:
     """Referents that have been given a place."""
     last_landmark: tuple[int, int, Nearby] = (-1, -1, Nearby.NEAR)
     """Number of a clause, the referent that something is put beside there, and how it is to be."""
-    stacks: dict[int, int] = field(default_factory=dict)
-    """Number of the clause that built a stack → the referent at its bottom."""
+    stacks: dict[int, tuple[int, int]] = field(default_factory=dict)
+    """Number of the clause that built a stack → the referents at its bottom and on top."""
     left_out: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
     """Referent → what its phrase leaves out of it."""
     fitting: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
@@ -194,11 +194,12 @@ class Discourse:
         return all(thing.name == DESK for thing in self.things(referent))
 
     def mentioned_like(self, noun: str | None) -> tuple[Thing, ...]:
-        """Single things spoken of by a noun; "the other" is none of them."""
+        """Single things spoken of by a noun, or put somewhere: "the other" is none of them."""
         found: dict[Thing, None] = {}
         for mention in self.mentions:
             options = self.referents[mention.referent].options
-            if noun is not None and same_noun(mention.noun, noun) and len(options) == 1:
+            alike = mention.referent in self.put or same_noun(mention.noun, noun or "")
+            if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         return tuple(found)
 

@@ -203,9 +203,10 @@ class Phrases(Meanings):
             self.discourse.mention_again(index, role)
             return (index,)
         if self.resolver.names_stack(phrase) and self.discourse.stacks:
-            if role not in (Role.THEME, Role.ANY):
-                raise ReferenceProblem(phrase.text, "say which thing it is to go on", 3)
-            stacked = self.discourse.stacks[max(self.discourse.stacks)]
+            if role is Role.CONTAINER:
+                raise ReferenceProblem(phrase.text, "say which thing it is to go into", 3)
+            bottom, top = self.discourse.stacks[max(self.discourse.stacks)]
+            stacked = bottom if role in (Role.THEME, Role.ANY) else top
             self.discourse.mention_again(stacked, role)
             return (stacked,)
         if quantity_of(phrase.determiner).other and excluded:

@@ -31,7 +31,7 @@ TOP_DOWN = """
     from (the top|top) to bottom, from top to the bottom
 """
 WIDEST_BELOW = """
-    by size, [the] (biggest|largest|widest) first,
+    by size, [the] (biggest|largest|widest) (first|at the bottom),
     [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
 """
 """As a stack is built anyway."""
