@@ -68,8 +68,8 @@ def test_a_hand_that_dips_goes_no_further_around_what_is_too_wide() -> None:
     pose = Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
     wide = Grasp(pose, 0.087, 0.085, GraspPose.HORIZONTAL, 0.0)
     fitting = replace(wide, width=0.06)
-    assert [*pick._variants(GraspSet((), (wide,), wide.width))] == [wide]
-    assert len([*pick._variants(GraspSet((fitting,), (wide,), fitting.width))]) > 1
+    assert [*pick._variants(GraspSet((), (wide,), wide.width), pose)] == [wide]
+    assert len([*pick._variants(GraspSet((fitting,), (wide,), fitting.width), pose)]) > 1
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -239,3 +239,15 @@ def test_what_lies_partly_under_the_edge_of_a_unit_comes_out_slanting(
     unit |= {"drawers": [high, {"name": "low", "height": 0.07}]}
     ball = BALL | {"diameter": 0.04, "inside": "unit.high", "at": [0.45, 0.24 - far]}
     episode(seed, unit=unit, ball=ball).must("[PICK UP, ball]")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.slow
+def test_what_lies_round_before_a_wall_is_taken_by_a_hand_that_leans_aside(seed: int) -> None:
+    """Straight down the outer finger would meet the unit, 26 mm behind the middle of the can."""
+    high = {"name": "high", "height": 0.085, "travel": 0.15, "open": 0.15}
+    unit = UNIT | {"at": [0.45, 0.24], "yaw_deg": -90, "size": [0.22, 0.22, 0.173]}
+    unit |= {"drawers": [high, {"name": "low", "height": 0.07}]}
+    can = {"kind": "cylinder", "diameter": 0.045, "height": 0.13, "mass": 0.12}
+    can |= {"inside": "unit.high", "at": [0.45, 0.104], "quaternion": [0.7071068, 0, 0.7071068, 0]}
+    episode(seed, unit=unit, can=can | {"rolling_friction": 0.002}).must("[PICK UP, can]")

@@ -18,7 +18,7 @@ from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
-from etot_cli.world.state import SceneState, owner_of
+from etot_cli.world.state import SceneState
 
 
 def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Branch:
@@ -49,16 +49,11 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
 
 def _without_last_openings(actions: Actions, goals: Iterable[Goal], start: SceneState) -> Actions:
     """The branch without what it opens at its end, unless that stood open at the start or a goal
-    speaks of opening there.
+    speaks of opening.
     """
-    asked = {
-        owner_of(thing.name)
-        for goal in goals
-        for step in goal.steps
-        if isinstance(step, Open)
-        for thing in things_in(goal.referents[step.what].options)
-    }
-    while actions[-1].verb is Verb.OPEN and owner_of(actions[-1].target) not in asked:
+    if any(isinstance(step, Open) for goal in goals for step in goal.steps):
+        return actions
+    while actions[-1].verb is Verb.OPEN:
         part = start.part(actions[-1].target)
         if part is None or is_open(start, part):
             break

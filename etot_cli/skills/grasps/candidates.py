@@ -32,7 +32,7 @@ from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.pose import UP, Pose, rotation_from_axes, turn_about
+from etot_cli.world.pose import LEVEL, UP, Pose, rotation_from_axes, turn_about
 
 FINGER_ROOM = 0.014
 """Free width that a finger needs beside what it closes on [m]."""
@@ -85,12 +85,14 @@ class Grasp:
 @dataclass(frozen=True)
 class GraspSet:
     """The best candidates, best first. ``too_wide``: grasps that were left out for width alone,
-    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen.
+    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen;
+    ``lies_round``: they are of a cylinder that lies.
     """
 
     grasps: tuple[Grasp, ...]
     too_wide: tuple[Grasp, ...]
     narrowest: float
+    lies_round: bool = False
 
 
 def sample_grasps(
@@ -125,7 +127,9 @@ def sample_grasps(
     if pose in (None, GraspPose.HORIZONTAL):
         _from_side(solids, data, name, bounds, found)
         _through_mouth(world, solids, data, name, found)
-    return found.ranked()
+    upright = abs(float(data.body(name).xmat[8])) >= LEVEL
+    lies_round = world.entries[name].info.kind == "cylinder" and not upright
+    return replace(found.ranked(), lies_round=lies_round)
 
 
 class _Pinch(NamedTuple):
@@ -338,8 +342,12 @@ def _through_mouth(
                 )
 
 
-def tilted(grasp: Grasp, angle: float) -> Grasp:
-    """The same contact with the hand tilted about the closing direction by ``angle`` [rad]."""
-    rotation = turn_about(grasp.tool.rotation[:, 1], angle) @ grasp.tool.rotation
-    tool = Pose(grasp.tool.position, rotation)
+def tilted(grasp: Grasp, angle: float, round_about: Pose | None = None) -> Grasp:
+    """The same contact with the hand tilted about the closing direction by ``angle`` [rad]; or
+    moved around what is round about the z axis of a pose.
+    """
+    at = grasp.tool.position if round_about is None else round_about.position
+    axis = grasp.tool.rotation[:, 1] if round_about is None else round_about.rotation[:, 2]
+    turn = turn_about(axis, angle)
+    tool = Pose(at + turn @ (grasp.tool.position - at), turn @ grasp.tool.rotation)
     return replace(grasp, tool=tool, score=grasp.score + LEAN_COST * abs(angle))

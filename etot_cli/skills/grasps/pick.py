@@ -62,7 +62,7 @@ def pick_motions(
 
     def sampled() -> Iterator[Grasp]:
         # Not before it is asked for: sampling takes longest, and a rehearsed grasp mostly goes.
-        yield from _variants(found())
+        yield from _variants(found(), belief.object_pose(name))
 
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
@@ -181,9 +181,10 @@ def pick_precondition(belief: Belief, action: Action) -> SkillOutcome | None:
     return None
 
 
-def _variants(found: GraspSet) -> Iterator[Grasp]:
-    """Candidates best first, leaning ones behind upright ones of the same quality. Objects too wide
-    for the gripper are tried all the same when nothing else is left: physics decides.
+def _variants(found: GraspSet, pose: Pose) -> Iterator[Grasp]:
+    """Candidates best first, leaning ones behind upright ones of the same quality, and last those
+    that have moved around a cylinder that lies at ``pose``. Objects too wide for the gripper are
+    tried all the same when nothing else is left: physics decides.
     """
     ranked = found.grasps or found.too_wide[:12]
     # A dip makes room for the wrist, not between the fingers.
@@ -197,6 +198,9 @@ def _variants(found: GraspSet) -> Iterator[Grasp]:
     kept = sorted(order, key=lambda item: (item[-1] != 0.0, item))[:MAX_PREPARED]
     for *_, rank, tilt in sorted(kept):
         yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
+    for grasp in ranked if found.lies_round else ():
+        if grasp.pose is GraspPose.VERTICAL:
+            yield from (tilted(grasp, angle, pose) for angle in TILTS[GraspPose.VERTICAL])
 
 
 def _spun(grasp: Grasp) -> Grasp:
@@ -284,7 +288,7 @@ def _goes_without(
 ) -> bool:
     """Whether some grasp goes once these objects are taken away; notes who is in the way then."""
     with belief.checker.without(absent):
-        for candidate in _variants(found):
+        for candidate in _variants(found, belief.object_pose(name)):
             belief.checker.freeze(belief.data)
             result = prepare_grasp(belief, name, candidate, blockers)
             if isinstance(result, PreparedGrasp):
