@@ -278,7 +278,7 @@ def _too_wide(name: str, width: float, opening: float, time_s: float | None = No
         CauseKind.NO_GRASP,
         [name],
         f"{name} is {width * 1000:.0f} mm wide where the fingers would close, the gripper opens "
-        f"{opening * 1000:.0f} mm",
+        f"{opening * 1000:.0f} mm and needs a little to spare",
         time_s,
     )
 
