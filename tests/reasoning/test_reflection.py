@@ -467,6 +467,19 @@ def test_an_upper_drawer_that_stands_open_is_closed_meanwhile(openness: float) -
         assert revision(step) == f"[CLOSE, chest.upper] {plan} [OPEN, chest.upper]"
 
 
+@pytest.mark.parametrize("openness", [0.7, 1.0])
+def test_a_drawer_that_stands_partly_open_is_opened_wider(openness: float) -> None:
+    chest = scenes.drawers("chest", (0.5, 0.0), {"top": openness})
+    state = scenes.scene(chest, scenes.ball("nut", (0.4, 0.0)), scenes.cup("mug", (0.4, 0.3)))
+    state = changed(state, nut={"inside": "chest", "on": ("chest",)})
+    plan = "[PICK UP, nut] [PUT INTO, mug]"
+    step = failed(state, plan, 0, cause(CauseKind.NO_GRASP, "chest", "nut"))
+    assert (revision(step) == f"[OPEN, chest] {plan}") == (openness < 1.0)
+    put = "[PICK UP, mug] [PUT INTO, chest]"
+    step = failed(state, put, 1, cause(CauseKind.NO_ROOM, "chest", "mug"), held(state, "mug"))
+    assert (f"[OPEN, chest] {put}" in revisions(step)) == (openness < 1.0)
+
+
 def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
     state = scenes.scene(
         scenes.cabinet("cupboard", (0.4, 0.4), 1.0), scenes.ball("nut", (0.3, 0.1))

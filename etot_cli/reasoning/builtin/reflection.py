@@ -25,6 +25,7 @@ from etot_cli.reasoning.builtin.relations import (
 )
 from etot_cli.reasoning.builtin.relocation import (
     Correction,
+    opened_wider,
     other_places,
     relocated,
     set_aside,
@@ -229,6 +230,7 @@ class _Case:
             elif self.scene.infos[name].movable:
                 yield from self._out_of_the_way(name)
             else:
+                yield from opened_wider(self.failed, name)
                 yield from self._taken_before_opening(name)
                 yield from shut_meanwhile(self.failed, name)
                 yield from self._taken_while_shut(name)
@@ -296,6 +298,7 @@ class _Case:
                 return  # what stands on a full desk has nowhere to go but where this could go
         for name in self._culprits():
             if name == owner:
+                yield from opened_wider(self.failed, owner)
                 yield from shut_meanwhile(self.failed, owner)
                 continue
             placed = placed_by(self.actions, name, index)

@@ -25,6 +25,8 @@ from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 HAND_ROOM = 0.10
 """Where a relocated thing is in the way again, it goes further off by this: a hand's width [m]."""
+WIDE_OPEN = 0.98
+"""Share of its travel from which opening a part further would show nothing more."""
 
 
 class Correction(NamedTuple):
@@ -168,6 +170,27 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
                 rest = (*actions[cycle.end : place], again, *actions[place:])
                 yield Correction((*cleared, *rest), change)
         yield Correction((*cleared, again, *actions[cycle.end :]), change)
+
+
+def opened_wider(failed: FailedStep, name: str) -> Iterator[Correction]:
+    """The branch with a part opened all the way before the failed action, where that takes from or
+    puts into what stands only partly open.
+
+    Args:
+        failed: the failed step.
+        name: the object whose part it is.
+    """
+    scene, actions = failed.record.before, failed.branch.actions
+    target = actions[failed.index].target
+    place = hand_free_at(actions, failed.index, failed.start)
+    for part in scene.infos[name].parts:
+        thing = owner_of(target)
+        within = thing in scene.states and is_inside(scene, thing, part.address)
+        wider = Action(Verb.OPEN, part.address)
+        if place is None or wider in actions[: failed.index] or scene.openness(part) >= WIDE_OPEN:
+            continue
+        if not is_closed(scene, part) and (within or target == part.address):
+            yield Correction(inserted(actions, place, (wider,)), f"{part.address} is opened wider")
 
 
 def _needed_at(actions: Actions, first: int, part: PartInfo, scene: SceneState) -> int | None:
