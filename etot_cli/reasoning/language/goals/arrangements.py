@@ -126,7 +126,10 @@ def swap(context: Context, clause: SwapClause) -> None:
     """Each of two things to the other's place, while the first one waits on the desk; what is
     replaced stays there.
     """
-    themes = context.phrases.things(clause.things, Role.THEME)
+    put = context.discourse.put
+    place_of_it = put and any(np.text == "its" for np in clause.things.phrases)
+    still = [i for i in range(len(context.discourse.referents)) if place_of_it and i not in put]
+    themes = context.phrases.things(clause.things, Role.THEME, still)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
     text = clause.things.text
     if len(things) != 2:

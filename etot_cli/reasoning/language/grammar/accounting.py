@@ -58,6 +58,7 @@ _ALIKE = {
 }  # fmt: skip
 """Words that a tree may have one for the other."""
 _FIXED = """
+    not (both|all) (in|on) the same (one|place),
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,

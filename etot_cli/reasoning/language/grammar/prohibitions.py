@@ -86,7 +86,7 @@ KEEP_STILL = either(
         THINGS,
         "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left)"
         ", stay[s], remain[s]",
-        f"{manner.AS_IT_IS}, put",
+        optional(f"{manner.AS_IT_IS}, put, there"),
         build=partial(AvoidClause, Avoid.MOVE),
     ),
     sequence(

@@ -270,6 +270,13 @@ PUT = either(
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
+        ALL_THINGS,
+        verbs.MODAL,
+        SOURCE,
+        DIRECTED,
+        build=lambda things, source, where: put_to(things.taken_from(source), where),
+    ),
+    sequence(
         noun_phrase,
         verbs.RECEIVE,
         ALL_THINGS,

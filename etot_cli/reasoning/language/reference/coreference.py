@@ -82,11 +82,16 @@ def meant_by_it(
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):
+                others = [i for i in landmarks if not own & {t.name for t in discourse.things(i)}]
+                last = [p.where for p in discourse.last_places if p.where is not None]
+                left = [i for i in others if {*discourse.things(i)} <= {*discourse.things(*last)}]
+                rather = [i for i in left if _bears_rather(discourse, i, acted_on[0])]
+                if role is Role.SURFACE and len(rather) == len(others) == 1 and not rivals:
+                    return rather[0]  # off the tray, and another thing on it
                 rivals += [
                     i
-                    for i in landmarks
-                    if not own & {t.name for t in discourse.things(i)}
-                    and not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
+                    for i in others
+                    if not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
                     and not (role is Role.CONTAINER and _stood_on(discourse, acted_on[0], i))
                 ]
             found = (*acted_on, *rivals)

@@ -198,7 +198,10 @@ class Discourse:
         found: dict[Thing, None] = {}
         for mention in self.mentions:
             options = self.referents[mention.referent].options
-            alike = mention.referent in self.put or same_noun(mention.noun, noun or "")
+            said = mention.noun.split("_")  # "vial C" is a noun of one label
+            alike = mention.referent in self.put or any(
+                same_noun(word, noun or "") for word in said
+            )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         return tuple(found)

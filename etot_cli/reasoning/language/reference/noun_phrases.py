@@ -182,7 +182,8 @@ class Resolver:
         words = asked.words
         things, unmeant = left_out(things, phrase, words, self._vocabulary, self._scene, meant)
         check_modified(asked, modifiers, things, unmeant, self._vocabulary, self._scene)
-        idle = idle_words(match, modifiers, things, self._scene, phrase.text, notes)
+        alone = [] if unmeant else things  # "the big one, not the small one": it tells them apart
+        idle = idle_words(match, modifiers, alone, self._scene, phrase.text, notes)
         things = select(match.selectors, modifiers, things, asked.count, self._scene, phrase.text)
         check_selected(asked, things, self._scene)
         things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)

@@ -57,7 +57,8 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),
     ("eggplant", "aubergine"), ("zucchini", "courgette"), ("diaper", "nappy"),
     ("trash can", "trash bin", "garbage can", "garbage bin", "rubbish bin", "waste bin",
-     "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash", "garbage"),
+     "waste container", "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash",
+     "garbage"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
 RUBBISH = word_set("trash rubbish garbage waste litter recycling")

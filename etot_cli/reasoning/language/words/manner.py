@@ -49,6 +49,7 @@ ANYHOW = """
 TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
 SEPARATELY = """
     separately, apart from each other, individually, apart,
+    not (both|all) (in|on) the same (one|place),
     each (in|on) (its|their) own [one], each (in|on) (a different|a separate|another) (one|place)
 """
 ONE_EACH = """
