@@ -42,6 +42,7 @@ from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Clause,
+    EnsureClause,
     PutClause,
     RemoveClause,
     ReorientClause,
@@ -104,7 +105,9 @@ def _without_places(state: _State) -> Goal:
 def _check_instead(spoken: Spoken, before: Clause | None) -> None:
     """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
     room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
-    denied = isinstance(before, AvoidClause) and before.negated
+    denied = (isinstance(before, AvoidClause) and before.negated) or (
+        isinstance(before, EnsureClause) and all(state.denied for state in before.states)
+    )
     if spoken.instead and before is not None and not (room or denied):
         raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
 

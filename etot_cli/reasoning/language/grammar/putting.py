@@ -111,6 +111,7 @@ PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
     _ASIDE,
+    optional("somewhere, anywhere"),
     WHERE,
     build=lambda things, upright, where: PutGroup(things, where, upright),
 )

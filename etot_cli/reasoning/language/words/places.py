@@ -53,7 +53,7 @@ SIDE = """
     (on|at) the far (left|right), in front, (furthest|farthest) (left|right|back),
     (furthest|farthest|closest|nearest|most) (to|on|at) the (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
-    (at|from|on) the (top|bottom), on top
+    (at|from|on) the [very] (top|bottom), on top
 """
 ON_SIDE: dict[Prep, str] = {
     Prep.LEFT: "(on|at) [the] left [hand] [side] of",
