@@ -102,12 +102,8 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     """The sentence with the words exchanged or left out at which it was refused."""
     part = re.search(rf"\bof\s+{re.escape(refused.phrase)}", text)
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
-        yield re.sub(
-            rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)",
-            names.of(name),
-            text,
-            count=1,
-        )
+        phrase = rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)"
+        yield re.sub(phrase, names.of(name), text, count=1)
     kept = re.sub(r"^(?:(?:and|then|just)\b[ ,]*)+", "", kept)
     begun = kept.partition(" ")[0]
     if not text.startswith(begun) and begun not in VERB_WORDS:  # its verb was to blame

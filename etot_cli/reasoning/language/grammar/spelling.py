@@ -28,6 +28,17 @@ def is_english(word: str) -> bool:
     return word.isascii() and bool(_dictionary().spell(word))
 
 
+def may_be_meant(name: str, word: str) -> bool:
+    """Whether a name may stand in a word's place: where that is English ("bench" is no "wrench"),
+    only if they have a part in common or are one slip apart ("bowel").
+    """
+    from rapidfuzz.distance import OSA
+
+    alike = any(part in word or word in part or OSA.distance(part, word) < 2
+                for part in name.split("_"))  # fmt: skip
+    return alike or not is_english(word)
+
+
 def corrected(word: str, known: Iterable[str]) -> str | None:
     """The one known word that differs from a word by a slip of the pen; None when there is none.
 

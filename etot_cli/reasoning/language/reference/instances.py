@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.matching import Match
-from etot_cli.reasoning.language.reference.selection import select
+from etot_cli.reasoning.language.reference.selection import select, too_few
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -30,11 +30,9 @@ def usable_ones(
         # "In the tray" is said of what lies on it.
         flat = [thing for thing in things if can_be(thing, Role.SURFACE, scene)]
         named = phrase.words and matches_any(phrase.words[-1].split("_")[-1], OPEN_SURFACES)
-        usable = [
-            thing
-            for thing in flat
-            if named or thing.board or matches_any(_kind(thing, scene), OPEN_SURFACES)
-        ]
+        kinds = {name: info.kind for name, info in scene.infos.items()}  # the desk has none
+        usable = [thing for thing in flat if named or thing.board
+                  or matches_any(kinds.get(thing.name, ""), OPEN_SURFACES)]  # fmt: skip
     if not usable and role is Role.SURFACE:
         # "On the bowl" is said of what goes into it; on a drawer is not in it.
         vessels = [thing for thing in things if thing.part is None]
@@ -50,10 +48,6 @@ def usable_ones(
         raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
     at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]
     return at_hand or usable
-
-
-def _kind(thing: Thing, scene: SceneState) -> str:
-    return "" if thing.name == DESK else scene.infos[thing.name].kind
 
 
 def check_not_part(text: str, below: Sequence[Thing]) -> None:
@@ -132,13 +126,12 @@ def options_of(
             raise ReferenceProblem(phrase.text, "say which one of each", 2)
         return (tuple(things),)
     if quantity.every and quantity.count is not None and len(things) != quantity.count:
-        raise ReferenceProblem(
-            phrase.text, f"there should be {quantity.count}, but what fits is {names}", 1
-        )
+        why = f"there should be {quantity.count}, but what fits is {names}"
+        raise ReferenceProblem(phrase.text, why, 1)
     if quantity.definite and count is not None and 1 < count < len(things):
         raise ReferenceProblem(phrase.text, f"there are more than {count}: {names}", 1)
     if count is None or quantity.every:
         return (tuple(things),)
     if count > len(things):
-        raise ReferenceProblem(phrase.text, f"there are only {len(things)} of them: {names}", 1)
+        raise too_few(things, phrase.text)
     return tuple(islice(combinations(things, count), MAX_OPTIONS))

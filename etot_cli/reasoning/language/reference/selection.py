@@ -191,8 +191,7 @@ def _nth(
         ordered = space.by_side(SIDES[origin or "left"], things, scene)
     index = ORDINALS[ordinal]
     if index >= len(ordered) or many > len(ordered):
-        names = ", ".join(thing.name for thing in things)
-        raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
+        raise too_few(things, phrase)
     if many > 1 and index not in (0, -1):
         raise ReferenceProblem(phrase, f"say which {many} they are", 2, word=ordinal)
     chosen = [ordered[index]] if many == 1 else ordered[:many] if index == 0 else ordered[-many:]
@@ -225,6 +224,12 @@ def _by_size(
     return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
 
 
+def too_few(things: Sequence[Thing], phrase: str) -> ReferenceProblem:
+    """That more are asked for than there are."""
+    there = "is only one" if len(things) == 1 else f"are only {len(things)} of them"
+    return ReferenceProblem(phrase, f"there {there}: {', '.join(t.address for t in things)}", 1)
+
+
 def _nth_by_size(
     ordinal: str, word: str, things: list[Thing], scene: SceneState, phrase: str
 ) -> Thing:
@@ -233,8 +238,7 @@ def _nth_by_size(
     ordered = sorted(things, key=measure)
     index = ORDINALS[ordinal] % len(ordered) if ordinal == "last" else ORDINALS[ordinal]
     if index >= len(ordered):
-        names = ", ".join(thing.name for thing in things)
-        raise ReferenceProblem(phrase, f"there are only {len(things)} of them: {names}", 1)
+        raise too_few(things, phrase)
     equal = [thing.name for thing in ordered if measure(thing) == measure(ordered[index])]
     if len(equal) > 1:
         raise ReferenceProblem(phrase, f"{' and '.join(equal)} are as large", 2, word=ordinal)

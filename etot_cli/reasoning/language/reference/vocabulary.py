@@ -9,6 +9,7 @@ from difflib import get_close_matches
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.spelling import may_be_meant
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.entries import (
     EXACT,
@@ -207,20 +208,14 @@ class Vocabulary:
     def nearest(self, word: str) -> list[str]:
         """Names of the things whose words are most like a word, at most three; often none."""
         close = get_close_matches(word, sorted(self.words()), n=3, cutoff=0.6)
-        return list(
-            dict.fromkeys(
-                entry.exact[0]
-                for item in close
-                for entry in (*self.objects, *self.parts)
-                if item in entry.exact or entry.has_word(item)
-            )
-        )[:3]
+        near = (e for item in close if may_be_meant(item, word)
+                for e in (*self.objects, *self.parts) if item in e.exact or e.has_word(item)
+                )  # fmt: skip
+        return list(dict.fromkeys(entry.exact[0] for entry in near))[:3]
 
     def names(self) -> str:
         """What an error message lists."""
-        return ", ".join(
-            entry.info.label if entry.info is not None else DESK for entry in self.objects
-        )
+        return ", ".join(entry.info.label if entry.info else DESK for entry in self.objects)
 
 
 def _lettered(text: str, names: Sequence[tuple[str, ...]]) -> str:
@@ -256,11 +251,7 @@ def _spelled_out(name: str, letter: re.Match[str]) -> str:
 
 def is_of_parts(entry: Entry, noun: str, vocabulary: Vocabulary) -> bool:
     """Whether an entry is a piece of furniture of which several parts or boards are called so."""
-    if entry.thing.part is not None or entry.thing.board is not None:
-        return False
-    own = [
-        item
-        for item in (*vocabulary.parts, *vocabulary.boards)
-        if item.thing.name == entry.thing.name and item.grade(noun) is not None
-    ]
-    return len(own) > 1
+    own = [item.grade(noun) for item in (*vocabulary.parts, *vocabulary.boards)
+           if item.thing.name == entry.thing.name]  # fmt: skip
+    whole = entry.thing.part is None and entry.thing.board is None
+    return whole and len(own) > 1 + own.count(None)
