@@ -14,12 +14,27 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.text import words_in
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import OPEN_AT, SceneState
+
+_HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_DEPENDING = word_set(
+    "if when unless once until till after before while as except without but not never no none "
+    "neither nor only instead first last then do t"
+)
+"""A heading with such a word says something of what stands below it."""
+_REFERRING = word_set(
+    "it its them they their these those this that one ones other others another rest else "
+    "everything anything all both each every any same here there"
+)
+"""Below a heading they may speak of what that is about, which is not read."""
 
 
 def goal_of(instruction: str, scene: SceneState) -> Goal:
@@ -38,7 +53,28 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     except (UnreadableError, ReferenceProblem) as error:
         with suppress(UnreadableError, ReferenceProblem):
             return _read(instruction, scene, vocabulary, common=True)
+        with suppress(UnreadableError, ReferenceProblem):
+            return _below_heading(instruction, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
+
+
+def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What a colon announces ("season the salad: put the salt next to it"), where the words before
+    it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
+
+    Raises:
+        UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
+    """
+    said = _HEADING.match(instruction)
+    words = words_in(normalized(said[1])) if said else ()
+    begins = words and (words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in OPENING_WORDS)
+    if said is None or not begins or _DEPENDING & {*words}:
+        raise UnreadableError(instruction, "")
+    if _REFERRING & {*words_in(normalized(said[2]))}:
+        raise UnreadableError(said[2], "")
+    goal = _read(said[2], scene, vocabulary)
+    note = f"{said[1].strip()!r} is a heading: what stands below it is done"
+    return replace(goal, notes=(note, *goal.notes))
 
 
 def _read(
