@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     some,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT, PUT_GROUP
@@ -77,12 +78,15 @@ AGAIN = either(
 )
 
 
-def excluding(clause: Clause, left_out: Modifier) -> Clause | None:
-    """A clause without some of the things that it is about ("…, except the blue one")."""
+def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:
+    """A clause without some of the things that it is about ("…, except the blue one"), of those
+    that its last phrase means, or that ``at`` an index.
+    """
 
     def without(things: Things) -> Things:
-        (*before, last) = things.phrases
-        return replace(things, phrases=(*before, last.told_by(left_out)))
+        phrases = [*things.phrases]
+        phrases[at] = phrases[at].told_by(left_out)
+        return replace(things, phrases=tuple(phrases))
 
     match clause:
         case PutClause(groups=(group,)):
@@ -100,6 +104,16 @@ Reading = tuple[Spoken, ...]
 def plain(parser: Parser, order: Order = Order.SAID) -> Parser:
     """A clause with nothing around it, as a reading."""
     return located(parser, lambda at, clause: (Spoken(clause, at, order),))
+
+
+def _excluding_some(said: tuple[Clause, Modifier]) -> list[Clause]:
+    """A clause without some of the things that any of its phrases means."""
+    match said[0]:
+        case PutClause(groups=(PutGroup(things=things),)) | PickClause(things=things):
+            found = [excluding(*said, at) for at in range(len(things.phrases))]
+        case _:
+            found = [excluding(*said)]
+    return [way for way in found if way is not None]
 
 
 LEFT_OUT = either(
@@ -148,7 +162,7 @@ CLAUSE = located(
         EMPTY_WORDS,
         either(
             _ASKED,
-            sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT, build=excluding),
+            variants(sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT), _excluding_some),
             sequence(
                 either(PUT, ENSURE),
                 OPTIONAL_COMMA,

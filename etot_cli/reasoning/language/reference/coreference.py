@@ -240,7 +240,17 @@ def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
     plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
     if single and not plural and not any(item.several or item.whatever for item in said):
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
-    return found
+    return found or _several_named(discourse, role)
+
+
+def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
+    """The only several things of which but something was said ("the cups are dirty; put them")."""
+    named = {
+        mention.referent
+        for mention in discourse.mentions
+        if singular(mention.noun) != mention.noun and _fits(discourse, mention.referent, role)
+    }
+    return tuple(named) if len(named) == 1 else ()
 
 
 def _emptied(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:

@@ -187,7 +187,10 @@ class Resolver:
         things = select(match.selectors, modifiers, things, asked.count, self._scene, phrase.text)
         check_selected(asked, things, self._scene)
         things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)
-        options = options_of(things, asked.count, quantity, phrase)
+        infos = self._scene.infos
+        labels = [infos[thing.name].label for thing in things if thing.name in infos]
+        pair = phrase.determiner == "a pair of" and [singular(item) != item for item in labels]
+        options = options_of(things, 1 if pair == [True] else asked.count, quantity, phrase)
         every = quantity.every or (asked.count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, asked.head, every, tuple(notes),
