@@ -42,7 +42,7 @@ class Course:
         for a, b in pairwise(path):
             count = int(np.ceil(np.abs(b - a).max() / 0.01))
             for share in np.linspace(0.0, 1.0, count + 1):
-                if self.checker.hits(a + share * (b - a), attached, clearance=0.5 * CLEARANCES[0]):
+                if self.checker.hits(a + share * (b - a), attached, clearance=0.5 * CLEARANCES[1]):
                     return False
         return True
 

@@ -47,30 +47,50 @@ def plan_transit(
     Returns:
         The path, or None.
     """
-    clearance = CLEARANCES[0]
-    touching = set(checker.hits(start, attached, clearance=clearance))
-    touching |= set(checker.hits(goal, attached, clearance=clearance))
-
-    def free(joints: Vector) -> bool:
-        hits = checker.hits(joints, attached, clearance=clearance)
-        if not hits:
-            return True
-        if not set(hits) <= touching:
-            return False
-        return not checker.hits(joints, attached, clearance=CLEARANCES[1])
-
-    if edge_free(start, goal, free):
-        return np.stack([start, goal])
-    for lift in LIFTS:
-        path = _over(arm, start, goal, lift, free)
-        if path is not None:
-            return path
+    for wanted in (CLEARANCES, CLEARANCES[1:]):
+        free = _free(checker, start, goal, attached, wanted)
+        if edge_free(start, goal, free):
+            return np.stack([start, goal])
+        for lift in LIFTS:
+            path = _over(arm, start, goal, lift, free)
+            if path is not None:
+                return path
     found = _rrt_connect(start, goal, arm, free, rng)
     return None if found is None else _shortcut(found, free, rng)
 
 
-CLEARANCES = (CLEARANCE, 0.0005)
-"""Wanted clearance, and the one that suffices near what start or goal is already close to [m]."""
+CLEARANCES = (0.02, CLEARANCE, 0.0005)
+"""Clearances [m]: that simple ways are tried with first, as much as the edge of an open drawer is
+off where its unit is believed 5 mm and 3° wrong; what all ways keep; and what suffices near what
+start or goal is already close to."""
+
+
+def _free(
+    checker: CollisionChecker,
+    start: Vector,
+    goal: Vector,
+    attached: Attached | None,
+    clearances: tuple[float, ...],
+) -> Free:
+    """Tells joints that keep the first distance [m] from everything, or the next from what either
+    end is closer to.
+    """
+    near = [
+        {*checker.hits(start, attached, clearance=distance)}
+        | {*checker.hits(goal, attached, clearance=distance)}
+        for distance in clearances[:-1]
+    ]
+
+    def free(joints: Vector) -> bool:
+        for distance, touching in zip(clearances, near, strict=False):
+            hits = checker.hits(joints, attached, clearance=distance)
+            if not hits:
+                return True
+            if not set(hits) <= touching:
+                return False
+        return not checker.hits(joints, attached, clearance=clearances[-1])
+
+    return free
 
 
 def edge_free(start: Vector, end: Vector, free: Free) -> bool:
