@@ -40,7 +40,7 @@ def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]
     """The groups as they stand, and with the last place's noun lent to those that leave theirs out
     ("A in the top and B in the bottom drawer"); what that is part of is said for all.
     """
-    groups = _other_sides(groups)
+    groups = other_sides(groups)
     last = [np for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
     nouns = {np.words[-1] for np in last}
     if len(nouns) != 1 or matches_any(last[0].words[-1], THING_NOUNS):
@@ -65,7 +65,7 @@ def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]
     return (groups,) if lent == groups else (groups, lent)
 
 
-def _other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
+def other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
     """In "A to the left of C and B to the right" the right is that of C; so it is the other way
     round, "A to the left and B to the right of C".
     """

@@ -7,6 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     MoveClause,
     NounPhrase,
+    PutGroup,
     State,
     Things,
     Toward,
@@ -123,7 +125,13 @@ states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 def _ensured(*said_states: State | None) -> EnsureClause | None:
     said = tuple(state for state in said_states if state is not None)
-    return EnsureClause(said) if len(said) == len(said_states) else None
+    if len(said) < len(said_states):
+        return None
+    if len(said) > 1 and all(state.destinations for state in said):
+        groups = tuple(PutGroup(Things(state.subjects), state.destinations) for state in said)
+        there = [group.destinations for group in other_sides(groups)]
+        said = tuple(replace(s, destinations=w) for s, w in zip(said, there, strict=True))
+    return EnsureClause(said)
 
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:

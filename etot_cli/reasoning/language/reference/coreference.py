@@ -101,11 +101,20 @@ def meant_by_it(
             if role is Role.THEME and found == landmarks:
                 # "Take everything off the tray and put it away": what stood there, or that.
                 found = (*_whatever(discourse, clause), *found)
+        parts = [m.referent for m in discourse.mentions if m.clause == clause]
+        if not found and role is Role.SURFACE and _is_part(discourse, parts[-1:]):
+            raise ReferenceProblem(text, UNCLEAR, 2)  # "close the drawer and put the cup on it"
         if len(found) > 1:
             raise AmbiguousReference(text, [discourse.referents[index].text for index in found])
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _is_part(discourse: Discourse, referents: Sequence[int]) -> bool:
+    """Whether referents are drawers or doors, on which nothing stands."""
+    things = discourse.things(*referents)
+    return bool(things) and all(thing.part for thing in things)
 
 
 def _beside(discourse: Discourse) -> Iterator[int]:

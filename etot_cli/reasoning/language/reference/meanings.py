@@ -78,6 +78,9 @@ class Meanings:
             return Resolved(options, noun=noun, again=True)
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"
+            spoken = phrase.pronoun in ("it", "them", "they")
+            if spoken and matches_any(noun, THING_NOUNS):
+                raise ReferenceProblem(phrase.text, "name what is meant, and what is left out", 4)
             plural = phrase.pronoun in PLURAL_PRONOUNS
             phrase = replace(
                 phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
