@@ -8,6 +8,7 @@ from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.modified import names_of_things
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
@@ -73,12 +74,16 @@ def meant_by_it(
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
         if len(acted_on) == 1:
-            beside = [*_beside(discourse)] if role is Role.THEME else []
             rivals = [
                 place
-                for place in (*places, *(mark for mark in landmarks if mark in beside))
+                for place in places
                 if not topmost and _rivals(discourse, place, acted_on[0], role)
             ]
+            marks = {*landmarks} & {*_beside(discourse)} if role is Role.THEME else ()
+            if any(_rivals(discourse, mark, acted_on[0], role) for mark in marks):
+                discourse.notes.append(
+                    f"read '{text}' as {names_of_things(discourse.things(*acted_on))}"
+                )
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):

@@ -235,6 +235,8 @@ class Places:
         if (sinks or closed) and rivals:
             named = [discourse.referents[i].text for i in (*rivals, index)]
             raise AmbiguousReference(text, named, "say whether on")
+        if sinks and inner:  # "one in it and one on it"
+            raise ReferenceProblem(text, "what goes on it would be in it, too; say 'in'", 3)
         return index
 
     def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
