@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Pick, Place, Put, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
@@ -28,7 +29,8 @@ def check_taken(
         for step in context.done[-1:]
     ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
     for phrase in (np for item in group.destinations for np in item.targets):
-        if not taken or not phrase.is_elliptic:
+        told = any(HERE_BEFORE in item.words for item in phrase.modifiers)
+        if not taken or told or not phrase.is_elliptic:
             continue
         for place in (place.where for place in places if place.where is not None):
             below = context.discourse.things(place)

@@ -105,6 +105,7 @@ def _without_places(state: _State) -> Goal:
 def _check_instead(spoken: Spoken, before: Clause | None) -> None:
     """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
     room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+    room |= isinstance(before, ReorientClause) and before.only_named  # how things are
     denied = (isinstance(before, AvoidClause) and before.negated) or (
         isinstance(before, EnsureClause) and all(state.denied for state in before.states)
     )

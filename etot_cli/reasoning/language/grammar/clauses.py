@@ -93,8 +93,14 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
             return replace(clause, groups=(replace(group, things=without(group.things)),))
         case EnsureClause(states=(state,)):
             return EnsureClause((replace(state, subjects=without(Things(state.subjects)).phrases),))
-        case PickClause() | RemoveClause() | MoveClause() | TowerClause():
-            return replace(clause, things=without(clause.things))
+        case (
+            PickClause(things=things)
+            | RemoveClause(things=things)
+            | MoveClause(things=things)
+            | TowerClause(things=things)
+            | AgainClause(things=Things() as things)
+        ):
+            return replace(clause, things=without(things))
     return None
 
 
@@ -131,7 +137,7 @@ LEFT_OUT = either(
 def _of_the_things(clause: Clause, said: Modifier) -> Clause | None:
     """What stands behind a place is said of what goes there only if it cannot be of the place."""
     found = excluding(clause, said)
-    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else None
+    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
 
 
 def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
@@ -164,7 +170,7 @@ CLAUSE = located(
             _ASKED,
             variants(sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT), _excluding_some),
             sequence(
-                either(PUT, ENSURE),
+                either(PUT, ENSURE, AGAIN),
                 OPTIONAL_COMMA,
                 either(CONTRASTED, APPOSED),
                 build=_of_the_things,

@@ -120,7 +120,8 @@ def _contents_with(having: str, denied: bool) -> Parser:
 HERE_BEFORE = "before"
 """The word of a modifier that tells by what was in or on a thing before anything was moved."""
 _CAME_FROM = """
-    (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of)
+    (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of),
+    [you] (took|got|removed) (it|them) (from|out of|off)
 """
 _contents = either(
     sequence(
@@ -128,7 +129,7 @@ _contents = either(
         phrase(_CAME_FROM),
         build=lambda said: Modifier(
             Prep.WITH,
-            (NounPhrase(HERE_BEFORE, pronoun=said.split()[0], text=said),),
+            (NounPhrase(HERE_BEFORE, pronoun="it" if "it" in said.split() else "them", text=said),),
             (HERE_BEFORE,),
         ),
     ),
@@ -183,10 +184,9 @@ _none_of = valued(
 )
 
 
-_denied_before = Parser(
-    lambda given, at: [(at, NOTHING)] if {"not", "neither"} & {*given.words[:at]} else []
-)
-"""Nothing, where anything was denied before, with which "nor" goes on."""
+def _after(*said: str) -> Parser:
+    """Nothing, where any of some words was said before."""
+    return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
 
 
 def _denied(modifier: Modifier) -> Modifier | None:
@@ -244,17 +244,32 @@ quality_alone = Parser(_without_place, lambda: QUALITY.first)
 DESCRIBED = either(PLAIN_MODIFIER, _contents, quality_alone)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
+
+
+def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
+    """What is not meant, but what a thing is told from."""
+    told = all(np.words and (np.determiner or np.head.isdigit()) for np in nps)
+    return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
+
+
 CONTRASTED = quiet(
     sequence(
-        nouns.CONTRAST,
+        either(nouns.CONTRAST, sequence(_after("rather", "prefer"), "than")),
         separated(noun_phrase, "or, nor", most=3),
-        build=lambda nps: (
-            Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps)))
-            if all(np.words and (np.determiner or np.head.isdigit()) for np in nps)
-            else None
-        ),
+        build=_contrasted,
     )
 )
+NOT_BUT = quiet(
+    sequence(
+        "neither, not",
+        sequence(separated(noun_phrase, "or, nor", most=3), build=_contrasted),
+        OPTIONAL_COMMA,
+        "but [rather]",
+        noun_phrase,
+        build=lambda out, np: np.told_by(out),
+    )
+)
+"""What is meant behind what is not ("neither the cup nor the can but the jar")."""
 APPOSED = either(
     sequence(
         # "The lamp, the one on the left, …"
@@ -285,7 +300,7 @@ _modifier = either(
         either(
             sequence("[and] not", PLAIN_MODIFIER),
             sequence("and not", QUALITY),
-            sequence(_denied_before, "nor", either(PLAIN_MODIFIER, QUALITY)),
+            sequence(_after("not", "neither"), "nor", either(PLAIN_MODIFIER, QUALITY)),
         ),
         build=_denied,
     ),

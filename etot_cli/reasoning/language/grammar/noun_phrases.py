@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.common import (
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
+    NOT_BUT,
     PLAIN_MODIFIER,
     QUALITY,
     exceptions,
@@ -233,6 +234,7 @@ noun_phrase.define(
                 MODIFIERS,
                 build=_general,
             ),
+            NOT_BUT,
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,

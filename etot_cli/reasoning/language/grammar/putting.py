@@ -231,11 +231,11 @@ def _got(gathered: bool, group: PutGroup) -> PutClause:
     return PutClause((group,), far_fetched=0 if several else 2)
 
 
-def _stacked(groups: tuple[PutGroup, ...]) -> PutClause | None:
+def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """Each thing on or in another; several on one are a tower."""
     (np, *more), (where, *_) = groups[0].things.phrases, groups[0].destinations
     nested = where.toward is Toward.INSIDE and singular(np.head) == np.head and not more
-    return PutClause(groups) if nested or len(groups) > 1 else None
+    return put_of(groups, extras) if nested or extras or len(groups) > 1 else None
 
 
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
@@ -278,10 +278,12 @@ PUT = either(
         build=lambda things, source, where: put_to(things.taken_from(source), where),
     ),
     sequence(
-        noun_phrase,
-        verbs.RECEIVE,
+        either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
         ALL_THINGS,
-        build=lambda np, things: put_to(things, (Destination(Toward.TO, (np,)),)),
+        optional(phrase("each"), ""),
+        build=lambda np, things, said: put_to(
+            things, (Destination(Toward.TO, all_of((np,), said)),)
+        ),
     ),
     sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(
@@ -306,7 +308,7 @@ PUT = either(
     sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
-    sequence(verbs.STACK, PUT_GROUPS, build=_stacked),
+    sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
     THROWN,
     sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),

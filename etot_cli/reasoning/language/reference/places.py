@@ -319,6 +319,9 @@ class Places:
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
         place = latest_place(discourse, relation, themes, word)
         if relation is Relation.INSIDE or place.where is None:
+            out = {thing for index in themes for thing in discourse.left_out.get(index, ())}
+            if place.where is not None and out.issuperset(discourse.things(place.where)):
+                raise ReferenceProblem(word, UNCLEAR, 2)
             return (place,)
         upon = self._upon_it(word, place.where, themes)
         return tuple(self.relations_to(Toward.ON, upon, themes))
