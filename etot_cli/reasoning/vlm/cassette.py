@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
-import tempfile
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,6 +18,7 @@ from etot_cli.reasoning.vlm.chat import Answer, Question, Trouble, Usage
 from etot_cli.reasoning.vlm.images import encode
 from etot_cli.services.redact import Redactor
 from etot_cli.specs.reading import read_utf8
+from etot_cli.specs.writing import replacing
 
 SCHEMA = "etot.exchange/1"
 PICTURES = "pictures"
@@ -146,14 +145,5 @@ def _read_answer(path: Path, text: str) -> Answer:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Replaces a file in one step."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=".")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        os.replace(name, path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(name).unlink()
-        raise
+    with replacing(path) as stream:
+        stream.write(content)
