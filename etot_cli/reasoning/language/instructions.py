@@ -19,12 +19,18 @@ from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    is_descriptive,
+    singular,
+    word_set,
+)
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import OPEN_AT, SceneState
 
-_HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_HEADING = re.compile(r"([^.:;!?\n]+)([:.;!])\s+(\S.*)", re.DOTALL)
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last then do t"
@@ -35,6 +41,10 @@ _REFERRING = word_set(
     "everything anything all both each every any same here there"
 )
 """Below a heading they may speak of what that is about, which is not read."""
+_SWEEPING = word_set("other others rest else everything anything all each every any")
+"""Of a desk."""
+_OF_ITS_OWN = re.compile(r"\b(?:all|both|each|every|any)(?: of)? the\b")
+"""Such words before a noun speak of what that names."""
 
 
 def goal_of(instruction: str, scene: SceneState) -> Goal:
@@ -60,20 +70,29 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
     """What a colon announces ("season the salad: put the salt next to it"), where the words before
-    it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
+    it ask for nothing that could be read, condition nothing and deny nothing; they are noted. So is
+    a sentence that says how things are outside of the scene ("I am hungry").
 
     Raises:
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    begins = words and (words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in OPENING_WORDS)
-    if said is None or not begins or _DEPENDING & {*words}:
+    if said is None or not words or _DEPENDING & {*words}:
         raise UnreadableError(instruction, "")
-    if _REFERRING & {*words_in(normalized(said[2]))}:
-        raise UnreadableError(said[2], "")
-    goal = _read(said[2], scene, vocabulary)
-    note = f"{said[1].strip()!r} is a heading: what stands below it is done"
+    doing = VERB_WORDS | OTHER_VERBS
+    called = {singular(word) for word in vocabulary.words()}.difference(DESK_NOUNS)
+    named = any(singular(word) in called or is_category(word) for word in words)
+    told = (doing | _REFERRING) - {"it", "here", "there", "for"}
+    stated = not named and not any(word in told or is_descriptive(word) for word in words)
+    heading = said[2] == ":" and (words[0] in doing or words[0] not in OPENING_WORDS)
+    below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[3])))}
+    speaks = (_REFERRING if named else _SWEEPING) & below and (named or {*DESK_NOUNS} & {*words})
+    if speaks or not (heading or (stated and {"is", "are", "am"} & {*words})):
+        raise UnreadableError(said[3], "")
+    goal = _read(said[3], scene, vocabulary)
+    kind = "a heading: what stands below it" if heading else "not asked for: the rest"
+    note = f"{said[1].strip()!r} is {kind} is done"
     return replace(goal, notes=(note, *goal.notes))
 
 

@@ -77,10 +77,13 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     check_held(state.timed, goal, scene)
-    named = isinstance(state.context.last, ReorientClause) and state.context.last.only_named
-    if not goal.steps and not state.asked and (goal.constraints or named):
+    last = state.context.last
+    named = isinstance(last, ReorientClause) and last.only_named
+    wished = isinstance(last, ReorientClause) and " for " in last.remark  # to be put there?
+    if wished or not (goal.steps or state.asked or not (goal.constraints or named)):
         said = "how things are" if named else "what not to do"
-        raise ReferenceProblem(sentences[0].text, f"this says {said}, but not what to do", 2)
+        text = sentences[-1 if wished else 0].text
+        raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
     return goal
 
 

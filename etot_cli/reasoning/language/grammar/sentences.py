@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST,
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -30,7 +30,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     sequence,
+    silent,
     some,
+    spanned,
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
@@ -160,12 +162,22 @@ _STATED = either(
     sequence("there is, there are", ALL_THINGS),
 )
 """How things are, said of them before something is asked of them."""
-_NAMED = plain(sequence(either(THINGS, _STATED), build=partial(ReorientClause, only_named=True)))
+_REMARK = either(
+    sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(small_words.DONE_WITH, ALL_THINGS),
+    sequence(small_words.NOT_NEEDED[0], ALL_THINGS, small_words.NOT_NEEDED[1]),
+)
+_SAID = either(
+    sequence(_STATED, build=partial(ReorientClause, only_named=True)),
+    spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
+)
+_NAMED = plain(either(sequence(THINGS, build=partial(ReorientClause, only_named=True)), _SAID))
 
 
 def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
-    return (*topic, *rest) if next(pronouns(rest[0].clause), None) else None
+    remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
+    return (*topic, *rest) if remark or any(pronouns(rest[0].clause)) else None
 
 
 def _sorted(topic: Reading, rest: Reading) -> Reading | None:
@@ -190,7 +202,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         optional(small_words.LOOK_FOR),
         _NAMED,
-        either(COMMA, "and, and then, then"),
+        either(COMMA, "[~comma] and, and then, then, [~comma] so"),
         CHAIN,
         build=_about,
     ),
@@ -221,7 +233,7 @@ _WITH_MORE_BEFORE_IT = either(
 SENTENCE = either(
     CHAIN,
     sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
-    plain(sequence(_STATED, build=partial(ReorientClause, only_named=True))),
+    plain(_SAID),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,

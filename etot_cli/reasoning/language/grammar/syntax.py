@@ -249,6 +249,8 @@ class ReorientClause:
     upright: bool = False
     only_named: bool = False
     """It is but named, or looked for, before something is asked of it."""
+    remark: str = ""
+    """What is said of it that is neither known of a thing nor asked for."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 MAX_CHARACTERS = 2000
@@ -17,7 +18,16 @@ QUESTION = "~question"
 """Behind a question: it may be a request, but not one without a verb."""
 
 _SENTENCE_END = re.compile(r"[.!?;\n]+(?:\s+|$)")
-_NUMBERING = re.compile(r"(^|[.!?;\n]\s*)(?:\(?\d{1,2}[.)]|[-*\N{BULLET}])\s+")
+_NUMBERING = re.compile(r"(^|[.!?;\n]\s*)\(?\d{1,2}[.)]\s+")
+_NEW_LINE = re.compile(
+    rf"(?<![,\n])(?<!\band)(?<!\bthen)(?<!\bto)\s*\n\s*(?=[A-Z]|(?:{'|'.join(VERB_WORDS)})\b)"
+)
+"""Where a new line is a new sentence; elsewhere it is but wrapped."""
+_LIST_HEAD = (
+    r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
+    r"(?: the following| these)? ?(?:steps)?:\s*)?"
+)
+_BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _CLITICS = (
@@ -28,6 +38,7 @@ _CLITICS = (
     (r"\b(is|are)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"\bi'd\b", "i would"),
+    (r"\bi'm\b", "i am"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
@@ -39,7 +50,8 @@ _CLITICS = (
 
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
-    text = text.casefold().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+    text = _listed(_NEW_LINE.sub("\n ", text).casefold().strip())
+    text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
@@ -65,6 +77,27 @@ def normalized(text: str) -> str:
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return re.sub(r"[^\S\n]+", " ", text).strip()
+
+
+def _listed(text: str) -> str:
+    """A list in one row ("1. open it 2. fill it", "step 1: …", "* …") as lines."""
+    if bullet := re.match(rf"{_LIST_HEAD}([{_BULLETS}]\s)", text):
+        return re.sub(rf"(^|[\s,;.]){re.escape(bullet[1])}", r"\1\n ", text[bullet.start(1) :])
+    numbers = [f"(?:{number}|{name})" for name, number in NUMBERS.items()]
+    for labels in (numbers, "abcdefgh"):
+        items: list[str] = []
+        rest = text
+        for label in labels:
+            mark = rf"(?:\(?{label}[.)]|step {label}\b[.):,]?(?: [{_BULLETS}])?)\s+(?=[a-z])"
+            begun = r"(?:^|[.:;,\n]\s*(?:and |then )*)" if items else _LIST_HEAD
+            found = re.search(f"{begun}{mark}", rest)
+            found = found or (re.search(rf"\s{mark}", rest) if items else None)
+            if found is None:
+                break
+            items, rest = [*items, rest[: found.start()]], rest[found.end() :]
+        if len(items) > 1:
+            return "\n ".join((*items[1:], rest))
+    return text
 
 
 def sentences_of(text: str) -> list[str]:

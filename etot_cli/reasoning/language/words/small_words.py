@@ -40,6 +40,16 @@ FRAMES = f"""
     do me a favour and, {TIDY_UP},
     i would be (glad|happy|grateful) if you (would|could)
 """
+_ANY_MORE = "[anymore|any more|any longer]"
+REMARKS = f"""
+    (is|are) [now|already|still|all|no longer] (dirty|clean|ripe|rotten|ready|done|finished|used|
+    hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
+    (is|are) not (needed|wanted|used|in use) {_ANY_MORE}, (has|have) been (used|washed|cleaned)
+"""
+"""What is said of a thing before it is spoken of, and asks for nothing."""
+DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
+NOT_NEEDED = ("(i|we) do not need", "anymore, any more, any longer")
+"""Before such a thing, and around it."""
 SAME_AGAIN = """
     do the same (with|for|to), [and] so (do|does|should|must), as (do|does),
     the same (goes|applies|holds) for, likewise [for|with], same (with|for)
@@ -48,15 +58,17 @@ SAME_AGAIN = """
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
     first, before anything else, firstly, first of all, to begin with, to start with,
-    as a first step, first things first
+    [as a|the] first step [is to], first things first
 """
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = """
-    finally, lastly, last, last of all, at the end, in the end, as a last step, last but not least
+    finally, lastly, last, last of all, at the end, in the end, last but not least,
+    [as a|the] (last|final) step [is to]
 """
 LEADING_THEN = """
     then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
-    after doing so, once (that is done|done|you are done), when done, and then, subsequently, later
+    after doing so, [the|as a] (next|second|third|fourth) step [is to],
+    once (that is done|done|you are done), when done, and then, subsequently, later
 """
 TRAILING_FIRST = "first, beforehand, before that, before anything else"
 TRAILING_LAST = """
