@@ -8,11 +8,9 @@ from typing import Any
 
 import yaml
 
-from etot_cli.benchmark.problems.catalogue import problem
 from etot_cli.benchmark.problems.things import bowl, solid
+from tests.problems.infeasible import REASONS, any_problem
 
-REASONS = 10
-"""So many infeasible problems differ in the reason why they are."""
 VASE = {"kind": "cylinder", "diameter": 0.05, "height": 0.20, "mass": 0.2}
 
 
@@ -27,7 +25,10 @@ def hopeless_files(folder: Path) -> list[Path]:
         doors.append(
             _file(folder, f"door_{hinge}", "Open the oven.", goal, {"oven": oven, **vases})
         )
-    return [*doors, *(problem("infeasible", seed).write(folder) for seed in range(REASONS))]
+    return [
+        *doors,
+        *(any_problem("infeasible", seed).write(folder) for seed in range(len(REASONS))),
+    ]
 
 
 def crowd_file(folder: Path, count: int) -> Path:

@@ -20,7 +20,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from etot_cli.benchmark.problems import FAMILIES, INFEASIBLE, Problem, problem
+from etot_cli.benchmark.problems import Problem
 from etot_cli.control.simulator import open_simulator
 from etot_cli.errors import EtotError
 from etot_cli.planning.options import Limits
@@ -32,6 +32,7 @@ from etot_cli.specs.load import load_task
 from etot_cli.specs.task import Task
 from tests.measure.final_state import Final
 from tests.measure.markdown import replace_section, table
+from tests.problems.infeasible import COUNTS, Hopeless, any_problem
 
 RESULTS = Path(__file__).resolve().parents[2] / "docs" / "results.md"
 SECTION = "Random problems"
@@ -74,8 +75,10 @@ def try_problem(arguments: tuple[str, int, float, bool]) -> Tried:
         arguments: family, seed, time limit of the search [s], whether to plan.
     """
     family, seed, limit_s, planning = arguments
-    made = problem(family, seed)
-    tried = Tried(made.id, made.task["instruction"], " ".join(made.plan), made.reason is None)
+    made = any_problem(family, seed)
+    tried = Tried(
+        made.id, made.task["instruction"], " ".join(made.plan), not isinstance(made, Hopeless)
+    )
     signal.signal(signal.SIGALRM, _alarm)
     with tempfile.TemporaryDirectory() as folder:
         task = load_task(made.write(Path(folder)))
@@ -137,13 +140,13 @@ def _plan(made: Problem, task: Task, limit_s: float, tried: Tried) -> str:
     if result.status.value == "feasible":
         scene = start if result.leaf is None else result.rollouts[result.leaf.id].record.after
         broken = Final(made.task, scene).broken()
-        tried.wrongly_feasible = bool(broken) or made.reason is not None
-        if made.reason is not None:
+        tried.wrongly_feasible = bool(broken) or isinstance(made, Hopeless)
+        if isinstance(made, Hopeless):
             return f"wrongly feasible: {tried.plan}"
         if broken:
             return f"wrongly feasible: {', '.join(broken)} does not hold after {tried.plan}"
         return "ok"
-    if made.reason is None:
+    if not isinstance(made, Hopeless):
         return f"{result.status.value} ({result.stopped or len(failed)} failed): {said}"
     wanted = made.reason
     true = any(
@@ -158,13 +161,12 @@ def _plan(made: Problem, task: Task, limit_s: float, tried: Tried) -> str:
 
 def chosen(only: str) -> list[tuple[str, int]]:
     """Families and seeds: all, ``family``, ``family:seed`` or several of these with commas."""
-    counts = {name: count for name, (_, count) in (FAMILIES | INFEASIBLE).items()}
     found: list[tuple[str, int]] = []
-    for item in only.split(",") if only else counts:
+    for item in only.split(",") if only else COUNTS:
         name, _, seed = item.partition(":")
-        if name not in counts:
-            raise SystemExit(f"no family {name!r}; there are {', '.join(counts)}")
-        found += [(name, int(seed))] if seed else [(name, s) for s in range(counts[name])]
+        if name not in COUNTS:
+            raise SystemExit(f"no family {name!r}; there are {', '.join(COUNTS)}")
+        found += [(name, int(seed))] if seed else [(name, s) for s in range(COUNTS[name])]
     return found
 
 
@@ -246,7 +248,7 @@ def main() -> int:
     if options.write_tasks:
         options.write_tasks.mkdir(parents=True, exist_ok=True)
         for name, seed in wanted:
-            print(problem(name, seed).write(options.write_tasks))
+            print(any_problem(name, seed).write(options.write_tasks))
         return 0
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     known = kept(options.resume)

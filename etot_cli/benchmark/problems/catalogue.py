@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from random import Random
+from typing import TypeVar
 
 from etot_cli.benchmark.problems.cabinet_and_shelf import CABINET_AND_SHELF
 from etot_cli.benchmark.problems.crowd import crowd
 from etot_cli.benchmark.problems.desk import Desk, FullDeskError
 from etot_cli.benchmark.problems.drawer import DRAWER, handles
 from etot_cli.benchmark.problems.hidden import HIDDEN
-from etot_cli.benchmark.problems.infeasible import REASONS
 from etot_cli.benchmark.problems.into import INTO
 from etot_cli.benchmark.problems.lids import LIDS
 from etot_cli.benchmark.problems.nesting import NESTING
@@ -38,11 +38,10 @@ FAMILIES: dict[str, tuple[Family, int]] = {
     "tall": (TALL, 8),
     "hidden": (HIDDEN, 4),
 }
-"""Families of solvable problems, and how many seeds of each are measured."""
-INFEASIBLE: dict[str, tuple[Family, int]] = {"infeasible": (REASONS, 40)}
-"""Families without a plan."""
+"""Families, and how many seeds of each are measured."""
 DRAWS = 40
 """Sizes are drawn anew this often when the desk has no room for them."""
+Made = TypeVar("Made", bound=Problem)
 
 
 def problem(family: str, seed: int) -> Problem:
@@ -52,7 +51,15 @@ def problem(family: str, seed: int) -> Problem:
         KeyError: there is no such family.
         FullDeskError: the desk was too full in every draw.
     """
-    variants, _ = (FAMILIES | INFEASIBLE)[family]
+    return drawn(family, seed, FAMILIES[family][0])
+
+
+def drawn(family: str, seed: int, variants: Sequence[Callable[[Desk, int], Made]]) -> Made:
+    """The problem that one of the variants makes, taken in turn, of the first desk with room.
+
+    Raises:
+        FullDeskError: the desk was too full in every draw.
+    """
     make = variants[seed % len(variants)]
     for draw in range(DRAWS):
         try:
@@ -60,9 +67,3 @@ def problem(family: str, seed: int) -> Problem:
         except FullDeskError:
             continue
     raise FullDeskError(f"{family}:{seed} finds no room on the desk in {DRAWS} draws")
-
-
-def problems(*, solvable: bool = True) -> list[Problem]:
-    """The measured set."""
-    families = FAMILIES if solvable else INFEASIBLE
-    return [problem(name, seed) for name, (_, count) in families.items() for seed in range(count)]

@@ -14,7 +14,7 @@ from etot_cli.benchmark.problems.margins import (
     HOME_RADIUS,
     NEAREST,
 )
-from etot_cli.benchmark.problems.problem import Document, Problem, Reason
+from etot_cli.benchmark.problems.problem import Document, Problem
 from etot_cli.benchmark.problems.things import mm, radius_of
 from etot_cli.errors import EtotError
 from etot_cli.specs.footprint import Disc, Footprint, Polygon, overlap, rectangle
@@ -137,7 +137,6 @@ class Desk:
         plan: list[str],
         *,
         formal: bool = False,
-        reason: Reason | None = None,
     ) -> Problem:
         """The problem on this desk. ``formal``: the conditions are the goal, in their order."""
         loose = [n for n, item in self.objects.items() if item["kind"] not in FASTENED]
@@ -152,7 +151,7 @@ class Desk:
         }
         if formal:
             task["goal"] = success
-        return Problem(family, seed, task, tuple(plan), reason)
+        return Problem(family, seed, task, tuple(plan))
 
 
 FASTENED = ("drawer_unit", "cabinet", "shelf")

@@ -11,8 +11,6 @@ import math
 
 GRASPABLE = 0.074
 """Widest thing to be taken between the fingers: 11 mm less than they open."""
-TOO_WIDE = 0.095
-"""Narrowest thing that cannot be: 10 mm more than they open."""
 FINGER_ROOM = 0.055
 """Free space around a thing to be picked up: an open finger ends 59 mm from the tool point, so this
 admits one beside the thinnest thing, in any direction."""

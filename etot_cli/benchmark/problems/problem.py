@@ -1,4 +1,4 @@
-"""A problem: a task, a plan that a person would give, or the reason why there is none."""
+"""A problem: a task, and a plan that a person would give."""
 
 from __future__ import annotations
 
@@ -14,22 +14,13 @@ Document = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Reason:
-    """Why a problem has no plan: a cause of one of these kinds names one of these objects."""
-
-    kinds: tuple[str, ...]
-    objects: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Problem:
-    """One problem. Solvable when there is a plan, infeasible when there is a reason."""
+    """One problem."""
 
     family: str
     seed: int
     task: Document
     plan: tuple[str, ...] = ()
-    reason: Reason | None = None
 
     @property
     def id(self) -> str:

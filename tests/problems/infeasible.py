@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
+from etot_cli.benchmark.problems.catalogue import FAMILIES, drawn, problem
 from etot_cli.benchmark.problems.desk import Desk
 from etot_cli.benchmark.problems.furniture import chest, cupboard
-from etot_cli.benchmark.problems.margins import DESK_TOP, TOO_WIDE
-from etot_cli.benchmark.problems.problem import Document, Problem, Reason, sentence, the
+from etot_cli.benchmark.problems.margins import DESK_TOP
+from etot_cli.benchmark.problems.problem import Document, Problem, sentence, the
 from etot_cli.benchmark.problems.things import (
     ball,
     between,
@@ -21,6 +23,8 @@ from etot_cli.benchmark.problems.things import (
     tray,
 )
 
+TOO_WIDE = 0.095
+"""Narrowest thing that does not go between the fingers: 10 mm more than they open [m]."""
 BEYOND = (1.00, 1.10)
 """Distance from the base axis that no posture gets the hand to: shoulder to wrist and wrist to tool
 point, stretched out, are 0.92 m together [m]."""
@@ -32,14 +36,30 @@ FITS_NOT = 0.015
 """What does not fit is larger than its place by this much at least [m]."""
 
 
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why a problem has no plan: a cause of one of these kinds names one of these objects."""
+
+    kinds: tuple[str, ...]
+    objects: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hopeless(Problem):
+    """A problem without a plan."""
+
+    reason: Reason
+
+
 def _infeasible(
     desk: Desk, seed: int, text: str, goal: list[Document], kinds: str, *objects: str
-) -> Problem:
+) -> Hopeless:
+    made = desk.problem("infeasible", seed, sentence(text), goal, [])
     reason = Reason(tuple(kinds.split()), objects)
-    return desk.problem("infeasible", seed, sentence(text), goal, [], reason=reason)
+    return Hopeless(made.family, made.seed, made.task, reason=reason)
 
 
-def _too_wide(desk: Desk, seed: int) -> Problem:
+def _too_wide(desk: Desk, seed: int) -> Hopeless:
     """A ball or a box, on every side wider than the gripper opens."""
     wide = between(desk.rng, TOO_WIDE + 0.005, 0.13)
     noun, item = ("ball", ball(desk.rng, wide, wide)) if seed % 20 < 10 else (
@@ -52,7 +72,7 @@ def _too_wide(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, text, goal, "no_grasp", thing)
 
 
-def _does_not_fit(desk: Desk, seed: int) -> Problem:
+def _does_not_fit(desk: Desk, seed: int) -> Hopeless:
     """Wider than the mouth."""
     vessel = cup(desk.rng, 0.058, 0.066)
     holder = desk.stand("cup", vessel)
@@ -63,13 +83,13 @@ def _does_not_fit(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, text, goal, "no_room rebound blocked", thing, holder)
 
 
-def _deeper_desk(made: Problem) -> Problem:
+def _deeper_desk(made: Hopeless) -> Hopeless:
     """The same on a desk that goes on behind the arm's reach."""
     made.task["scene"]["desk"] |= {"size": [1.2, 1.2], "center": [0.62, 0.0]}
     return made
 
 
-def _out_of_reach(desk: Desk, seed: int) -> Problem:
+def _out_of_reach(desk: Desk, seed: int) -> Hopeless:
     """What is wanted stands far away and high up."""
     noun, item = desk.rng.choice((("block", block(desk.rng)), ("can", can(desk.rng))))
     y = between(desk.rng, -0.2, 0.2)
@@ -85,7 +105,7 @@ def _out_of_reach(desk: Desk, seed: int) -> Problem:
     return _deeper_desk(_infeasible(desk, seed, text, goal, "unreachable", thing))
 
 
-def _target_out_of_reach(desk: Desk, seed: int) -> Problem:
+def _target_out_of_reach(desk: Desk, seed: int) -> Hopeless:
     """Where it is to go is fastened beyond the arm's reach."""
     r, angle = between(desk.rng, *BEYOND), math.radians(desk.rng.uniform(-25, 25))
     at = [mm(r * math.cos(angle)), mm(r * math.sin(angle))]
@@ -96,7 +116,7 @@ def _target_out_of_reach(desk: Desk, seed: int) -> Problem:
     return _deeper_desk(_infeasible(desk, seed, text, goal, "unreachable", target))
 
 
-def _fixed_before_drawer(desk: Desk, seed: int) -> Problem:
+def _fixed_before_drawer(desk: Desk, seed: int) -> Hopeless:
     """A fastened box right before the handle: the drawer opens by less than a quarter."""
     unit = chest(desk, "low")
     height = mm(unit.height)
@@ -107,7 +127,7 @@ def _fixed_before_drawer(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, "open the drawer", goal, "blocked collision no_grasp", blocker)
 
 
-def _too_high_for_drawer(desk: Desk, seed: int) -> Problem:
+def _too_high_for_drawer(desk: Desk, seed: int) -> Hopeless:
     """A ball that is larger than the drawer is high."""
     unit = chest(desk, "upper", opened=0.13)
     desk.objects[unit.name]["drawers"][0]["height"] = LOW_DRAWER
@@ -119,7 +139,7 @@ def _too_high_for_drawer(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, text, goal, "blocked no_room", thing)
 
 
-def _slips(desk: Desk, seed: int) -> Problem:
+def _slips(desk: Desk, seed: int) -> Hopeless:
     """Slippery and heavy: two pads at 30 N hold a fifth of its weight by friction."""
     side = between(desk.rng, 0.055, 0.068)
     item = solid([side, side, 0.07]) | {"mass": 3.0, "friction": 0.1, "slippery": True}
@@ -130,7 +150,7 @@ def _slips(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, text, goal, "slip no_grasp", thing)
 
 
-def _no_handle(desk: Desk, seed: int) -> Problem:
+def _no_handle(desk: Desk, seed: int) -> Hopeless:
     """A closed drawer whose front is flush, without a handle or a gap."""
     unit = chest(desk, "upper")
     desk.objects[unit.name]["drawers"][0].pop("handle")
@@ -139,7 +159,7 @@ def _no_handle(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, "open the drawer", goal, "no_grasp", unit.name)
 
 
-def _filled_by_fixed(desk: Desk, seed: int) -> Problem:
+def _filled_by_fixed(desk: Desk, seed: int) -> Hopeless:
     """A fastened cylinder fills a bowl, and rises above its rim."""
     vessel = bowl(0.12, 0.05) | {"fixed": True}
     target = desk.stand("bowl", vessel)
@@ -161,7 +181,7 @@ def _filled_by_fixed(desk: Desk, seed: int) -> Problem:
     return _infeasible(desk, seed, text, goal, kinds, blocker, target)
 
 
-def _too_long_for_cupboard(desk: Desk, seed: int) -> Problem:
+def _too_long_for_cupboard(desk: Desk, seed: int) -> Hopeless:
     """A bar longer than the cupboard's diagonal, with the door to be closed behind it."""
     unit = cupboard(desk, "robot", open_deg=100.0)
     depth, width, height = desk.objects[unit.name]["size"]
@@ -182,3 +202,14 @@ REASONS = (
     _too_high_for_drawer, _slips, _no_handle, _filled_by_fixed, _too_long_for_cupboard,
 )  # fmt: skip
 """Ten reasons in turn."""
+INFEASIBLE = 40
+"""So many of them are measured."""
+COUNTS = {name: count for name, (_, count) in FAMILIES.items()} | {"infeasible": INFEASIBLE}
+"""How many problems of each family are measured, those without a plan among them."""
+
+
+def any_problem(family: str, seed: int) -> Problem:
+    """The problem of a family and seed, where the family may be that of those without a plan."""
+    if family == "infeasible":
+        return drawn(family, seed, REASONS)
+    return problem(family, seed)
