@@ -50,15 +50,32 @@ def test_read(name: str, text: str, wanted: str) -> None:
     assert " | ".join([formal(goal), *goal.notes]) == wanted
 
 
-def test_nearly_every_second_refusal_says_what_would_be_read() -> None:
-    """0.47 of them all; for most others there is nothing that asks for the same."""
+def test_every_fourth_refusal_says_what_would_be_read() -> None:
+    """0.29 of them all; for the others there is nothing near that asks for the same."""
     refused = [(name, text) for name, found in CORPUS.items() for text in found.get("refused", {})]
     told = 0
     for name, text in refused[::3]:
         with pytest.raises(InstructionError) as raised:
             goal_of(text, SCENES[name])
         told += "what would be read: " in str(raised.value)
-    assert told > 0.42 * len(refused[::3])
+    assert told > 0.25 * len(refused[::3])
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("scullery", "Put the cups on the plate on the tray."),  # the tray was spoken of, too
+        ("scullery", "Put only the tin on the tray."),
+        ("numbered", "Put cubes 1 to 3 in bin 1."),
+        ("breakfast", "Wash the plate."),  # picking it up is something else
+        ("breakfast", "Put the spoon and the apple on the plate."),
+        ("cupboard", "Put the can into the glass if it fits."),
+    ],
+)
+def test_no_rewording_asks_for_something_else(name: str, text: str) -> None:
+    with pytest.raises(InstructionError) as raised:
+        goal_of(text, SCENES[name])
+    assert "what would be read: " not in str(raised.value)
 
 
 @pytest.mark.parametrize(("name", "text", "wanted"), cases("refused"))
@@ -85,7 +102,6 @@ def test_refused(name: str, text: str, wanted: str) -> None:
     [
         ("breakfast", "Quickly put the apple on the plate.", "Put the apple on the plate."),
         ("breakfast", "Kick the apple into the bowl.", "Put the apple into the bowl."),
-        ("breakfast", "Peel the banana.", "Pick up the banana."),
         ("breakfast", "Put the banana where the apple is.", "Put the banana next to the apple."),
         ("breakfast", "Put the apple in the fridge.", ""),
         (
@@ -98,8 +114,6 @@ def test_refused(name: str, text: str, wanted: str) -> None:
         ("drawers_and_desk", "Close the blue drawer.", "Close the chest."),
         ("numbered", "Put cube 5 in bin 1.", "Put cube 1 in bin 1."),
         ("kitchen", "Fry the egg in the pan.", "Put the egg in the pan."),
-        ("stationery", "Sharpen the pencil.", "Pick up the pencil."),
-        ("cupboard", "Put the can in the cabinet like the jar.", "Put the can in the cabinet."),
     ],
 )
 def test_a_rewording_keeps_what_was_understood(name: str, text: str, instead: str) -> None:

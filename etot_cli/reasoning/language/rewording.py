@@ -32,9 +32,10 @@ Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _DENYING = re.compile(
-    r"\b(?:not|never|neither|nor|no|none|nothing|without|except|but|instead|\w+n't)\b"
+    r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if|unless"
+    r"|until|least|most|same|different|matching|other|colou?r|versa|twice|times|again)\b"
 )
-"""Words that turn a meaning round: they stay, and no plain request says the same."""
+"""Words that turn a meaning round or bound it: they stay, and no plain request says the same."""
 _USUAL = (
     ({"in", "into", "inside", "within"}, ("in", "on")),
     ({*SIDES, "beside", "next", "between", "behind", "where"}, ("next to",)),
@@ -68,7 +69,8 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
     """Instructions near the refused one that are read in this scene, the nearest first."""
     text, names = normalized(refused.instruction), _Names(scene)
     kept = _kept(refused, text)
-    least = names.told(kept) - (names.told(refused.phrase) if refused.candidates else set())
+    least = names.told(text) - names.told(refused.word)
+    least -= names.told(refused.phrase) if refused.candidates else set()
     called = " ".join(names.of(name) for name in refused.candidates)
     most = names.told(f"{text} {called}")
     tried = {_sentence(text)}
@@ -108,7 +110,6 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     begun = kept.partition(" ")[0]
     if not text.startswith(begun) and begun not in VERB_WORDS:  # its verb was to blame
         yield f"put {kept}"
-        yield f"pick up {kept}"
     elif refused.word or refused.without:
         yield kept
 
@@ -122,7 +123,8 @@ def _plain(text: str, names: _Names) -> Iterator[str]:
             yield from (f"{verb} {mention.phrase}" for mention in mentions)
     held = list(takewhile(lambda item: item.joined, mentions))
     things = " and ".join(item.phrase for item in held)
-    if len(held) == len(mentions) and not words & (_PLACING | (VERB_WORDS - _PICKING)):
+    begun = held and (text in things or text.startswith(held[0].phrase) or words & _PICKING)
+    if begun and len(held) == len(mentions) and not words & (_PLACING | (VERB_WORDS - _PICKING)):
         yield f"pick up {things}"
     for place in mentions[len(held) :] if held else ():
         before = {*place.before}
@@ -186,7 +188,7 @@ class _Names:
             between = words[done:start]
             link = [*takewhile(_LINKING.__contains__, between[::-1])][::-1]
             joined = not link and not (found and {*between} - {",", "and"})
-            unknown = found and {*between[: len(between) - len(link)]} & {*_DETERMINERS}
+            unknown = {*between[: len(between) - len(link)]} & {*_DETERMINERS}
             if unknown or link[:1] == ["of"]:
                 break  # another thing is meant, too, or instead
             found.append(_Mention(" ".join([*article, *words[start:end]]), tuple(link), joined))
