@@ -10,13 +10,8 @@ import pytest
 
 from etot_cli.control.simulated_world import SimulatedWorld
 from etot_cli.skills.action import GraspPose, parse_plan
-from etot_cli.skills.grasps.candidates import (
-    FINGER_ROOM,
-    WIDTH_MARGIN,
-    Grasp,
-    GraspSet,
-    sample_grasps,
-)
+from etot_cli.skills.grasps.candidates import sample_grasps
+from etot_cli.skills.grasps.ranking import FINGER_ROOM, WIDTH_MARGIN, Grasp, GraspSet
 from etot_cli.skills.grasps.solids import Solids
 from etot_cli.skills.motion.motion import Motion
 from etot_cli.skills.motions import plan_motions

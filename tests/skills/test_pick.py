@@ -10,7 +10,7 @@ import pytest
 
 from etot_cli.skills.action import GraspPose
 from etot_cli.skills.grasps import pick
-from etot_cli.skills.grasps.candidates import Grasp, GraspSet
+from etot_cli.skills.grasps.ranking import Grasp, GraspSet
 from etot_cli.world.pose import Pose
 from etot_cli.world.state import CauseKind
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from etot_cli.skills.articulation.travel import PENETRATION, PartTravel
-from etot_cli.skills.grasps.candidates import FINGER_ROOM
+from etot_cli.skills.grasps.ranking import FINGER_ROOM
 from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Graspable
 from etot_cli.world.pose import Pose, rotation_from_axes, turn_about

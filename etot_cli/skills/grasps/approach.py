@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.grasps.candidates import Grasp
+from etot_cli.skills.grasps.ranking import Grasp
 from etot_cli.skills.motion.collision import Attached, HandPart
 from etot_cli.skills.motion.kinematics import ANGLE_TOLERANCE, POSITION_TOLERANCE
 from etot_cli.skills.outcome import Blockers

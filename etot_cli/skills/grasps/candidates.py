@@ -7,12 +7,8 @@ fingers and there is room for a finger on either side of it.
 
 from __future__ import annotations
 
-import math
-from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import count
-from typing import NamedTuple
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -28,71 +24,22 @@ from etot_cli.skills.grasps.lines import (
     through_parts,
 )
 from etot_cli.skills.grasps.mouths import across_mouth
+from etot_cli.skills.grasps.ranking import FINGER_ROOM, SQUARE, Found, Grasp, GraspSet
 from etot_cli.skills.grasps.solids import Interval, Solids
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.pose import LEVEL, UP, Pose, rotation_from_axes, turn_about
+from etot_cli.world.pose import LEVEL, UP, Pose, turn_about
 
-FINGER_ROOM = 0.014
-"""Free width that a finger needs beside what it closes on [m]."""
-WIDTH_MARGIN = 0.004
-"""The gripper must open this much wider than the object [m]: twice what sizes are off by at the
-widest (2 % of 85 mm). More would be paid for in friction, as balls are then held higher up."""
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
-SQUARE = 0.8
-"""Cosine of the largest angle between the closing direction and a surface's normal: 37°, within the
-friction cone of the pads (45° at their friction of 1) by a margin for what is perceived wrongly. A
-line across a box's corner meets its sides at more."""
 SLANTED = 0.2
 """Needed friction above which others are looked for: surfaces 11° off the square."""
-FRICTION_COST = 0.1
-"""Added to the score for a needed friction of 1: as much as 12 mm beside the centre."""
 LEAN_COST = 0.25
 """Added to the score per radian of lean."""
 MOUTH_COST = 0.2
 """Score of a wall that is taken through the mouth of what lies: as of 80 mm taken right across the
 middle. Of the walls that are met from above, most have the rest of the vessel in the way."""
-TOO_WIDE_TRIES = 1.35
-"""Objects up to so many times the opening are still tried, off their widest line."""
-MAX_RANKED = 48
-"""Grasps that are kept, of several hundred that are found mostly: those whose whole way is looked
-at."""
-LEAST_ALIKE = 12
-"""Of these, walls and whole widths from above, and walls through a mouth, at least as far as there
-are any: what stands in a cup keeps the fingers from all of its rim, and not from its outside."""
-
-
-@dataclass(frozen=True)
-class Grasp:
-    """A tool pose to close the fingers at.
-
-    ``width``: distance between the surfaces [m]; ``opening``: distance between the pads for the
-    approach [m]; ``pose``: from above or from the side; ``score``: lower is better; ``friction``:
-    coefficient without which the fingers slide off as they close, the tangent of the larger angle
-    between their line and a surface's normal.
-    """
-
-    tool: Pose
-    width: float
-    opening: float
-    pose: GraspPose
-    score: float
-    friction: float = 0.0
-
-
-@dataclass(frozen=True)
-class GraspSet:
-    """The best candidates, best first. ``too_wide``: grasps that were left out for width alone,
-    which can only be tried in physics; ``narrowest`` [m] is the smallest width seen;
-    ``lies_round``: they are of a cylinder that lies.
-    """
-
-    grasps: tuple[Grasp, ...]
-    too_wide: tuple[Grasp, ...]
-    narrowest: float
-    lies_round: bool = False
 
 
 def sample_grasps(
@@ -114,7 +61,7 @@ def sample_grasps(
     own = world.entries[name].axis
     axis = None if own is None else data.body(name).xmat.reshape(3, 3) @ np.array(own)
     bounds, closings = (low, high, center, axis), closing_directions(axis)
-    found = _Found(world.robot.spec.gripper.opening)
+    found = Found(world.robot.spec.gripper.opening)
     if pose in (None, GraspPose.VERTICAL):
         _from_above(world, solids, data, name, bounds, grid(bounds, closings), found)
         if all(pinch.friction > SLANTED for pinch in found.fitting):
@@ -132,78 +79,6 @@ def sample_grasps(
     return replace(found.ranked(), lies_round=lies_round)
 
 
-class _Pinch(NamedTuple):
-    """What a grasp is made of; its tool pose is worked out for the best alone."""
-
-    point: Vector
-    approach: Vector
-    closing: Vector
-    width: float
-    pose: GraspPose
-    score: float
-    friction: float
-    wall: bool
-
-    def grasp(self, opening: float) -> Grasp:
-        """The grasp, with the pads ``opening`` apart for the approach [m]."""
-        tool = Pose(self.point, rotation_from_axes(self.approach, self.closing))
-        return Grasp(tool, self.width, opening, self.pose, self.score, self.friction)
-
-
-class _Found:
-    """Collects candidates for a gripper that opens to ``largest`` [m]."""
-
-    def __init__(self, largest: float) -> None:
-        self._largest = largest
-        self.fitting: list[_Pinch] = []
-        self._wide: list[_Pinch] = []
-
-    def add(
-        self,
-        point: Vector,
-        approach: Vector,
-        closing: Vector,
-        interval: Interval,
-        pose: GraspPose,
-        score: float,
-        wall: bool = False,
-    ) -> None:
-        """Takes note of a grasp of what lies on an interval, a single ``wall`` or all of the thing,
-        unless it meets that too obliquely.
-        """
-        if interval.squareness < SQUARE:
-            return
-        cosine, width = min(interval.squareness, 1.0), interval.width
-        friction = math.sqrt(1.0 - cosine**2) / cosine
-        score += FRICTION_COST * friction
-        if width + WIDTH_MARGIN <= self._largest:
-            into = self.fitting
-        elif width <= self._largest * TOO_WIDE_TRIES:
-            into = self._wide
-        else:
-            return
-        into.append(_Pinch(point, approach, closing, width, pose, score, friction, wall))
-
-    def ranked(self) -> GraspSet:
-        """The best of them."""
-        fitting = sorted(self.fitting, key=lambda pinch: pinch.score)
-        ranks: dict[object, count[int]] = defaultdict(count)
-        # Hands from the side come last anyhow, and have their turn when they are asked for.
-        ranks[GraspPose.HORIZONTAL, False] = count(LEAST_ALIKE)
-        ahead = sorted(
-            (next(ranks[pinch.pose, pinch.wall]) >= LEAST_ALIKE, index)
-            for index, pinch in enumerate(fitting)
-        )
-        best = [fitting[index] for index in sorted(index for _, index in ahead[:MAX_RANKED])]
-        wide = sorted(self._wide, key=lambda pinch: (pinch.width, pinch.score))[:MAX_RANKED]
-        widths = (pinch.width for pinch in (*self.fitting, *self._wide))
-        return GraspSet(
-            tuple(pinch.grasp(min(self._largest, pinch.width + 2 * FINGER_ROOM)) for pinch in best),
-            tuple(pinch.grasp(self._largest) for pinch in wide),
-            min(widths, default=float("inf")),
-        )
-
-
 def _from_above(
     world: World,
     solids: Solids,
@@ -211,7 +86,7 @@ def _from_above(
     name: str,
     bounds: Bounds,
     levels: Sequence[Line],
-    found: _Found,
+    found: Found,
 ) -> None:
     if not levels:
         return
@@ -296,7 +171,7 @@ def _scores(
 
 
 def _from_side(
-    solids: Solids, data: mujoco.MjData, name: str, bounds: Bounds, found: _Found
+    solids: Solids, data: mujoco.MjData, name: str, bounds: Bounds, found: Found
 ) -> None:
     low, high, center, axis = bounds
     outward = float(np.arctan2(center[1], center[0]))
@@ -326,7 +201,7 @@ def _from_side(
 
 
 def _through_mouth(
-    world: World, solids: Solids, data: mujoco.MjData, name: str, found: _Found
+    world: World, solids: Solids, data: mujoco.MjData, name: str, found: Found
 ) -> None:
     lines = across_mouth(world, data, name)
     if not lines:

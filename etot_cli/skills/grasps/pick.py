@@ -12,7 +12,8 @@ import numpy as np
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
-from etot_cli.skills.grasps.candidates import LEAN_COST, Grasp, GraspSet, sample_grasps, tilted
+from etot_cli.skills.grasps.candidates import LEAN_COST, sample_grasps, tilted
+from etot_cli.skills.grasps.ranking import Grasp, GraspSet
 from etot_cli.skills.motion.motion import (
     GRIP_TIME,
     Hand,

@@ -14,8 +14,8 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.places import Places
-from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.space import is_support, touches
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.world.spatial import Nearby

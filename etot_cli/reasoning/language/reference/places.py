@@ -21,8 +21,8 @@ from etot_cli.reasoning.language.reference.coreference import (
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.instances import check_not_part
-from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.reference.vessels import bears, goes_in, lies_on

@@ -1,4 +1,4 @@
-"""The referents of a clause's phrases: what each speaks of, and what can be spoken of then."""
+"""The referents of a phrase: what it speaks of, and what can be spoken of then."""
 
 from __future__ import annotations
 
@@ -10,161 +10,20 @@ from functools import partial
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import antecedents, openable
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import (
-    chooses,
-    is_robot,
-    leaves_noun_out,
-    usual_form,
-)
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
 from etot_cli.reasoning.language.words.places import Prep
 
-_OF_ITS_OWN = frozenset({Prep.EXCEPT, Prep.CONTRAST, Prep.MATCHING, Prep.OF})
-"""What follows the last of several things and is said of that one, or is dealt with elsewhere."""
 
-
-def _shared(phrase: NounPhrase) -> tuple[Modifier, ...]:
-    """What follows the last of several things and may be said of all."""
-    return tuple(item for item in phrase.modifiers if item.prep not in _OF_ITS_OWN)
-
-
-class Phrases(Meanings):
+class Referents(Meanings):
     """Turns phrases into referents of a discourse, which grows."""
-
-    def things(self, things: Things, role: Role, excluded: Sequence[int] = ()) -> list[int]:
-        """Referents of coordinated phrases; alternatives become one referent. No pronoun means any
-        of ``excluded``.
-        """
-        things = self._listed(things, role)
-        self._check_shared(things, role)
-        for phrase in things.phrases[1:]:
-            if phrase.determiner == "both" and not phrase.words:
-                raise ReferenceProblem(phrase.text, "say which two", 2)
-        if not things.either:
-            found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
-            self._check_apart(things, found)
-            return list(dict.fromkeys(index for indices in found for index in indices))
-        said = self.one_of(things.phrases, role)
-        phrases = [
-            # "The purple cup or a green one"
-            phrase.called(before.head) if phrase.head == "one" else phrase
-            for phrase, before in zip(said, (said[0], *said), strict=False)
-        ]
-        resolved = [self.meaning(phrase, role) for phrase in phrases]
-        options = tuple(dict.fromkeys(option for item in resolved for option in item.options))
-        either = Resolved(options, noun=resolved[-1].noun, either=True)
-        text = things.text
-        return [self.discourse.add(either, text, role)]
-
-    def _listed(self, things: Things, role: Role) -> Things:
-        """What "two blocks, C and D," and "a mug, the red or the green," list is all they mean."""
-        (whole, *parts) = things.phrases
-        number = 1 if things.either else len(parts)
-        if len(parts) < 2 or quantity_of(whole.determiner).count != number or not whole.words:
-            return things
-        noun = singular(whole.head)
-        elliptic = [np.is_elliptic or leaves_noun_out(np) for np in parts]
-        named = tuple(
-            np.called(noun)
-            if np.is_elliptic
-            else replace(np, words=(*np.words, noun))
-            if out
-            else np
-            for np, out in zip(parts, elliptic, strict=True)
-        )
-        try:
-            every = self.meaning(replace(whole, determiner="all"), role).options
-            meant = [self.meaning(np, role).options for np in named]
-        except ReferenceProblem:
-            if any(elliptic):
-                raise
-            return things
-        of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
-        return replace(things, phrases=named) if of_them else things
-
-    def _check_apart(self, things: Things, found: Sequence[Sequence[int]]) -> None:
-        """Whether "both drawers, the lower" names one of them twice, which says something else."""
-        named: set[Thing] = set()
-        for phrase, indices in zip(things.phrases, found, strict=True):
-            options = [self.discourse.referents[index].options for index in indices]
-            own = {thing for item in options if len(item) == 1 for thing in item[0]}
-            if own <= named and own:
-                raise ReferenceProblem(phrase.text, "it was named before; say what of it", 2)
-            named |= own
-
-    def one_of(self, phrases: tuple[NounPhrase, ...], role: Role) -> tuple[NounPhrase, ...]:
-        """Alternatives: with one article, "a pot or pan on the desk" is whichever stands there.
-
-        Raises:
-            AmbiguousReference: the last one does, and others need not.
-        """
-        *before, last = phrases
-        shared = _shared(last)
-        alone = any(np.modifiers or np.pronoun or not np.words for np in before)
-        if not before or alone or last.determiner or not shared:
-            return phrases
-        told = (*(replace(np, modifiers=shared) for np in before), last)
-        there = tuple(np for np in told if self._options([np], role))
-        if last in there:
-            ways = [self._options(found, role) for found in (there, phrases)]
-            end = last.text.removeprefix(" ".join(last.words)).strip()
-            self._check_same(phrases[0].text, ways, f"{end!r} may be said of this, too:")
-        return there or phrases
-
-    def _options(self, phrases: Sequence[NounPhrase], role: Role) -> tuple[tuple[Thing, ...], ...]:
-        """What any of some phrases means."""
-        found: list[tuple[Thing, ...]] = []
-        for phrase in phrases:
-            with suppress(ReferenceProblem):
-                found += self.meaning(phrase, role).options
-        return tuple(found)
-
-    def _check_shared(self, things: Things, role: Role) -> None:
-        """In "the cup and the ball on the tray" the cup may be the one on the tray, too.
-
-        Raises:
-            AmbiguousReference: that would be another one.
-        """
-        *before, last = things.phrases
-        for first, phrase in zip(things.phrases, things.phrases[1:], strict=False):
-            if phrase.loose and len(phrase.words) == 1 and len(first.words) > 1:
-                alike = replace(phrase, words=(*first.words[:-1], *phrase.words))
-                self._check_alike(phrase, alike, role, " ".join(alike.words))
-            if phrase.loose and len(phrase.words) > 1 == len(first.words):
-                # "The apple and orange juice": the apple, or its juice?
-                alike = replace(first, words=(*first.words, singular(phrase.words[-1])))
-                self._check_alike(first, alike, role, " ".join(alike.words))
-        shared = _shared(last)
-        if not shared:
-            return
-        for phrase in before:
-            if phrase.modifiers or phrase.pronoun or not phrase.words:
-                continue
-            end = last.text.removeprefix(" ".join((last.determiner, *last.words)).strip())
-            alike = replace(phrase, modifiers=shared)
-            self._check_alike(phrase, alike, role, f"{phrase.text}{end}")
-
-    def _check_alike(self, phrase: NounPhrase, alike: NounPhrase, role: Role, text: str) -> None:
-        """Whether a phrase means the same with the words that another one has."""
-        ways = [self._options([item], role) for item in (alike, phrase)]
-        if all(ways):
-            self._check_same(phrase.text, ways, f"{text!r} may be meant, too:")
-
-    def _check_same(
-        self, text: str, ways: Sequence[tuple[tuple[Thing, ...], ...]], why: str
-    ) -> None:
-        if len({*map(frozenset, ways)}) > 1:
-            named = [dict.fromkeys(thing.name for thing in things_in(found)) for found in ways]
-            raise AmbiguousReference(text, [", ".join(names) for names in named], why)
 
     def refer(
         self,

@@ -14,8 +14,8 @@ from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.referents import Phrases
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot
 from etot_cli.reasoning.language.words.lexicon import singular, word_set
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
