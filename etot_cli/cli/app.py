@@ -19,7 +19,12 @@ from etot_cli.cli.bench import bench
 from etot_cli.cli.execute import execute
 from etot_cli.cli.exits import INTERNAL, INTERRUPTED, MISSING, NO, OK, UNUSABLE
 from etot_cli.cli.interrupts import asked_to_stop, finish, listen
-from etot_cli.cli.memory import check_address_space, is_lack_of_memory, spare_threads
+from etot_cli.cli.memory import (
+    check_address_space,
+    collect_seldom,
+    is_lack_of_memory,
+    spare_threads,
+)
 from etot_cli.cli.new import new, tasks
 from etot_cli.cli.plan import plan
 from etot_cli.cli.reconstruct import reconstruct
@@ -138,6 +143,7 @@ def main() -> None:
     try:
         listen()
         spare_threads()
+        collect_seldom()
         code = run(sys.argv[1:])
         finish()
     except KeyboardInterrupt:  # in the moments around a command

@@ -79,15 +79,18 @@ class Model(BaseModel):
 
 
 class VersionsModel(Model):
-    """What the result depends on besides input and seed."""
+    """What the result depends on besides input and seed.
+
+    Older reports name libraries that are no longer used.
+    """
+
+    model_config = ConfigDict(extra="ignore")
 
     etot: str
     python: str
     mujoco: str
     numpy: str
     scipy: str = UNKNOWN
-    mink: str = UNKNOWN
-    """Inverse kinematics."""
     trimesh: str = UNKNOWN
     coacd: str = UNKNOWN
     """Convex pieces of meshes."""

@@ -30,7 +30,6 @@ def versions() -> VersionsModel:
         mujoco=package_version("mujoco"),
         numpy=package_version("numpy"),
         scipy=package_version("scipy"),
-        mink=package_version("mink"),
         trimesh=package_version("trimesh"),
         coacd=package_version("coacd"),
         small_gicp=package_version("small_gicp"),

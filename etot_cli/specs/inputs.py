@@ -29,7 +29,7 @@ def input_digests(
         documents that at least one value is from, meshes, MJCF models and a robot's YAML.
     """
     home = file.parent.resolve()
-    found = {file.resolve()} | {Path(name).resolve() for name in _documents(node)}
+    found = {Path(name).resolve() for name in {str(file), *_documents(node)}}
     found |= referenced_files(scene, added)
     digests = {Path(os.path.relpath(path, home)).as_posix(): file_digest(path) for path in found}
     return dict(sorted(digests.items()))

@@ -32,7 +32,7 @@ def narrow(folder: Path, mib: int, files: int, *arguments: str) -> subprocess.Co
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("mib", [100, 150, 250, 400, NEEDED_MIB - 1])
+@pytest.mark.parametrize("mib", [100, 150, 250, NEEDED_MIB - 1])
 @pytest.mark.slow
 def test_too_little_address_space_is_refused_at_once(tmp_path: Path, mib: int) -> None:
     begun = time.monotonic()
@@ -71,7 +71,7 @@ def test_nothing_is_loaded_that_neither_a_plan_nor_a_benchmark_begins_with() -> 
     loaded = (
         "import sys, etot_cli.commands.plan, etot_cli.reporting.plan_summary, "
         "etot_cli.commands.bench, etot_cli.commands.bench_trial\n"
-        "print({'cv2', 'av', 'coacd', 'scipy.stats', 'scipy.ndimage', 'jinja2', 'httpx', "
+        "print({'cv2', 'av', 'coacd', 'scipy', 'jinja2', 'httpx', "
         "'etot_cli.benchmark.problems'} & {*sys.modules})"
     )
     done = subprocess.run(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import mujoco
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -49,6 +50,26 @@ def test_solution_near_a_known_one_is_found(seed: int) -> None:
     assert np.linalg.norm(reached.position - target.position) < 2 * kinematics.POSITION_TOLERANCE
     assert angle_between(reached.rotation, target.rotation) < 2 * kinematics.ANGLE_TOLERANCE
     assert np.all(found.joints >= ARM.lower) and np.all(found.joints <= ARM.upper)
+
+
+@given(seeds)
+@settings(max_examples=60, deadline=None)
+def test_turn_jacobian_is_what_small_turns_change(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    axis, small = rng.normal(size=(2, 3))
+    turn = axis / np.linalg.norm(axis) * rng.uniform(0.0, 2.8)
+    small *= 1e-6
+
+    def left(turned: np.ndarray) -> np.ndarray:
+        wanted, present, found = np.empty(4), np.empty(4), np.empty(3)
+        for quaternion, by in ((wanted, turn), (present, turned)):
+            quaternion[:] = [1.0, 0.0, 0.0, 0.0]
+            mujoco.mju_quatIntegrate(quaternion, by, 1.0)
+        mujoco.mju_subQuat(found, wanted, present)
+        return found
+
+    change = left(np.zeros(3)) - left(small)
+    assert change == pytest.approx(kinematics.turn_jacobian(turn) @ small, abs=1e-9)
 
 
 def test_most_poses_above_the_desk_are_reached_from_anywhere() -> None:

@@ -1,4 +1,4 @@
-"""Forward and inverse kinematics of the robot's arm (inverse by mink).
+"""Forward and inverse kinematics of the robot's arm.
 
 Frames: base frame; tool frame as the robot's ``tool_site`` (z approach, y closing direction).
 """
@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import mink
 import mujoco
 import numpy as np
 
@@ -31,6 +30,8 @@ MAX_STEP = 0.6
 """Largest joint change in one iteration [rad]."""
 IK_DAMPING = 1e-7
 """Keeps the equations solvable where the arm is stretched, and changes nothing elsewhere."""
+TURN_WEIGHT = 0.4
+"""What a radian counts, in metres: a descent turns and moves the hand much at once."""
 JUMP = 0.35
 """Largest joint change between neighbouring points of a straight line [rad]; more is a change of
 the arm's branch in the middle of a path."""
@@ -70,19 +71,13 @@ class Arm:
         self._comfortable: dict[float, float] = {}
         self._solved: dict[tuple[object, ...], IkResult] = {}
         self._site = model.site(spec.tool_site).id
-        self._configuration = mink.Configuration(model)
+        self._data = data = mujoco.MjData(model)
+        # Asking ``data`` for its arrays takes longer than reading them.
+        self._values, self._position = data.qpos, data.site_xpos[self._site]
+        self._frame = data.site_xmat[self._site].reshape(3, 3)
         self._damping = IK_DAMPING * np.eye(len(joints))
-        self._tasks: dict[bool, mink.FrameTask] = {
-            free: mink.FrameTask(
-                spec.tool_site,
-                "site",
-                position_cost=1.0,
-                orientation_cost=[0.4, 0.4, 0.0] if free else 0.4,
-                lm_damping=1e-6,
-            )
-            for free in (False, True)
-        }
-        self._weights = {free: np.square(task.cost)[:, None] for free, task in self._tasks.items()}
+        self._jacobian = np.zeros((6, model.nv))
+        self._weights = {free: _weights(free_spin=free) for free in (False, True)}
         self._inner = self.lower + _LIMIT_MARGIN, self.upper - _LIMIT_MARGIN
 
     def comfortable_radius(self, height: float) -> float:
@@ -109,14 +104,11 @@ class Arm:
     def forward(self, joints: Vector) -> Pose:
         """Tool pose at joint values (n,) [rad]."""
         self._set(joints)
-        data, site = self._configuration.data, self._site
-        return Pose(data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy())
+        return Pose(self._position.copy(), self._frame.copy())
 
     def _set(self, joints: Vector) -> None:
-        # What of mink's update the frames depend on; the rest only Jacobians need.
-        data = self._configuration.data
-        data.qpos[self._qpos] = joints
-        mujoco.mj_kinematics(self._model, data)
+        self._values[self._qpos] = joints
+        mujoco.mj_kinematics(self._model, self._data)
 
     def solve(self, target: Pose, seed: Vector, *, free_spin: bool = False) -> IkResult:
         """One inverse-kinematics descent from ``seed`` (n,).
@@ -138,14 +130,16 @@ class Arm:
         return self._solved[key]
 
     def _descend(self, target: Pose, seed: Vector, free_spin: bool) -> IkResult:
-        task = self._tasks[free_spin]
-        task.set_target(mink.SE3(np.concatenate([target.quaternion, target.position])))
+        wanted, present, error = target.quaternion, np.empty(4), np.empty(6)
+        frame = self._frame.ravel()
         joints = _within(seed, *self._inner)
         best = np.inf
         stalled = 0
         for _ in range(MAX_ITERATIONS):
             self._set(joints)
-            error = task.compute_error(self._configuration)
+            np.subtract(target.position, self._position, out=error[:3])
+            mujoco.mju_mat2Quat(present, frame)
+            mujoco.mju_subQuat(error[3:], wanted, present)
             turn = error[3:5] if free_spin else error[3:]
             position_error = math.sqrt(float(error[:3] @ error[:3]))
             angle_error = math.sqrt(float(turn @ turn))
@@ -156,25 +150,29 @@ class Arm:
             best = min(best, total)
             if stalled >= 3:
                 break
-            step = self._newton_step(task, error, self._weights[free_spin])
+            step = self._newton_step(error, self._weights[free_spin])
             largest = max(map(abs, step.tolist()))
             joints = _within(
                 joints + step * min(1.0, MAX_STEP / max(largest, 1e-9)), self.lower, self.upper
             )
         return IkResult(False, joints, position_error)
 
-    def _newton_step(self, task: mink.FrameTask, error: Vector, weights: Vector) -> Vector:
-        """One damped Gauss-Newton step of the arm's joints (n,) [rad], errors weighed by (6, 1).
+    def _newton_step(self, error: Vector, weights: Vector) -> Vector:
+        """One damped Gauss-Newton step of the arm's joints (n,) [rad].
 
-        mink's task gives error and Jacobian. Its quadratic program without active limits is a
-        linear system with a positive matrix, which MuJoCo solves in a tenth of the time; limits are
-        kept by clipping.
+        Args:
+            error: of the tool's place in the base frame [m], and the turn to the target in its own
+                [rad] (6,).
+            weights: of these (6, 1).
         """
-        mujoco.mj_comPos(self._model, self._configuration.data)
-        jacobian = task.compute_jacobian(self._configuration)[:, self._dof]
-        weighted = jacobian * weights
-        hessian = weighted.T @ jacobian + self._damping
-        step: Vector = -(weighted.T @ error)
+        jacobian = self._jacobian
+        mujoco.mj_comPos(self._model, self._data)
+        mujoco.mj_jacSite(self._model, self._data, jacobian[:3], jacobian[3:], self._site)
+        own = jacobian[:, self._dof]
+        own[3:] = turn_jacobian(error[3:]) @ (self._frame.T @ own[3:])
+        weighted = (own * weights).T
+        hessian = weighted @ own + self._damping
+        step: Vector = weighted @ error
         mujoco.mju_cholFactor(hessian, 0.0)
         mujoco.mju_cholSolve(step, hessian, step)
         return step
@@ -249,6 +247,36 @@ class Arm:
             joints = result.joints
             rows.append(joints)
         return np.array(rows).reshape(len(rows), len(start)), len(rows)
+
+
+def _weights(*, free_spin: bool) -> Vector:
+    """Squared weights (6, 1) of the errors of place and turn."""
+    turn = TURN_WEIGHT**2
+    return np.array([[1.0], [1.0], [1.0], [turn], [turn], [0.0 if free_spin else turn]])
+
+
+def turn_jacobian(turn: Vector) -> Vector:
+    """By how much a turn (3,) [rad] to a target becomes less as the frame itself turns, (3, 3):
+    the inverse of the left Jacobian of SO(3).
+
+    Chirikjian, "Stochastic Models, Information Theory, and Lie Groups", vol. 2 (2011), chapter 10.
+    """
+    x, y, z = turn.tolist()
+    squared = x * x + y * y + z * z
+    angle = math.sqrt(squared)
+    # What the expression tends to where it cannot be computed.
+    share = 1 / 12
+    if 1e-3 < angle < math.pi - 1e-6:
+        share = 1 / squared - (1 + math.cos(angle)) / (2 * angle * math.sin(angle))
+    a, b, c = share * x, share * y, share * z
+    diagonal = 1.0 - share * squared
+    return np.array(
+        [
+            [diagonal + a * x, a * y + z / 2, a * z - y / 2],
+            [b * x - z / 2, diagonal + b * y, b * z + x / 2],
+            [c * x + y / 2, c * y - x / 2, diagonal + c * z],
+        ]
+    )
 
 
 def _within(joints: Vector, lower: Vector, upper: Vector) -> Vector:
