@@ -110,7 +110,9 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     begun = kept.partition(" ")[0]
     if not text.startswith(begun) and begun not in VERB_WORDS:  # its verb was to blame
         yield f"put {kept}"
-    elif refused.word or refused.without:
+    elif (refused.word or refused.without) and not _DENYING.search(
+        text.partition(refused.phrase.removesuffix(" …"))[0]
+    ):
         yield kept
 
 

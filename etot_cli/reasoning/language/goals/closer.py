@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Put, Thing
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax import PutGroup
@@ -18,6 +18,7 @@ def set_closer(
     the saucer on the tray, the cup on the saucer") or on a part of where all go ("one on the top
     board"): they have that place alone. ``chosen`` gets those of which it is open which they are.
     """
+    discourse = context.discourse
     own, closer = certain(context, themes), _of_the_same(group, whole)
     for number, step in enumerate(context.steps):
         moved = certain(context, step.what) if isinstance(step, Put) else set()
@@ -28,7 +29,9 @@ def set_closer(
         under, around = certain(context, marks), things_of(context, step.places[0].referents())
         upon = under and under <= moved - own and own <= moved
         there = things_of(context, marks)
-        same = bool(there) and {t.name for t in there} == {t.name for t in around}
+        names, others = {t.name for t in there}, {t.name for t in around}
+        one_of_them = there < around and not {*step.places[0].referents()} & discourse.undecided
+        same = bool(there) and (names == others or one_of_them)
         if not upon and not (same and (there != around or any(p.beside for p in places))):
             break
         if not own <= moved:
@@ -40,11 +43,23 @@ def set_closer(
             item if isinstance(item, int) else context.single(item, item.name)
             for item in sorted(moved - own, key=str)
         ]
-        context.steps[number : number + 1] = [replace(step, what=tuple(rest))] if rest else []
+        left = replace(step, what=tuple(rest))
+        if step.grouping is not Grouping.ANY:  # each to a place of its own
+            left = replace(left, places=tuple(_but(context, item, there) for item in step.places))
+        context.steps[number : number + 1] = [left] if rest else []
         chosen[:] = [index for index in chosen if own != moved]
         return closer
-    text = context.discourse.referents[themes[0]].text
+    text = discourse.referents[themes[0]].text
     raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+
+
+def _but(context: Context, place: Place, taken: set[Thing]) -> Place:
+    """A place without those of its alternatives that are taken."""
+    assert place.where is not None  # what others may go to is named
+    referent = context.discourse.referents[place.where]
+    left = (tuple(t for t in option if t not in taken) for option in referent.options)
+    context.discourse.referents.append(replace(referent, options=tuple(filter(None, left))))
+    return replace(place, where=len(context.discourse.referents) - 1)
 
 
 def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:

@@ -189,7 +189,8 @@ def _said(node: object) -> Iterator[str]:
 
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:
-    if clause.one_each or clause.grouping is Grouping.SEPARATELY:
+    again = len({group.things for group in clause.groups}) < len(clause.groups)
+    if clause.one_each or clause.grouping is Grouping.SEPARATELY or again:
         yield from ("each", "every", "another")
     if clause.grouping is Grouping.TOGETHER:
         yield from ("same", "all")

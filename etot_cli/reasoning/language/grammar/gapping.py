@@ -5,8 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.destinations import destination
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.parsing import one_of, sequence
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    one_of,
+    optional,
+    separated,
+    sequence,
+    variants,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -120,15 +130,22 @@ def _is_bare(np: NounPhrase) -> bool:
 
 
 def _respective(
-    things: tuple[NounPhrase, ...], toward: Toward, targets: tuple[NounPhrase, ...]
+    things: tuple[NounPhrase, ...], where: tuple[Destination, ...]
 ) -> tuple[PutGroup, ...] | None:
     """Each thing with its own place."""
-    if len(things) != len(targets) or len(things) < 2:
+    if len(things) != len(where) or len(things) < 2:
         return None
-    return tuple(
-        PutGroup(Things((thing,)), (Destination(toward, (target,)),))
-        for thing, target in zip(_single(things), _single(targets), strict=True)
-    )
+    groups = (PutGroup(Things((np,)), (to,)) for np, to in zip(_single(things), where, strict=True))
+    return other_sides(tuple(groups))
+
+
+def _one_each(np: NounPhrase, where: tuple[Destination, ...]) -> tuple[PutGroup, ...] | None:
+    """In each of several places one ("one apple each on the tray and in the bowl")."""
+    if len(where) == 1:  # "in the two bowls"
+        where = (where[0].going_to(lambda to: replace(to, determiner=f"each of {to.determiner}")),)
+    several = where[1:] or all(singular(to.head) != to.head for to in where[0].targets)
+    fits = several and np.determiner in ("one", "a", "an")
+    return tuple(PutGroup(Things((np,)), (to,)) for to in where) if fits else None
 
 
 def _single(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
@@ -146,10 +163,26 @@ def _single(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
     )
 
 
-RESPECTIVE_GROUPS = sequence(
-    NP_LIST,
-    one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO, Toward.TO: places.TO}),
-    NP_LIST,
-    "[~comma] respectively",
-    build=_respective,
+_PLACES = either(
+    sequence(
+        one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO, Toward.TO: places.TO}),
+        NP_LIST,
+        build=lambda to, nps: tuple(Destination(to, (np,)) for np in _single(nps)),
+    ),
+    separated(destination, LIST, most=4),
+)
+_ON_BOTH_SIDES = sequence(
+    one_of(places.BOTH_SIDES),
+    noun_phrase,
+    build=lambda sides, mark: tuple(
+        Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
+    ),
+)
+RESPECTIVE_GROUPS = either(
+    sequence(NP_LIST, _PLACES, "[~comma] respectively", build=_respective),
+    sequence(NP_LIST, _ON_BOTH_SIDES, optional("[~comma] respectively"), build=_respective),
+    variants(
+        sequence(noun_phrase, "each", either(_PLACES, _ON_BOTH_SIDES), build=_one_each),
+        lending_nouns,
+    ),
 )

@@ -126,6 +126,7 @@ _SAID_AHEAD = sequence(
     either(
         sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
         sequence(COMMA, either(TURN, CONDITION), COMMA),
+        valued(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER, OPTIONAL_COMMA), lambda _: ()),
     ),
     DESTINATIONS,
     build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),

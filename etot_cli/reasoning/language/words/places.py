@@ -60,6 +60,12 @@ ON_SIDE: dict[Prep, str] = {
     Prep.RIGHT: "(on|at) [the] right [hand] [side] of",
 }
 """Beside something, or on that half of it."""
+BOTH_SIDES = {
+    (Nearby.LEFT, Nearby.RIGHT): "(to|on) the left [side] and [to|on] [the] right [side] of",
+    (Nearby.RIGHT, Nearby.LEFT): "(to|on) the right [side] and [to|on] [the] left [side] of",
+    (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
+    (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
+}
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
