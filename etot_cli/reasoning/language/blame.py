@@ -183,6 +183,8 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     if word in known.OTHER_VERBS:
         return f"nothing in the scene is called {word!r}"
     if not index:
+        if word == "which":
+            return known.REASONS["what"]
         return "" if word in known.OPENING_WORDS else f"{word!r} is no verb that is known"
     listed = is_known(word, unread.nouns) or is_category(word) or is_in_lexicon(word)
     if not word.isalpha() or listed:

@@ -191,7 +191,7 @@ class _Names:
             link = [*takewhile(_LINKING.__contains__, between[::-1])][::-1]
             joined = not link and not (found and {*between} - {",", "and"})
             unknown = {*between[: len(between) - len(link)]} & {*_DETERMINERS}
-            if unknown or link[:1] == ["of"]:
+            if unknown or link[:1] == ["of"] or words[end : end + 1] == ["s"]:
                 break  # another thing is meant, too, or instead
             found.append(_Mention(" ".join([*article, *words[start:end]]), tuple(link), joined))
             done = end

@@ -300,7 +300,8 @@ def _match_in(
         best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
     )
     if loose and any(is_object(entry) for entry in entries):
-        sifted.notes.append(f"read {head!r} as {names_of(entries)}")
+        said = head.replace("_", " ")
+        sifted.notes.append(f"read {said!r} as {names_of(entries)}")
     return Match(
         entries,
         tuple(sifted.selectors),

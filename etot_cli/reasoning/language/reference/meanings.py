@@ -90,6 +90,8 @@ class Meanings:
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
             phrase = self._possessed(phrase, pronoun, role, noun_before)
+        elif phrase.owner is not None:
+            phrase = self._possessed(replace(phrase, owner=None), phrase.owner, role, noun_before)
         phrase = self.told_by_themes(phrase)
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
@@ -158,8 +160,9 @@ class Meanings:
     def _possessed(
         self, phrase: NounPhrase, owner: NounPhrase, role: Role, noun: str | None
     ) -> NounPhrase:
-        """What is "its": a part of it, else what it is in or on, or what is in or on it; else the
-        one that goes by its noun alone, or is called after it ("the soap … its dish", a soap dish).
+        """What is "its" or "the tray's": a part of it, else what it is in or on, or what is in or
+        on it; else the one that goes by its noun alone, or is called after it ("the soap … its
+        dish", a soap dish).
         """
         ways = [
             replace(phrase, modifiers=(Modifier(prep, (owner,)), *phrase.modifiers))
@@ -174,7 +177,7 @@ class Meanings:
             things = self._with_noun(replace(phrase, determiner="all"), role, None).options[0]
             owners = {thing for things in self.pronoun_things(owner) for thing in things}
             named = self.resolver.called_after(things, owners, phrase.words)
-        if named is None or role is Role.THEME:
+        if named is None or owner.words or role is Role.THEME:
             return ways[0]
         note = f"read {phrase.text!r} as {named}"
         self.discourse.notes += [note] if note not in self.discourse.notes else []

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.reference.entries import (
     object_entry,
     part_entries,
 )
-from etot_cli.reasoning.language.words.categories import members_of
+from etot_cli.reasoning.language.words.categories import CALLED, members_of
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BINS,
@@ -191,6 +191,9 @@ class Vocabulary:
             for cut in range(_SHORTEST, len(head) - _SHORTEST + 1):
                 if f"{head[:cut]} {head[cut:]}" in text:
                     text = re.sub(rf"\b({head[:cut]}) ({head[cut:]}(?:e?s)?)\b", r"\1_\2", text)
+        for category, said in CALLED.items():
+            if self.of_category(category):
+                text = re.sub(rf"\b{said}(?=s?\b)", category, text)
         called = {words for entry in self.objects for words in entry.called if is_odd(words)}
         odd = sorted(called, key=lambda words: (-len(words), words))
         for words in odd:

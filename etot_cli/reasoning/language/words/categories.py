@@ -57,6 +57,7 @@ _TOOLS = word_set(
     secateurs rake shovel spade hoe pruner hand_fork
     """
 )
+_FASTENERS = word_set("screw nail bolt nut washer rivet staple")
 _CUTLERY = word_set("fork knife spoon teaspoon tablespoon chopstick")
 _COOKING = word_set(
     "spatula ladle whisk tongs peeler grater masher colander strainer turner rolling_pin corkscrew"
@@ -101,7 +102,9 @@ _READING = word_set("book magazine newspaper comic novel dictionary atlas textbo
 
 SORTS: dict[str, frozenset[str]] = {
     "fruit": _FRUIT,
+    "citrus": word_set("orange lemon lime grapefruit mandarin tangerine clementine satsuma"),
     "vegetable veggie": _VEGETABLES,
+    "dairy": word_set("milk cheese butter cream yogurt yoghurt mozzarella milkshake"),
     "produce": _FRUIT | _VEGETABLES,
     "pastry dessert": _PASTRIES,
     "sweet": _SWEETS,
@@ -112,9 +115,12 @@ SORTS: dict[str, frozenset[str]] = {
     "food": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD,
     "grocery": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD | _DRINKS | _SAUCES,
     "tool": _TOOLS,
+    "fastener": _FASTENERS,
     "cutlery silverware flatware": _CUTLERY,
     "utensil": _CUTLERY | _COOKING,
     "dish tableware crockery dishware dinnerware": _DISHES,
+    "kitchenware": _CUTLERY | _COOKING | _DISHES | word_set("pot pan"),
+    "writing_utensil": _WRITING,
     "stationery": _WRITING | _STATIONERY,
     "vehicle": _VEHICLES,
     "animal": _ANIMALS,
@@ -142,10 +148,21 @@ PACKS = _OF_A_PIECE | word_set("can tin carton bottle jar packet pack bag box tu
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
-    stationery money cash clothes clothing laundry footwear electronics jewelry jewellery literature
+    stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
+    jewelry jewellery literature
     """
 )
 """Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""
+
+CALLED = {
+    "writing_utensil": "writing (?:utensil|implement|instrument|tool)",
+    "utensil": "(?:kitchen|cooking) (?:utensil|tool|implement)",
+    "tool": "hand tool",
+    "cutlery": "(?:eating|table) utensils",
+    "stationery": "office supplies",
+    "citrus": "citrus fruits?",
+}
+"""Several words for such a word."""
 
 
 CATEGORIES: dict[str, frozenset[str]] = {

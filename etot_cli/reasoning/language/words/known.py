@@ -75,7 +75,8 @@ def is_adverb(text: str) -> bool:
 NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"
 REASONS = {
     **dict.fromkeys(
-        ("turn on", "turn off", "switch on", "switch off", "shut off", "turning on", "turning off"),
+        ("turn on", "turn off", "switch on", "switch off", "shut off", "turning on", "turning off",
+         "turn over", "flip over", "turn around"),
         NO_SKILL,
     ),
     **dict.fromkeys(
@@ -105,7 +106,8 @@ REASONS = {
         "how far something goes cannot be asked for",
     ),
     **dict.fromkeys(
-        ("moment", "moments", "seconds", "minutes"), "how long something lasts cannot be asked for"
+        ("moment", "moments", "seconds", "minutes", "hour", "hours", "day", "days"),
+        "how long something lasts cannot be asked for",
     ),
     "least": "say how many exactly",
     **dict.fromkeys(

@@ -44,7 +44,7 @@ _ANY_MORE = "[anymore|any more|any longer]"
 REMARKS = f"""
     (is|are) [now|already|still|all|no longer] (dirty|clean|ripe|rotten|ready|done|finished|used|
     hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
-    (is|are) not (needed|wanted|used|in use) {_ANY_MORE}, (has|have) been (used|washed|cleaned)
+    (is|are) not (needed|wanted|used) {_ANY_MORE}, (has|have) been (used|washed|cleaned)
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
