@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 
 from etot_cli.errors import InstructionError
-from etot_cli.reasoning.builtin.goal import Goal, Open, Pick
+from etot_cli.reasoning.builtin.goal import Goal, Open, Pick, Put
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
@@ -112,6 +112,7 @@ def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
     for patterns, step, why in (
         (manner.ALL_THE_WAY, Open, f"what is open is so to {OPEN_AT:.0%} of its travel or more"),
         (verbs.TO_SOMEBODY, Pick, "it is held up, not handed over"),
+        ("as possible", Put, "how near or far is not measured"),
     ):
         said = [text for text in spellings(patterns) if f" {text} " in words]
         if said and any(isinstance(item, step) for item in goal.steps):

@@ -36,6 +36,8 @@ _DENYING = re.compile(
     r"|until|least|most|same|different|matching|other|colou?r|versa|twice|times|again)\b"
 )
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""
+_BOUND = r"\b(?:every|all|each|any|without|except|only|not)(?: the)?"
+"""Words behind which none can be left out without asking for more, or for the opposite."""
 _USUAL = (
     ({"in", "into", "inside", "within"}, ("in", "on")),
     ({*SIDES, "beside", "next", "between", "behind", "where"}, ("next to",)),
@@ -106,6 +108,8 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
         phrase = rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)"
         yield re.sub(phrase, names.of(name), text, count=1)
+    if re.search(rf"{_BOUND} {re.escape(refused.word)}(?!\w)", text):
+        return
     kept = re.sub(r"^(?:(?:and|then|just)\b[ ,]*)+", "", kept)
     begun = kept.partition(" ")[0]
     if not text.startswith(begun) and begun not in VERB_WORDS:  # its verb was to blame

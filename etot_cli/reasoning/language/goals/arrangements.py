@@ -44,7 +44,8 @@ def tower(context: Context, clause: TowerClause) -> None:
         if len(things) == 1 and len(places) == 1 and under is not None:
             bottom = under
     for (below, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
-        context.steps.append(Put((above,), (_upon(context, lower, upper, below),)))
+        place = _upon(context, lower, upper, below, inside=clause.nested)
+        context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
 
 
@@ -75,14 +76,16 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
     return found
 
 
-def _upon(context: Context, thing: Thing, upper: Thing, index: int) -> Place:
-    """On a thing, or into a vessel whose mouth is wider than what goes there."""
-    on = can_be(thing, Role.SURFACE, context.scene)
+def _upon(context: Context, thing: Thing, upper: Thing, index: int, *, inside: bool) -> Place:
+    """On a thing, or into a vessel whose mouth is wider than what goes there, or that it is to be
+    ``inside``.
+    """
+    on = not inside and can_be(thing, Role.SURFACE, context.scene)
     if on and lies_on([upper], thing, context.scene):
         return Place(Relation.ON, index)
     if can_be(thing, Role.CONTAINER, context.scene):
         return Place(Relation.INSIDE, index)
-    raise ReferenceProblem(thing.name, "nothing can stand on it", 2)
+    raise ReferenceProblem(thing.name, f"nothing can {'lie in' if inside else 'stand on'} it", 2)
 
 
 def _upward(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import product
 
 from etot_cli.reasoning.builtin.goal import (
     Close,
@@ -29,6 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     NounPhrase,
     Things,
+    Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import addresses, touches
@@ -209,8 +211,10 @@ def rule_out(
     names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
+    beside = [item.text for where in destinations for item in where.beside]
     for place in (found := context.places.of(destinations, themes)):
         if place.beside or place.where is None:
+            text = next(iter(beside), text)
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
         for thing in context.discourse.things(place.where):
             on = place.relation is Relation.ON
@@ -249,3 +253,30 @@ def leave_out(context: Context, index: int, word: str) -> None:
         )
     )
     context.discourse.referents[index] = replace(referent, options=options or referent.options)
+
+
+def not_beside(
+    context: Context,
+    places: tuple[Place, ...],
+    ruled_out: Sequence[Destination],
+    themes: Sequence[int],
+) -> tuple[Place, ...]:
+    """Places on surfaces, where things are not to stand beside what is said, whichever is meant;
+    what is in a vessel stands beside nothing.
+    """
+    out = [item for item in ruled_out if item.toward is Toward.BESIDE]
+    if not out or any(place.relation is not Relation.ON for place in places):
+        return places
+    denied = tuple(
+        replace(near, landmarks=marks, denied=True)
+        for place in context.places.of(out, themes)
+        for near in place.beside
+        for marks in _each(context, near.landmarks)
+    )
+    return tuple(replace(place, beside=(*place.beside, *denied)) for place in places)
+
+
+def _each(context: Context, landmarks: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """All that landmarks may mean, one by one."""
+    for things in product(*(context.discourse.things(index) for index in landmarks)):
+        yield tuple(context.single(thing, thing.name) for thing in things)

@@ -53,6 +53,7 @@ from etot_cli.reasoning.language.goals.prohibitions import (
     check_alone,
     keep_as_it_is,
     leave_out,
+    not_beside,
     rule_out,
 )
 from etot_cli.reasoning.language.goals.turns import in_turns
@@ -118,7 +119,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             group = elsewhere(group)
         group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
-        places = context.places.of(destinations, themes)
+        places = not_beside(context, context.places.of(destinations, themes), ruled_out, themes)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
@@ -146,6 +147,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         context.discourse.last_places = places
         where = [place.where for place in places if place.where is not None]
         last = group.things == clause.groups[-1].things
+        ruled_out = tuple(item for item in ruled_out if item.toward is not Toward.BESIDE)
         if ruled_out and (last or len(context.discourse.things(*where)) > 1):
             rule_out(context, themes, ruled_out)  # what has but one place goes there
     if chosen:

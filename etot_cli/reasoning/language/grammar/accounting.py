@@ -65,7 +65,8 @@ _FIXED = """
     back on [the] top of, right (next|behind|beside|in front), not both [of them],
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
-    each other, one another, (on|over) the other, one on [top of] (the other|another), none of,
+    each other, one another, (on|over) the other, none of,
+    one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, 's (top|surface), in any order, (no|any) longer, only then, any [one] but

@@ -127,6 +127,12 @@ TOWER = either(
         build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
     ),
     sequence(
+        either(verbs.STACK, verbs.PUT),
+        THINGS,
+        manner.INSIDE_EACH_OTHER,
+        build=lambda things: TowerClause(things, nested=True),
+    ),
+    sequence(
         verbs.BUILD,
         optional(_UPWARD, None),
         verbs.OUT_OF,

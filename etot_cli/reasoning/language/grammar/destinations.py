@@ -61,7 +61,7 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
 
 
 _CLOSE_BY = f"{places.NEARBY[Nearby.NEXT_TO]}, {places.NEARBY[Nearby.NEAR]}"
-_NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR})
+_NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR, Nearby.AWAY: places.GOES_AWAY})
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
 _SIDE_OF_IT = one_of(
@@ -69,12 +69,21 @@ _SIDE_OF_IT = one_of(
 )
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
 _ABREAST = valued(
-    either("side by side, close[r] together", sequence(_CLOSE_BY, "each other, one another")),
+    either(
+        "side by side, close[r] together, as close together",
+        sequence(_CLOSE_BY, "each other, one another"),
+    ),
     lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
 )
 BESIDE = spanned(
     either(
-        sequence(EXACTLY, _NEARBY, noun_phrase, build=_beside),
+        sequence(
+            EXACTLY,
+            _NEARBY,
+            noun_phrase,
+            optional("than (it is|they are) [now], than (now|before), as possible"),
+            build=_beside,
+        ),
         sequence(
             _ITS_SIDE,
             build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),

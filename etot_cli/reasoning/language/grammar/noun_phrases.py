@@ -194,7 +194,7 @@ noun_phrase.define(
             ),
             sequence(
                 phrase(nouns.FREE_RELATIVE),
-                either(PLAIN_MODIFIER, _COLORED),
+                either(PLAIN_MODIFIER, _COLORED, quality_alone),
                 MODIFIERS,
                 build=lambda said, first, more: NounPhrase(
                     "all other" if "else" in said else "all", ("objects",), (first, *more)

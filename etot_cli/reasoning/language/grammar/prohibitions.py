@@ -81,14 +81,15 @@ KEEP_OUT = sequence(
         Avoid.PUT, things, (Destination(toward, nps),), negated=True
     ),
 )
+_EVERYTHING_ELSE = "everything else, all else, the (rest|others) [of it|of them]"
+_STAYS = sequence(
+    "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left), "
+    "stay[s], remain[s]",
+    optional(f"{manner.AS_IT_IS}, put, there"),
+)
 KEEP_STILL = either(
-    sequence(
-        THINGS,
-        "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left)"
-        ", stay[s], remain[s]",
-        optional(f"{manner.AS_IT_IS}, put, there"),
-        build=partial(AvoidClause, Avoid.MOVE),
-    ),
+    sequence(THINGS, _STAYS, build=partial(AvoidClause, Avoid.MOVE)),
+    sequence(_EVERYTHING_ELSE, _STAYS, build=lambda: AvoidClause(Avoid.MOVE, None)),
     sequence(
         # After "the cups" rather one of them that is left out.
         either(sequence(verbs.KEEP, THINGS, manner.AS_IT_IS), sequence("leav(e|ing)", THINGS)),
@@ -96,7 +97,7 @@ KEEP_STILL = either(
     ),
     sequence(
         "leav(e|ing), keep[ing]",
-        "everything else, all else, the (rest|others) [of it|of them]",
+        _EVERYTHING_ELSE,
         optional(manner.AS_IT_IS),
         build=lambda: AvoidClause(Avoid.MOVE, None),
     ),

@@ -266,6 +266,8 @@ class TowerClause:
     top: NounPhrase | None = None
     base: tuple[Destination, ...] = ()
     """What the bottom one goes on, where it is not to stay."""
+    nested: bool = False
+    """They are to be inside each other."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -154,13 +154,26 @@ def _lidded(lids: Things) -> PutClause | None:
     return put_to(lids, here) if named else None
 
 
+def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
+    return put_to(things, (Destination(toward, (np,), FILLED),))
+
+
 FILL = quiet(
-    sequence(
-        one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
-        noun_phrase,
-        "with",
-        THINGS,
-        build=lambda toward, np, things: put_to(things, (Destination(toward, (np,), FILLED),)),
+    either(
+        sequence(
+            one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
+            noun_phrase,
+            "with",
+            THINGS,
+            build=_filled,
+        ),
+        sequence(
+            "use",
+            noun_phrase,
+            one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),
+            ALL_THINGS,
+            build=lambda np, toward, things: _filled(toward, np, things),
+        ),
     )
 )
 COVER = either(

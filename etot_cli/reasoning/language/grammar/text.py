@@ -66,6 +66,11 @@ def normalized(text: str) -> str:
         r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
     )
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(
+        r",? (?:and|but) nothing else,? ((?:in|on|to|next|inside|onto|into)\b[^,.;]*)",
+        r" \1, and nothing else",
+        text,
+    )
     text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
     text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.

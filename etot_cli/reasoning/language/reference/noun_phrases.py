@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.reference.doubts import (
     check_noun,
     check_selected,
 )
-from etot_cli.reasoning.language.reference.entries import EXACT, HEAD
+from etot_cli.reasoning.language.reference.entries import EXACT, HEAD, Entry
 from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
 from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.modified import left_out, modified
@@ -159,12 +159,23 @@ class Resolver:
         )
         several = singular(words[-1]) != words[-1] and (not phrase.determiner or role is Role.PART)
         out = any(item.prep is Prep.EXCEPT for item in phrase.modifiers)
+        if role is Role.PART and words[-1] in ("objects", "things") and not out:
+            # Everything that is closed: of a chest with one drawer open the others, too.
+            match = replace(match, entries=self._moving(match.entries))
         single = quantity.every or phrase.determiner == "one" or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
         if match.plural and phrase.determiner == "any":
             quantity = Quantity(every=True)
         return Asked(phrase, role, words, noun, quantity, match)
+
+    def _moving(self, entries: Sequence[Entry]) -> tuple[Entry, ...]:
+        """What opens and closes, the parts of what has several one by one."""
+        found: dict[Entry, None] = {}
+        for entry in entries:
+            own = [item for item in self._vocabulary.parts if item.thing.name == entry.thing.name]
+            found.update(dict.fromkeys(own if own[1:] and not entry.thing.part else [entry]))
+        return tuple(found)
 
     def _resolved(self, asked: Asked, things: list[Thing], pronoun: Pronoun) -> Resolved:
         """Which of the things its modifiers, its words for size and side and its number leave."""

@@ -21,6 +21,9 @@ UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
     (in|into) a [vertical|single] (tower|stack|pile), onto each other
 """
+INSIDE_EACH_OTHER = """
+    (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
+"""
 BOTTOM_UP = """
     (from the|from) bottom (up|to top|to the top), bottom (first|up),
     starting (with|at|from) the bottom,

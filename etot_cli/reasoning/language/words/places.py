@@ -72,13 +72,14 @@ _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
-    Nearby.FRONT: "in front of",
-    Nearby.BEHIND: "[to] behind, in back of",
+    Nearby.FRONT: "in front of, (on|at|to) the near side of",
+    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: "[far] away from, far from",
 }
-GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to"
+GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
+GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",

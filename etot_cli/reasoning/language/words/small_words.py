@@ -10,6 +10,7 @@ WITHOUT_MEANING = """
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
     pls, plz, thx, (would|will|could|can) you, any way you like, whichever you like,
+    of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
     [please and] thank you, thanks [a lot], cheers, that is all,
     (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
