@@ -21,12 +21,7 @@ from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import (
-    DESK_NOUNS,
-    is_descriptive,
-    singular,
-    word_set,
-)
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import OPEN_AT, SceneState
 
@@ -41,6 +36,10 @@ _REFERRING = word_set(
     "everything anything all both each every any same here there"
 )
 """Below a heading they may speak of what that is about, which is not read."""
+_STATED = re.compile(
+    r"^(?:(?:i|we) (?:am|are) |it is time )|(?:is|are) (?:almost )?(?:ready|over|here)$"
+)
+"""A sentence about people or times; what else is said may be a rule for what follows."""
 _SWEEPING = word_set("other others rest else everything anything all each every any")
 """Of a desk."""
 _OF_ITS_OWN = re.compile(r"\b(?:all|both|each|every|any)(?: of)? the\b")
@@ -83,12 +82,10 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     doing = VERB_WORDS | OTHER_VERBS
     called = {singular(word) for word in vocabulary.words()}.difference(DESK_NOUNS)
     named = any(singular(word) in called or is_category(word) for word in words)
-    told = (doing | _REFERRING) - {"it", "here", "there", "for"}
-    stated = not named and not any(word in told or is_descriptive(word) for word in words)
     heading = said[2] == ":" and (words[0] in doing or words[0] not in OPENING_WORDS)
     below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[3])))}
     speaks = (_REFERRING if named else _SWEEPING) & below and (named or {*DESK_NOUNS} & {*words})
-    if speaks or not (heading or (stated and {"is", "are", "am"} & {*words})):
+    if speaks or not (heading or (not named and _STATED.search(" ".join(words)))):
         raise UnreadableError(said[3], "")
     goal = _read(said[3], scene, vocabulary)
     kind = "a heading: what stands below it" if heading else "not asked for: the rest"

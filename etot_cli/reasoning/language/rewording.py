@@ -32,7 +32,7 @@ Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _DENYING = re.compile(
-    r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if|unless"
+    r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if|unless|when|while|once"
     r"|until|least|most|same|different|matching|other|colou?r|versa|twice|times|again)\b"
 )
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""

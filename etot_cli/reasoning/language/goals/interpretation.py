@@ -16,6 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Put,
     Referent,
     Step,
+    things_in,
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
@@ -74,6 +75,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_kept(state.goal())
     check_run(state.goal())
     check_circle(state.goal())
+    _check_remarks(state.goal(), state.context.discourse)
     check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     check_held(state.timed, goal, scene)
@@ -85,6 +87,22 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         text = sentences[-1 if wished else 0].text
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
     return goal
+
+
+def _check_remarks(goal: Goal, discourse: Discourse) -> None:
+    """Whether something was said of one of several things that may be meant ("the red bowl is
+    broken; put the pear in a bowl").
+    """
+    told = {*discourse.things(*discourse.remarked)}
+    puts = [step for step in goal.steps if isinstance(step, Put)]
+    used = {step.what for step in goal.steps if not isinstance(step, Put)}
+    used |= {index for step in puts for index in step.what}
+    used |= {index for step in puts for place in step.places for index in place.referents()}
+    for referent in (goal.referents[index] for index in sorted(used)):
+        free = [option for option in referent.options if not told & {*option}]
+        if 0 < len(free) < len(referent.options):
+            names = [thing.name for thing in things_in((*free, *referent.options))]
+            raise AmbiguousReference(referent.text, names, "something was said of one of them:")
 
 
 def _without_places(state: _State) -> Goal:

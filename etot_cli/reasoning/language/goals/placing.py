@@ -158,9 +158,11 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
 def reorient(context: Context, clause: ReorientClause) -> None:
     """Stands up what has toppled, where it lies; any other turning is part of what follows."""
     if clause.only_named:
+        named: tuple[int, ...] = ()
         if not (clause.remark and all(np.pronoun for np in clause.things.phrases)):
-            context.phrases.things(clause.things, Role.ANY)
+            named = (*context.phrases.things(clause.things, Role.ANY),)
         if clause.remark:
+            context.discourse.remarked |= {*named}
             context.discourse.notes.append(f"not checked: {clause.remark}")
         return
     themes = context.phrases.things(clause.things, Role.THEME)

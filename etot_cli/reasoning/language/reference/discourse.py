@@ -47,6 +47,9 @@ class Discourse:
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
+    remarked: frozenset[int] = frozenset()
+    """Referents of which something was said that is neither known of a thing nor asked for."""
+
     def copy(self) -> Discourse:
         """An independent copy, for trying a reading."""
         return replace(
