@@ -180,6 +180,8 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
         return known.NO_SKILL
     if known.is_adverb(word):
         return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
+    if word in ("i", "we", "you", "they") and {*before} & {*unread.nouns, "that", "which", "one"}:
+        return "what somebody has, does or needs is not known; name the thing"
     if word in known.OTHER_VERBS:
         return f"nothing in the scene is called {word!r}"
     if not index:

@@ -301,7 +301,6 @@ _HAVING_DONE = either(
         either(SOURCE, phrase("out, off, away", "")),
         build=lambda things, source: RemoveClause(things, source or None),
     ),
-    sequence(OPEN_OR_CLOSED, THINGS, build=lambda word, things: MoveClause(things, word == "open")),
 )
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import manner, nouns, places
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -291,7 +291,12 @@ _modifier = either(
         either(COMMA, at_end),
     ),
     APPOSED,
-    sequence(nouns.RELATIVE_NOT, either(DESCRIBED, _none_of), build=_denied),
+    sequence(
+        nouns.RELATIVE_NOT,
+        either(DESCRIBED, _none_of),
+        optional(small_words.ANY_MORE),
+        build=_denied,
+    ),
     sequence(
         nouns.RELATIVE_NOT, separated(noun_phrase, "or, nor, and not", most=3), build=_other_than
     ),

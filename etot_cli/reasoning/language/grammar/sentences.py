@@ -165,7 +165,7 @@ _STATED = either(
 _REMARK = either(
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
-    sequence(small_words.NOT_NEEDED[0], ALL_THINGS, small_words.NOT_NEEDED[1]),
+    sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
 )
 _SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),

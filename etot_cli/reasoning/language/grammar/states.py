@@ -257,7 +257,7 @@ ENSURE = either(
                 ),
             ),
             either(OPEN_OR_CLOSED, DESTINATIONS),
-            optional("any more, anymore, any longer"),
+            optional(small_words.ANY_MORE),
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),

@@ -95,14 +95,16 @@ def modified(
         )
         alike = len(things) == 1 or all(thing.board for thing in things)
         if bare and found == things and alike:
-            why = "there is no other one that this would tell it from"
-            raise ReferenceProblem(phrase.text, why, 2)
+            raise ReferenceProblem(phrase.text, _ALONE, 2)
         if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied and count is None:
             found = space.with_what_lies_on_them(found, things, scene)
         ((more, said),) = ways.values()
         things, others = found, tuple(more)
         notes += said
     return things, others
+
+
+_ALONE = "there is no other one that this would tell it from"
 
 
 def _untrue(phrase: NounPhrase, modifier: Modifier, things: Sequence[Thing]) -> tuple[str, str]:
@@ -141,11 +143,11 @@ def left_out(
         out |= meant
     for modifier in phrase.modifiers:
         if modifier.prep is Prep.QUALITY and modifier.denied:
-            out |= {
-                t
-                for word in modifier.words
-                for t in with_quality(things, word, phrase, vocabulary, scene)
-            }
+            known = (with_quality(things, w, phrase, vocabulary, scene) for w in modifier.words)
+            not_so = set[Thing]().union(*known)
+            if len(things) == 1 and not not_so:  # "everything off the tray that is not red"
+                raise ReferenceProblem(phrase.text, _ALONE, 2)
+            out |= not_so
         if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
             for item in modifier.phrases:
                 said = " ".join((item.determiner, *item.words, item.pronoun))

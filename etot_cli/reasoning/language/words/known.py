@@ -25,7 +25,7 @@ _FUNCTION = """
     such only again now hey hi hello ok okay robot let lets alone untouched unmoved except
     during through across around toward towards against among anyone someone yet still even ever
     most more less few several many much enough half quite very really almost nearly maybe
-    perhaps anywhere somewhere otherwise else other others remaining same single exactly
+    anymore perhaps anywhere somewhere otherwise else other others remaining same single exactly
 """
 VERB_WORDS = words_of(
     (

@@ -41,16 +41,16 @@ FRAMES = f"""
     do me a favour and, {TIDY_UP},
     i would be (glad|happy|grateful) if you (would|could)
 """
-_ANY_MORE = "[anymore|any more|any longer]"
-REMARKS = f"""
+ANY_MORE = "anymore, any more, any longer"
+REMARKS = """
     (is|are) [now|already|still|all|no longer] (dirty|clean|ripe|rotten|ready|done|finished|used|
     hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
-    (is|are) not (needed|wanted|used) {_ANY_MORE}, (has|have) been (used|washed|cleaned)
+    (is|are) not (needed|wanted|used) [anymore|any more|any longer],
+    (has|have) been (used|washed|cleaned)
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
-NOT_NEEDED = ("(i|we) do not need", "anymore, any more, any longer")
-"""Before such a thing, and around it."""
+"""Before such a thing."""
 SAME_AGAIN = """
     do the same (with|for|to), [and] so (do|does|should|must), as (do|does),
     the same (goes|applies|holds) for, likewise [for|with], same (with|for)
