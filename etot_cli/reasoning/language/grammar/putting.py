@@ -261,7 +261,6 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
-_IT = Things((NounPhrase(pronoun="it", text="it"),))
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(
@@ -304,7 +303,7 @@ PUT = either(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
         either(INTO, ONTO),
-        build=lambda where: put_to(_IT, (where,)),
+        build=lambda where: put_to(Things((NounPhrase(pronoun="it", text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
