@@ -1,4 +1,4 @@
-"""Plane geometry of outlines seen from above: discs and convex polygons, in metres.
+"""Geometry of outlines seen from above: discs and convex polygons, in metres, and turned boxes.
 
 Small and exact enough for checking scenes, so that loading one needs no geometry library.
 """
@@ -6,10 +6,11 @@ Small and exact enough for checking scenes, so that loading one needs no geometr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 Vector = tuple[float, float]
+Point = tuple[float, float, float]
 _PARALLEL = 1e-12
 """Edges shorter than this have no direction [m]."""
 
@@ -49,6 +50,25 @@ def turned(vector: Vector, yaw_deg: float) -> Vector:
 def shifted(x: float, y: float, vector: Vector) -> Vector:
     """A vector laid off from x y."""
     return (x + vector[0], y + vector[1])
+
+
+def box_corners(size: Point) -> list[Point]:
+    """The corners of a box around the origin."""
+    x, y, z = (side / 2 for side in size)
+    return [(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+
+
+def rotated(quaternion: Sequence[float], point: Point) -> Point:
+    """A point turned about the origin by a unit quaternion w x y z."""
+    w, *axis = quaternion
+    first = _cross(axis, point)
+    second = _cross(axis, first)
+    x, y, z = (p + 2 * (w * f + s) for p, f, s in zip(point, first, second, strict=True))
+    return (x, y, z)
+
+
+def _cross(a: Sequence[float], b: Point) -> Point:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def hull(points: Iterable[Vector]) -> Polygon:

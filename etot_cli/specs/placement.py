@@ -16,8 +16,10 @@ from etot_cli.specs.footprint import (
     Footprint,
     Polygon,
     Vector,
+    box_corners,
     hull,
     rectangle,
+    rotated,
     shifted,
     turned,
 )
@@ -123,30 +125,20 @@ def _place(scene: Scene, name: str, placed: dict[str, Placed]) -> Placed:
 
 def _outline(item: ObjectBase, size: Size, x: float, y: float) -> tuple[Footprint, float]:
     """Outline seen from above and height of an object of a size."""
-    half = (size[0] / 2, size[1] / 2, size[2] / 2)
     upright = item.quaternion is None
     round_ = isinstance(item, Sphere | Cylinder | Cup | Pen | Capsule) and size[0] == size[1]
     if isinstance(item, Sphere) or (upright and round_):
-        return Disc(x, y, half[0]), size[2]
-    signs = [(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
-    corners = [_rotated(item, (a * half[0], b * half[1], c * half[2])) for a, b, c in signs]
-    outline = hull((x + corner[0], y + corner[1]) for corner in corners)
-    return outline, 2 * max(corner[2] for corner in corners)
+        return Disc(x, y, size[0] / 2), size[2]
+    points = [_rotated(item, corner) for corner in box_corners(size)]
+    outline = hull((x + point[0], y + point[1]) for point in points)
+    return outline, 2 * max(point[2] for point in points)
 
 
 def _rotated(item: ObjectBase, point: Size) -> Size:
     """A point of the object's own frame, turned as the object is."""
     if item.quaternion is None:
         return (*turned((point[0], point[1]), item.yaw_deg), point[2])
-    w, *axis = item.quaternion
-    first = _cross(axis, point)
-    second = _cross(axis, first)
-    x, y, z = (p + 2 * (w * f + s) for p, f, s in zip(point, first, second, strict=True))
-    return (x, y, z)
-
-
-def _cross(a: list[float] | Size, b: Size) -> Size:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return rotated(item.quaternion, point)
 
 
 def _centre(scene: Scene, item: ObjectBase, under: Placed | None) -> Vector:

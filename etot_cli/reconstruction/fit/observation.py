@@ -60,8 +60,6 @@ class Observation:
     base: float
     edge_sigma: float = 0.5
     depth_sigma: float = 0.001
-    complete: float = 1.0
-    """Share of the mask's edge that is the object's own."""
 
     @cached_property
     def pixels(self) -> Array:
@@ -146,7 +144,6 @@ def observe(
     # Masks drawn by hand or by a model leave a seam between things that touch.
     occluder = grown(occluder, SEAM, as_disc=True)
     edges = []
-    total = 0
     v, u = np.nonzero(mask)
     for du, dv in NEIGHBOURS:
         nu, nv = u + du, v + dv
@@ -154,7 +151,6 @@ def observe(
         pu, pv = u[within], v[within]
         nu, nv = nu[within], nv[within]
         outside = ~mask[nv, nu]
-        total += int(outside.sum())
         keep = outside & ~occluder[nv, nu]
         edges.append(np.column_stack([pu[keep] + du / 2, pv[keep] + dv / 2]))
     found = np.vstack(edges) + corner
@@ -173,8 +169,7 @@ def observe(
     inside = _pixels(within) + corner
     points = cloud[sure]
     points = points[np.isfinite(points[:, 2])]
-    return Observation(view, found, free, inside, points, base,
-                       complete=len(found) / max(total, 1))  # fmt: skip
+    return Observation(view, found, free, inside, points, base)
 
 
 def observed(seen: Calibrated, mask: Mask, others: list[Mask], base: float) -> Observation:

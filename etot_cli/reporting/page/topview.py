@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from math import hypot
 
-from etot_cli.specs.footprint import hull
+from etot_cli.specs.footprint import box_corners, hull, rotated
 from etot_cli.world.state import ObjectInfo, ObjectState, SceneState
 
 WIDTH_PX, HEIGHT_PX = 640, 400
@@ -154,23 +154,9 @@ def footprint(info: ObjectInfo, state: ObjectState) -> Sequence[tuple[float, flo
     """
     if info.kind == "sphere" or (info.kind in ROUND and state.tilt_deg < 20.0):
         return None
-    w, i, j, k = state.quaternion
-    # The first two rows of the rotation matrix: what matters seen from above.
-    rows = (
-        (1 - 2 * (j * j + k * k), 2 * (i * j - w * k), 2 * (i * k + w * j)),
-        (2 * (i * j + w * k), 1 - 2 * (i * i + k * k), 2 * (j * k - w * i)),
-    )
-    corners = []
-    for number in range(8):
-        local = [
-            side * (0.5 if number >> axis & 1 else -0.5) for axis, side in enumerate(info.size)
-        ]
-        x, y = (
-            center + sum(r * v for r, v in zip(row, local, strict=True))
-            for center, row in zip(state.position[:2], rows, strict=True)
-        )
-        corners.append((x, y))
-    return hull(corners).corners
+    x, y, _ = state.position
+    points = [rotated(state.quaternion, corner) for corner in box_corners(info.size)]
+    return hull((x + point[0], y + point[1]) for point in points).corners
 
 
 def _way(before: ObjectState, after: ObjectState, at: Project) -> str:
