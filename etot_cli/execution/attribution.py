@@ -18,13 +18,11 @@ from collections.abc import Mapping
 import mujoco
 
 from etot_cli.control.controller import run_motion
-from etot_cli.control.robot import RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import WorldError
 from etot_cli.execution.believed import BelievedTwin
-from etot_cli.execution.observation import Observation, Sighting
+from etot_cli.execution.observation import Observation
 from etot_cli.execution.records import FailureClass
-from etot_cli.execution.world import ExecutionWorld
 from etot_cli.reasoning.builtin.constraints import cause_of_breach
 from etot_cli.reasoning.builtin.goal import Constraint
 from etot_cli.reasoning.builtin.judging import judge_action
@@ -38,20 +36,6 @@ from etot_cli.world.state import RolloutRecord
 
 ROUNDING = 0.001
 """Poses are compared to this [m]; sizes drawn differently lift centres by about as much."""
-
-
-def true_observation(world: ExecutionWorld, robot: RobotState) -> Observation:
-    """What a look without any error would show."""
-    data, objects, parts = world.data, {}, {}
-    for name, entry in world.world.entries.items():
-        if name in world.absent:
-            continue
-        for part in entry.parts:
-            parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
-        body = data.body(entry.body)
-        x, y, z, w, i, j, k = (float(value) for value in (*body.xpos, *body.xquat))
-        objects[name] = Sighting((x, y, z), (w, i, j, k))
-    return Observation(robot, objects, parts)
 
 
 def class_of(

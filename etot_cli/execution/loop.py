@@ -11,7 +11,7 @@ from etot_cli.control.simulated_world import ATTEMPTS
 from etot_cli.errors import InstructionError
 from etot_cli.execution.account import Account
 from etot_cli.execution.acting import FromNow
-from etot_cli.execution.attribution import class_of, true_observation
+from etot_cli.execution.attribution import class_of
 from etot_cli.execution.cell import Cell, MakePlanner, TrialOptions
 from etot_cli.execution.disturbing import Somebody
 from etot_cli.execution.looking import Believed
@@ -30,6 +30,7 @@ from etot_cli.execution.records import (
     PlanMade,
     Trial,
 )
+from etot_cli.execution.state_eyes import true_observation
 from etot_cli.reasoning.builtin.constraints import cause_of_breach
 from etot_cli.reasoning.builtin.goal import Constraint
 from etot_cli.reasoning.builtin.judging import judge_action

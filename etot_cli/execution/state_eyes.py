@@ -8,11 +8,10 @@ import mujoco
 import numpy as np
 
 from etot_cli.control.perception import seen_at
-from etot_cli.control.robot import Robot
+from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.specs.scene import Perception, SceneObject
-from etot_cli.world.arrays import Vector
 
 
 class StateEyes:
@@ -33,27 +32,35 @@ class StateEyes:
 
     def look(self, robot: Robot, last: Observation) -> Observation:
         """Looks at the scene; what has been taken away keeps its last pose and is marked lost."""
-        world, data = self._world.world, self._world.data
-        mujoco.mj_forward(world.model, data)
+        mujoco.mj_forward(self._world.world.model, self._world.data)
         self._looks += 1
         rng = self._world.random("look", self._looks)
-        objects: dict[str, Sighting] = {}
-        parts: dict[str, float] = {}
-        for name, entry in world.entries.items():
-            if name in self._world.absent:
-                continue
-            for part in entry.parts:
-                parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
-            body = data.body(entry.body)
-            objects[name] = self._seen(body.xpos, body.xquat, rng)
+        truth = true_observation(self._world, robot.state())
+        objects = {name: self._seen(sighting, rng) for name, sighting in truth.objects.items()}
         for name, sighting in last.objects.items():
             objects.setdefault(name, replace(sighting, mark=Mark.LOST))
-        return Observation(robot.state(), objects, parts)
+        return replace(truth, objects=objects)
 
     def what_is(self, name: str) -> SceneObject | None:
         """What an object that was not there before is, as a scene would say it."""
         return self._world.added.get(name)
 
-    def _seen(self, position: Vector, quaternion: Vector, rng: np.random.Generator) -> Sighting:
-        (x, y, z), (w, i, j, k) = seen_at(position, quaternion, self._error, rng)
+    def _seen(self, at: Sighting, rng: np.random.Generator) -> Sighting:
+        (x, y, z), (w, i, j, k) = seen_at(
+            np.array(at.position), np.array(at.quaternion), self._error, rng
+        )
         return Sighting((float(x), float(y), float(z)), (float(w), float(i), float(j), float(k)))
+
+
+def true_observation(world: ExecutionWorld, robot: RobotState) -> Observation:
+    """What a look without any error would show."""
+    data, objects, parts = world.data, {}, {}
+    for name, entry in world.world.entries.items():
+        if name in world.absent:
+            continue
+        for part in entry.parts:
+            parts[f"{name}.{part.info.name}"] = float(data.joint(part.joint).qpos[0])
+        body = data.body(entry.body)
+        x, y, z, w, i, j, k = (float(value) for value in (*body.xpos, *body.xquat))
+        objects[name] = Sighting((x, y, z), (w, i, j, k))
+    return Observation(robot, objects, parts)
