@@ -33,9 +33,11 @@ Reads = Callable[[str, SceneState], bool]
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _DENYING = re.compile(
     r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if|unless|when|while|once"
-    r"|until|least|most|same|different|matching|other|colou?r|versa|twice|times|again)\b"
+    r"|until|least|most|same|different|matching|other|colou?rs?|versa|twice|times|again)\b"
 )
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""
+_ASKED = re.compile(r"(?:is|are|was|were|has|have|does|did|where|what|which|who|how|why)\b")
+"""Questions, which ask for nothing to be done."""
 _BOUND = r"\b(?:every|all|each|any|without|except|only|not)(?: the)?"
 """Words behind which none can be left out without asking for more, or for the opposite."""
 _USUAL = (
@@ -70,6 +72,8 @@ class Refused:
 def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[str]:
     """Instructions near the refused one that are read in this scene, the nearest first."""
     text, names = normalized(refused.instruction), _Names(scene)
+    if _ASKED.match(text):
+        return
     kept = _kept(refused, text)
     least = names.told(text) - names.told(refused.word)
     least -= names.told(refused.phrase) if refused.candidates else set()
@@ -108,7 +112,9 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
         phrase = rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)"
         yield re.sub(phrase, names.of(name), text, count=1)
-    if re.search(rf"{_BOUND} {re.escape(refused.word)}(?!\w)", text):
+    if re.search(rf"{_BOUND} {re.escape(refused.word)}(?!\w)", text) or _is_head(
+        refused.word, text, names
+    ):
         return
     kept = re.sub(r"^(?:(?:and|then|just)\b[ ,]*)+", "", kept)
     begun = kept.partition(" ")[0]
@@ -118,6 +124,14 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
         text.partition(refused.phrase.removesuffix(" …"))[0]
     ):
         yield kept
+
+
+def _is_head(word: str, text: str, names: _Names) -> bool:
+    """Whether adjectives say of nothing but a word what it is like ("the red book")."""
+    found = re.search(rf"(\w+) {re.escape(word)}(?: (\w+))?(?!\w)", text) if word else None
+    if found is None or not (is_descriptive(found[1]) or found[1] in NUMBERS):
+        return False
+    return not (found[2] and names.calls(found[2]))
 
 
 def _plain(text: str, names: _Names) -> Iterator[str]:
@@ -166,6 +180,10 @@ class _Names:
             *DESK_NOUNS,
             *_ANYTHING,
         }
+
+    def calls(self, word: str) -> bool:
+        """Whether something is called so."""
+        return singular(word) in self._nouns
 
     def told(self, text: str) -> set[str]:
         """Words of a text that tell things and places apart, one for those of one meaning."""

@@ -266,6 +266,8 @@ def _only_one_that_asks(state: _State, sentence: Sentence, found: dict[Goal, _St
             plan = plans_of(attempt.goal(), scene, ordered=ordered)
             if plan or holds_roughly(attempt.goal()):
                 plans.setdefault(plan, attempt)
+    alike = {formal(attempt.goal()): key for key, attempt in reversed(plans.items())}
+    plans = {key: attempt for key, attempt in plans.items() if key in alike.values()}
     for key in [*plans]:
         if any(does_as_well(other, key) for other in plans if other != key):
             del plans[key]

@@ -69,7 +69,8 @@ _FIXED = """
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    closer together, 's (top|surface), in any order, (no|any) longer, only then, any [one] but
+    closer together, 's (top|surface), in any order, (no|any) longer,
+    only (then|once|after|when), any [one] but
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")

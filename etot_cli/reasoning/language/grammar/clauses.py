@@ -289,7 +289,12 @@ SO = sequence(
 )
 _SO_BY_THEN = either(
     sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
-    sequence(ALL_THINGS, verbs.BE, SOURCE, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
+        SOURCE,
+        build=RemoveClause,
+    ),
     SO,
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
@@ -304,6 +309,6 @@ _HAVING_DONE = either(
 )
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("once, after, when, as soon as", plain(_SO_BY_THEN)),
+    sequence("[but] [only] (once|after|when|as soon as)", plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

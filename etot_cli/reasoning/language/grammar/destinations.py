@@ -208,7 +208,7 @@ WHERE = Rule(
         sequence(
             DESTINATIONS,
             OPTIONAL_COMMA,
-            nouns.CONTRAST,
+            f"{nouns.CONTRAST}, anywhere (but|except)",
             separated(destination, "or, nor", most=3),
             build=lambda where, out: (*where, *_denied(out)),
         ),

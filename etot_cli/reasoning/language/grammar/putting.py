@@ -183,7 +183,7 @@ _ALONG_WITH = sequence(
     NP_LIST,
     DESTINATIONS,
     OPTIONAL_COMMA,
-    "together with, along with",
+    "together with, along with, as well as",
     NP_LIST,
     build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )

@@ -66,6 +66,7 @@ def normalized(text: str) -> str:
         r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
     )
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 only ", text)
     text = re.sub(
         r",? (?:and|but) nothing else,? ((?:in|on|to|next|inside|onto|into)\b[^,.;]*)",
         r" \1, and nothing else",

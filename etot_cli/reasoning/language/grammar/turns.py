@@ -44,8 +44,7 @@ _ONE_BY_ONE = either(
         build=lambda first, more: (first, *more),
     ),
     sequence(
-        noun_phrase,
-        "first",
+        either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
         some(sequence(_THEN, noun_phrase), least=1, most=5),
         optional("last"),
         build=lambda first, more: _named_ones((first, *more)),

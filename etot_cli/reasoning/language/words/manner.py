@@ -61,8 +61,8 @@ ONE_EACH = """
 """
 NOT_BOTH = "[but|though|and] not both [of them]"
 BY_COLOR = """
-    by [their] (color|colour), according to [their] (color|colour), sorted by (color|colour),
-    matched by (color|colour)
+    by [their] (color|colors|colour|colours), sorted by (color|colour), matched by (color|colour),
+    according to [their] (color|colors|colour|colours)
 """
 STARTING_WITH = "starting with, beginning with"
 _SIZES = (

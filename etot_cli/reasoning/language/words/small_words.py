@@ -71,7 +71,7 @@ LEADING_THEN = """
     after doing so, [the|as a] (next|second|third|fourth) step [is to],
     once (that is done|done|you are done), when done, and then, subsequently, later
 """
-TRAILING_FIRST = "first, beforehand, before that, before anything else"
+TRAILING_FIRST = "first, before, beforehand, before that, before anything else"
 TRAILING_LAST = """
     last, at the end, in the end, finally, at last,
     (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done
@@ -93,7 +93,7 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 EXACTLY = "right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you]"
-AFTER = "(once|after|when|as soon as) [you have|having|you]"
+AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
 GONE = "(has|have) (gone|been put|been placed|been moved|been brought|been set|landed)"
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
 LOOK_FOR = """
