@@ -21,8 +21,9 @@ from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.topview import top_view
 from etot_cli.specs.document import read_document
 from etot_cli.specs.load import load_scene, load_task
+from etot_cli.specs.objects import Mesh, Mjcf
 from etot_cli.specs.reading import MAX_BYTES, read_utf8
-from etot_cli.specs.scene import Mesh, Mjcf, Scene
+from etot_cli.specs.scene import Scene
 from etot_cli.specs.shipped import find_shipped, shipped_files
 from etot_cli.world.state import SceneState
 

@@ -11,7 +11,8 @@ from etot_cli.execution.protocols import Eyes, Planner, RobotDevice
 from etot_cli.execution.simulated_device import SimulatedDevice
 from etot_cli.execution.state_eyes import StateEyes
 from etot_cli.execution.world import ExecutionWorld
-from etot_cli.specs.scene import Scene, SceneObject
+from etot_cli.specs.objects import SceneObject
+from etot_cli.specs.scene import Scene
 from etot_cli.specs.task import Task
 
 if TYPE_CHECKING:  # reports know trials, and pictures' libraries take much address space

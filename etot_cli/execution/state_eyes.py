@@ -11,7 +11,8 @@ from etot_cli.control.perception import seen_at
 from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.world import ExecutionWorld
-from etot_cli.specs.scene import Perception, SceneObject
+from etot_cli.specs.objects import SceneObject
+from etot_cli.specs.scene import Perception
 
 
 class StateEyes:

@@ -18,7 +18,8 @@ from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.skills.motion.ready import make_ready
 from etot_cli.skills.motion.timing import CONTROL_PERIOD
-from etot_cli.specs.scene import Scene, SceneObject
+from etot_cli.specs.objects import SceneObject
+from etot_cli.specs.scene import Scene
 from etot_cli.specs.vary import vary_truth
 from etot_cli.world.model import build_world
 from etot_cli.world.recorder import Recorder, Trajectory

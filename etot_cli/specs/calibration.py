@@ -14,7 +14,7 @@ from etot_cli.specs.base import Spec
 from etot_cli.specs.bounds import MAX_PICTURE_SIDE
 from etot_cli.specs.document import Node, read_document
 from etot_cli.specs.problems import validate
-from etot_cli.specs.scene import Finite
+from etot_cli.specs.quantity import Finite
 
 Array = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
 """What a scene is: desk, robot, cameras and objects, as validated data.
 
-The object kinds live in :mod:`etot_cli.specs.objects` and can be imported from here too.
+The object kinds live in :mod:`etot_cli.specs.objects`.
 """
 
 from __future__ import annotations
@@ -9,43 +9,20 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from etot_cli.specs.base import Color, Name, Point, Position, Quaternion, Spec, Title
-from etot_cli.specs.objects import (
-    FURNITURE,
-    Box,
-    Cabinet,
-    Capsule,
-    Cup,
-    Cylinder,
-    Door,
-    Drawer,
-    DrawerUnit,
-    Handle,
-    Mesh,
-    Mjcf,
-    MjcfPart,
-    ObjectBase,
-    Pen,
-    SceneObject,
-    Shelf,
-    Sphere,
-)
+from etot_cli.specs.base import Color, Name, Point, Quaternion, Spec, Title
+from etot_cli.specs.objects import SceneObject
 from etot_cli.specs.quantity import (
-    Channel,
     Coordinate,
-    Degrees,
     Delay,
     Finite,
     FocalLength,
     Friction,
     Height,
     Length,
-    Mass,
     OpeningDegrees,
     Pixel,
     PixelCount,
     Share,
-    SmallLength,
     Spread,
 )
 
@@ -175,46 +152,3 @@ class Scene(Spec):
     """Folder (absolute) against which mesh, MJCF and robot files are resolved; set by the loader,
     refused in YAML. The loader has checked those files; when one comes from an included document
     of another folder, its relative path starts with ``..``."""
-
-
-__all__ = [
-    "FURNITURE",
-    "MAX_OBJECTS",
-    "RESERVED_NAMES",
-    "ROBOT_VIEWPOINT",
-    "Box",
-    "Cabinet",
-    "Camera",
-    "Capsule",
-    "Channel",
-    "Color",
-    "Coordinate",
-    "Cup",
-    "Cylinder",
-    "Degrees",
-    "Desk",
-    "Door",
-    "Drawer",
-    "DrawerUnit",
-    "Finite",
-    "Friction",
-    "Handle",
-    "Length",
-    "Mass",
-    "Mesh",
-    "Mjcf",
-    "MjcfPart",
-    "Name",
-    "ObjectBase",
-    "Pen",
-    "Perception",
-    "Position",
-    "Quaternion",
-    "Scene",
-    "SceneObject",
-    "Shelf",
-    "SmallLength",
-    "Spec",
-    "Sphere",
-    "Variation",
-]

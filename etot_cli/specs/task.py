@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
-from etot_cli.specs.base import Name, Spec, Title
+from etot_cli.specs.base import Spec, Title
 from etot_cli.specs.bounds import MAX_WORLDS
 from etot_cli.specs.disturbance import MAX_DISTURBANCES, Disturbance
 from etot_cli.specs.objects import SceneObject
@@ -142,6 +142,3 @@ class Task(Spec):
         if not value.strip():
             raise ValueError("is blank, expected a sentence that says what to do")
         return value.strip()
-
-
-__all__ = ["Condition", "Disturbance", "Name", "Reference", "Task"]

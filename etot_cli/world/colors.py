@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import color as names
-from etot_cli.specs.scene import Color
+from etot_cli.specs.base import Color
 
 NAMED_COLORS = names.NAMED
 _BASIC = (

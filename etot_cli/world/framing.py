@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
+from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World
 from etot_cli.world.surface import SEEN_GROUPS
 
@@ -73,7 +74,7 @@ def workspace_camera(
     return camera
 
 
-def _better_side(scene: specs.Scene) -> float:
+def _better_side(scene: Scene) -> float:
     """+1 or −1: the side from which more fronts of furniture are seen."""
     score = 0.0
     for spec in scene.objects.values():

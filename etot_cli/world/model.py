@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
+from etot_cli.specs.scene import Scene
 from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
 from etot_cli.world.build.pads import add_pad_pairs
@@ -32,7 +33,7 @@ SEEN_ONLY = ("cam", "light", "mat", "name", "nbuf", "nmat", "nname", "npath", "n
 class World:
     """A compiled scene: the model and what its numbers mean. Holds no state of the simulation."""
 
-    scene: specs.Scene
+    scene: Scene
     model: mujoco.MjModel
     robot: RobotIndex
     entries: dict[str, ObjectEntry]
@@ -89,9 +90,7 @@ class World:
         return np.array(ids, dtype=np.int64)
 
 
-def build_world(
-    scene: specs.Scene, *, dressed: bool = False, loose_furniture: bool = False
-) -> World:
+def build_world(scene: Scene, *, dressed: bool = False, loose_furniture: bool = False) -> World:
     """Compiles a scene.
 
     Args:
@@ -133,7 +132,7 @@ def build_world(
     return World(scene, model, index, entries, _addresses(model, entries, index))
 
 
-def scene_spec(scene: specs.Scene, *, robot: bool = True) -> mujoco.MjSpec:
+def scene_spec(scene: Scene, *, robot: bool = True) -> mujoco.MjSpec:
     """A scene's model before it is compiled, masses not yet scaled; with its robot or without.
 
     Raises:
@@ -143,9 +142,7 @@ def scene_spec(scene: specs.Scene, *, robot: bool = True) -> mujoco.MjSpec:
     return _drafted(scene, load_robot(scene.robot, scene.directory) if robot else None)[0]
 
 
-def _drafted(
-    scene: specs.Scene, robot: RobotSpec | None
-) -> tuple[mujoco.MjSpec, dict[str, ObjectEntry]]:
+def _drafted(scene: Scene, robot: RobotSpec | None) -> tuple[mujoco.MjSpec, dict[str, ObjectEntry]]:
     mj = mujoco.MjSpec()
     set_options(mj)
     add_surroundings(mj, scene)
@@ -158,7 +155,7 @@ def _drafted(
     return mj, drafts
 
 
-def _scale_masses(model: mujoco.MjModel, scene: specs.Scene) -> None:
+def _scale_masses(model: mujoco.MjModel, scene: Scene) -> None:
     """Makes every object as heavy as the scene says, parts included, inertia in proportion."""
     changed = False
     for name, spec in scene.objects.items():

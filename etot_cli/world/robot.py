@@ -12,9 +12,10 @@ from typing import Annotated
 from pydantic import Field
 
 from etot_cli.errors import SpecError
+from etot_cli.specs.base import Spec
 from etot_cli.specs.document import DataPath, read_document
 from etot_cli.specs.problems import validate
-from etot_cli.specs.scene import Finite, Spec
+from etot_cli.specs.quantity import Finite
 
 BUILTIN_ROBOTS = Path(__file__).parent / "robots"
 """Folder of the robots that come with etot; each has a ``robot.yaml``."""

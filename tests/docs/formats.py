@@ -16,6 +16,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from etot_cli.reporting.files import write_atomically
+from etot_cli.specs import objects
 from etot_cli.specs import scene as scenes
 from etot_cli.specs import task as tasks
 
@@ -30,12 +31,12 @@ scene's keys takes the rest from another file; a task may have the scene's `vari
 SECTIONS: tuple[tuple[str, tuple[type[BaseModel], ...]], ...] = (
     ("Task file", (tasks.Task, tasks.Condition, tasks.Disturbance)),
     ("Scene", (scenes.Scene, scenes.Desk, scenes.Camera, scenes.Variation, scenes.Perception)),
-    ("Every object", (scenes.ObjectBase,)),
+    ("Every object", (objects.ObjectBase,)),
     (
         "Kinds of objects",
-        (scenes.Sphere, scenes.Box, scenes.Cylinder, scenes.Capsule, scenes.Pen, scenes.Cup,
-         scenes.DrawerUnit, scenes.Drawer, scenes.Handle, scenes.Cabinet, scenes.Door,
-         scenes.Shelf, scenes.Mesh, scenes.Mjcf, scenes.MjcfPart),
+        (objects.Sphere, objects.Box, objects.Cylinder, objects.Capsule, objects.Pen, objects.Cup,
+         objects.DrawerUnit, objects.Drawer, objects.Handle, objects.Cabinet, objects.Door,
+         objects.Shelf, objects.Mesh, objects.Mjcf, objects.MjcfPart),
     ),
 )  # fmt: skip
 SET_BY_LOADER = {"actuation", "directory", "file", "inputs"}
@@ -56,12 +57,12 @@ def _section(model: type[BaseModel]) -> str:
     if "$ref" in schema:  # a model that refers to itself
         schema = {**schema["$defs"][model.__name__], "$defs": schema["$defs"]}
     told = field_docstrings(model)
-    common = set(scenes.ObjectBase.model_fields) if _is_kind(model) else set()
+    common = set(objects.ObjectBase.model_fields) if _is_kind(model) else set()
     lines = [f"### {model.__name__}\n", _plain(inspect.getdoc(model) or ""), ""]
     lines += ["| key | value | default | |", "| --- | --- | --- | --- |"]
     required = set(schema.get("required", ()))
     for name, field in model.model_fields.items():
-        loader = name in SET_BY_LOADER and not issubclass(model, scenes.Mesh | scenes.Mjcf)
+        loader = name in SET_BY_LOADER and not issubclass(model, objects.Mesh | objects.Mjcf)
         if name in common or loader:
             continue
         key = field.alias or name
@@ -77,7 +78,7 @@ def _section(model: type[BaseModel]) -> str:
 
 
 def _is_kind(model: type[BaseModel]) -> bool:
-    return issubclass(model, scenes.ObjectBase) and model is not scenes.ObjectBase
+    return issubclass(model, objects.ObjectBase) and model is not objects.ObjectBase
 
 
 def field_docstrings(model: type[BaseModel]) -> dict[str, str]:

@@ -10,7 +10,8 @@ from etot_cli.benchmark.suite import digest
 from etot_cli.errors import SpecError
 from etot_cli.specs import files
 from etot_cli.specs.load import load_scene, load_task
-from etot_cli.specs.scene import Mesh, Scene
+from etot_cli.specs.objects import Mesh
+from etot_cli.specs.scene import Scene
 from tests.specs.helpers import objects, scene_error, write
 
 MESH = "{{kind: mesh, file: {}, at: [0.4, 0]}}"

@@ -11,9 +11,8 @@ from pathlib import Path
 import pytest
 
 from etot_cli.specs.load import load_scene, load_task
-from etot_cli.specs.objects import DrawerUnit, Sphere
+from etot_cli.specs.objects import Cup, DrawerUnit, Sphere
 from etot_cli.specs.placement import inner_diameter
-from etot_cli.specs.scene import Cup
 
 ROOT = Path(__file__).parents[2]
 INSTRUCTIONS = {

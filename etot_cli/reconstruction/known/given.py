@@ -20,7 +20,7 @@ from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.registration.evidence import target_of
 from etot_cli.reconstruction.registration.model import Model, models_of
 from etot_cli.reconstruction.registration.register import POOR, Registered, register
-from etot_cli.specs.scene import Mesh
+from etot_cli.specs.objects import Mesh
 from etot_cli.world.build.mesh_files import MAX_BYTES, SUFFIXES, MeshFile, parse_mesh
 
 SIZE_RANGE = (0.5, 2.0)

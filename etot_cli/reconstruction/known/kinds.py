@@ -17,8 +17,7 @@ from etot_cli.reconstruction.shapes.block import Block
 from etot_cli.reconstruction.shapes.furniture import OpenCabinet, OpenUnit
 from etot_cli.reconstruction.shapes.rod import Capsule, Pen
 from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
-from etot_cli.specs import scene as specs
-from etot_cli.specs.scene import SceneObject
+from etot_cli.specs import objects as specs
 
 HEADINGS = 8
 """Turns that are tried, 45° apart; a fit finds the rest."""
@@ -34,14 +33,14 @@ BARELY = 0.01
 """A drawer that is open by less counts as closed [m]; a door, by as many radians."""
 
 
-def extra_keys(spec: SceneObject) -> dict[str, Any]:
+def extra_keys(spec: specs.SceneObject) -> dict[str, Any]:
     """What a library says about a thing besides shape and pose: mass, friction, colour, …"""
     data = spec.model_dump(mode="json", exclude_unset=True)
     shape = {*NOT_SHAPE, "size", "diameter", "height", "length", "drawers", "door"}
     return {key: value for key, value in data.items() if key not in shape}
 
 
-def fit_known_kind(solid: Solid, spec: SceneObject) -> Solid:
+def fit_known_kind(solid: Solid, spec: specs.SceneObject) -> Solid:
     """The solid as a thing of known size.
 
     Args:
@@ -66,7 +65,7 @@ def fit_known_kind(solid: Solid, spec: SceneObject) -> Solid:
     return known
 
 
-def _shapes(spec: SceneObject) -> list[tuple[Family, dict[str, float]]]:
+def _shapes(spec: specs.SceneObject) -> list[tuple[Family, dict[str, float]]]:
     """Families that a known thing may look like, with the sizes by parameter name."""
     found: list[tuple[Family, dict[str, float]]] = []
     if isinstance(spec, specs.Sphere):
@@ -115,7 +114,7 @@ def _starts(family: Family, sizes: dict[str, float], solid: Solid) -> list[Array
     ]  # fmt: skip
 
 
-def _scene_keys(spec: SceneObject, fit: Fit) -> dict[str, Any]:
+def _scene_keys(spec: specs.SceneObject, fit: Fit) -> dict[str, Any]:
     """The scene keys that the library's kind has beyond those of the fitted family."""
     extra: dict[str, Any] = {"kind": spec.kind}
     family, params = fit.family, fit.params

@@ -15,8 +15,9 @@ from etot_cli.errors import SpecError
 from etot_cli.specs.document import Node, Place, read_document
 from etot_cli.specs.files import resolve_files
 from etot_cli.specs.include import expand, project_root
+from etot_cli.specs.objects import Mesh, SceneObject
 from etot_cli.specs.problems import show, validate
-from etot_cli.specs.scene import Mesh, Scene, SceneObject
+from etot_cli.specs.scene import Scene
 from etot_cli.world.build.mesh_files import MeshFile, parse_mesh
 
 MOST_NAMES = 16

@@ -13,7 +13,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
+from etot_cli.specs.scene import Scene
 from etot_cli.world.build.material import add_visual
 from etot_cli.world.build.surroundings import FLOOR_DEPTH
 from etot_cli.world.colors import rgb
@@ -55,7 +56,7 @@ KIND_MATERIAL = {
 """What things are made of when nobody says; furniture in a wood colour is wooden."""
 
 
-def dress(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
+def dress(mj: mujoco.MjSpec, scene: Scene) -> None:
     """Dresses a model that is about to be compiled."""
     _look_and_light(mj, scene)
     for name, (specular, shininess, reflectance) in MATERIALS.items():
@@ -73,7 +74,7 @@ def dress(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
     _materials(mj, scene)
 
 
-def _look_and_light(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
+def _look_and_light(mj: mujoco.MjSpec, scene: Scene) -> None:
     mj.stat.extent = EXTENT_M
     mj.stat.center = [*scene.desk.center, scene.desk.top + 0.15]
     visual = mj.visual
@@ -123,7 +124,7 @@ def _wooden(
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = texture + ("/cube" if cube else "")
 
 
-def _room(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
+def _room(mj: mujoco.MjSpec, scene: Scene) -> None:
     """Desk legs, floor boards, a wall and a skirting board."""
     desk, world = scene.desk, mj.worldbody
     floor = desk.top - FLOOR_DEPTH
@@ -157,7 +158,7 @@ def _box(
                pos=list(position), material=material)  # fmt: skip
 
 
-def _materials(mj: mujoco.MjSpec, scene: specs.Scene) -> None:
+def _materials(mj: mujoco.MjSpec, scene: Scene) -> None:
     """Every geom that has none gets a material; its colour stays its own."""
     for name, spec in scene.objects.items():
         furniture = isinstance(spec, specs.FURNITURE)

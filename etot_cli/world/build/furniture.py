@@ -11,7 +11,7 @@ from typing import Any
 
 import mujoco
 
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.world.build.material import Look, add_geom
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo

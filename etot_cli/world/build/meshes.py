@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.errors import SpecError, WorldError
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.specs.reading import read_bytes
 from etot_cli.world.build.material import Look, add_geom, add_visual
 from etot_cli.world.build.mesh_files import MAX_BYTES, parse_mesh

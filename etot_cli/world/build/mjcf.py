@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 
 from etot_cli.errors import WorldError
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.world.build.mjcf_check import check_mjcf
 
 

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from etot_cli.errors import WorldError
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo, triple
 

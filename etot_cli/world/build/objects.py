@@ -8,9 +8,10 @@ from typing import Any
 import mujoco
 
 from etot_cli.errors import WorldError
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.specs.objects import ROLLING_DEFAULT, is_fastened
 from etot_cli.specs.placement import inner_diameter, size_of
+from etot_cli.specs.scene import Scene
 from etot_cli.world.build import furniture, meshes, mjcf, shapes, vessels
 from etot_cli.world.build.material import Look
 from etot_cli.world.colors import is_basic, nearest_basic, rgb
@@ -21,7 +22,7 @@ DEFAULT_COLOR = (0.62, 0.64, 0.66)
 """Where a scene gives no colour: a light grey, seen against wood and against shadow."""
 
 
-def add_object(mj: mujoco.MjSpec, scene: specs.Scene, name: str, spec: Any) -> ObjectEntry:
+def add_object(mj: mujoco.MjSpec, scene: Scene, name: str, spec: Any) -> ObjectEntry:
     """Adds an object to the model to be; returns what is known of it."""
     body = mj.worldbody.add_body(name=name)
     fixed = is_fastened(spec)
@@ -92,9 +93,7 @@ def resting_quaternion(spec: Any) -> tuple[float, float, float, float]:
     return math.cos(half), 0.0, 0.0, math.sin(half)
 
 
-def _fixed_position(
-    scene: specs.Scene, name: str, spec: Any, size: tuple[float, ...]
-) -> list[float]:
+def _fixed_position(scene: Scene, name: str, spec: Any, size: tuple[float, ...]) -> list[float]:
     if spec.at is not None and len(spec.at) == 3:
         return list(spec.at)
     if spec.inside is not None or (spec.on is not None and spec.on != DESK):

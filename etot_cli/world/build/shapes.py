@@ -7,7 +7,7 @@ from typing import Any
 
 import mujoco
 
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.world.build.material import Look, add_geom
 
 DENSITY = 400.0

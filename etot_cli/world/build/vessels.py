@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from etot_cli.specs import scene as specs
+from etot_cli.specs import objects as specs
 from etot_cli.world.build.material import Look, add_geom, add_visual
 from etot_cli.world.index import Region
 from etot_cli.world.surface import SEEN_GROUPS
