@@ -39,7 +39,7 @@ VERB_WORDS = words_of(
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
     """
-    pour pouring wipe wiping wash washing clean cleaning cook cooking stir stirring cut
+    use using pour pouring wipe wiping wash washing clean cleaning cook cooking stir stirring cut
     cutting slice slicing press pressing toss tossing throw throwing kick kicking juggle
     juggling shake shaking spin spinning roll rolling squeeze squeezing fold folding fill
     filling peel drink eat light plug unplug screw unscrew twist pinch poke break crush drag
