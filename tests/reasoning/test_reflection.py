@@ -567,6 +567,32 @@ def test_a_drawer_that_need_not_be_open_any_more_stays_closed_where_it_cannot_be
     assert revisions(step) == [bring, f"[CLOSE, chest] {bring}"]
 
 
+def test_what_goes_on_a_shelf_may_go_on_any_of_its_boards() -> None:
+    start = scenes.scene(
+        scenes.item("shelf", "shelf", (0.5, 0.3), boards=("low", "middle", "top")),
+        scenes.ball("nut", (0.4, 0.0)),
+    )
+    up = "[PICK UP, nut] [PUT ON, {}]"
+    others = [up.format("shelf.middle"), up.format("shelf.low")]
+    for kind in (CauseKind.UNREACHABLE, CauseKind.NO_ROOM):
+        step = failed(start, up.format("shelf"), 1, cause(kind, "shelf", "nut"), held(start, "nut"))
+        assert revisions(step)[:2] == others
+    step = failed(start, others[0], 1, cause(CauseKind.NO_ROOM, "nut"), held(start, "nut"))
+    assert others[1] not in revisions(step), "one that was named is meant"
+
+
+def test_what_is_in_a_cupboard_whose_door_is_in_the_way_waits_elsewhere() -> None:
+    start = scenes.scene(
+        scenes.cabinet("near", (0.4, 0.4), 1.0), scenes.cabinet("far", (0.7, 0.0), 0.0),
+        scenes.ball("nut", (0.4, 0.4), inside="near", on="near"),
+    )  # fmt: skip
+    plan = "[OPEN, far] [PICK UP, nut] [PUT INTO, far] [CLOSE, far] [CLOSE, near]"
+    step = failed(start, plan, 0, cause(CauseKind.BLOCKED, "near", "far"))
+    insert = "[OPEN, far] [PICK UP, nut] [PUT INTO, far] [CLOSE, far]"
+    waits = RELOCATE.format("nut")
+    assert f"{waits} [CLOSE, near] {insert}" in revisions(step)
+
+
 def test_a_vessel_under_a_roof_is_brought_out_before_it_is_filled_or_emptied() -> None:
     start = scenes.scene(
         scenes.cabinet("cupboard", (0.5, 0.0), 1.0),

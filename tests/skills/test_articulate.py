@@ -234,6 +234,20 @@ def test_what_is_fastened_before_a_door_is_named_and_without_it_the_door_opens(f
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_door_that_stands_open_before_another_is_named(seed: int) -> None:
+    """The one pushes the other along until the hand slips off."""
+    door = {"hinge": "left", "handle": STOUT | {"vertical": True}}
+    size = [0.22, 0.26, 0.26]
+    far = OVEN | {"at": [0.70, 0.06], "yaw_deg": 185, "size": size, "door": door}
+    stands_open = door | {"hinge": "right", "open_deg": 100}
+    near = OVEN | {"at": [0.36, 0.44], "yaw_deg": -90, "size": size, "door": stands_open}
+    record = episode(seed, far=far, near=near).do("[OPEN, far]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.BLOCKED
+    assert record.cause.objects == ("near", "far")
+
+
+@pytest.mark.slow
 def test_a_door_that_only_just_gets_far_enough_is_opened() -> None:
     size, door = [0.24, 0.30, 0.26], {"hinge": "right", "handle": {"vertical": True}}
     oven = OVEN | {"at": [0.60, 0.0], "yaw_deg": 180, "size": size, "door": door}

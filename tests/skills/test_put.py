@@ -291,6 +291,40 @@ def test_goes_on_every_board_of_a_shelf(board: str, seed: int) -> None:
     assert not after.states["mug"].toppled
 
 
+CAN = {"kind": "cylinder", "diameter": 0.06, "height": 0.07, "mass": 0.12}
+"""Something to stand another thing on."""
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    ("place", "furniture"),
+    [
+        ({"on": "place.lower", "at": [0.46, 0.15]}, RACK | {"yaw_deg": 190}),
+        ({"inside": "place", "at": [0.40, 0.36]}, FURNACE),
+    ],
+    ids=["board", "cupboard"],
+)
+@pytest.mark.slow
+def test_goes_on_top_of_what_stands_under_a_roof(
+    place: dict[str, Any], furniture: dict[str, Any], seed: int
+) -> None:
+    cup = CAN | {"diameter": 0.05, "at": [0.36, -0.25]}
+    run = episode(seed, place=furniture, can=CAN | place, cup=cup)
+    after = run.must("[PICK UP, cup] (horizontal)", "[PUT ON, can]")
+    assert after.states["cup"].on == ("can",)
+    assert not (after.states["cup"].toppled or after.states["can"].toppled)
+    assert run.done[-1].record.displacement["can"] < 0.01
+
+
+@pytest.mark.slow
+def test_what_is_too_tall_for_the_room_over_it_is_refused() -> None:
+    tall = CAN | {"diameter": 0.05, "height": 0.17, "at": [0.36, -0.25]}
+    run = episode(rack=RACK, can=CAN | {"on": "rack.lower"}, tall=tall)
+    run.must("[PICK UP, tall] (horizontal)")
+    record = run.do("[PUT ON, can]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM
+
+
 @pytest.mark.slow
 def test_what_is_too_tall_for_a_board_is_refused() -> None:
     tall = BOX | {"size": [0.05, 0.05, 0.24], "at": [0.36, -0.25]}

@@ -133,6 +133,18 @@ def test_a_lid_that_has_its_origin_below_lies_on_the_rim(tmp_path: Path) -> None
     assert found.on == ("cup",) and found.inside is None
 
 
+def test_a_model_from_a_file_need_not_name_its_bodies(tmp_path: Path) -> None:
+    (tmp_path / "box.xml").write_text(
+        """<mujoco><worldbody><body><body pos="0 0 0.01">
+        <geom type="box" size="0.05 0.05 0.005"/>
+        <site name="room" type="box" size="0.05 0.05 0.03" pos="0 0 0.035"/>
+        </body></body></worldbody></mujoco>"""
+    )
+    box = {"kind": "mjcf", "file": "box.xml", "at": [0.4, 0.1], "container_site": "room"}
+    stage = set_up_stage(make_scene(tmp_path, box=box, ball=BALL | {"inside": "box"}), settle=0.2)
+    assert stage.see("ball").inside == "box"
+
+
 def test_pen_across_a_cups_mouth_is_not_inside() -> None:
     stage = set_up_stage(make_scene(cup=CUP | {"at": [0.4, 0.1]}, pen=PEN | {"inside": "cup"}))
     stage.memory = type(stage.memory)(up=stage.memory.up)

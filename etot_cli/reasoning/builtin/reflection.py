@@ -26,6 +26,7 @@ from etot_cli.reasoning.builtin.relations import (
 from etot_cli.reasoning.builtin.relocation import (
     Correction,
     opened_wider,
+    other_boards,
     other_places,
     relocated,
     set_aside,
@@ -105,7 +106,8 @@ class _Case:
 
     def serves(self, actions: Actions, aim: Purpose) -> bool:
         """Whether a branch is for the same; a part that was only to stand as at first, and cannot
-        be opened again, may stay closed, and one that stood half-open may be opened wide.
+        be opened again, may stay closed, and one that stood half-open may be opened wide. Any board
+        will do where a shelf was named.
         """
         new, asked = purpose(actions, self.start), dict(aim.parts)
         opened = (
@@ -118,7 +120,9 @@ class _Case:
         }
         if self.action.verb is Verb.OPEN and self.action.target not in asked:
             means.add((self.action.target, Verb.CLOSE))
-        return replace(new, parts=new.parts - means) == aim
+        named = {(*put[:2], owner_of(put[2]), put[3]): put for put in new.places}
+        places = frozenset(name if name in aim.places else put for name, put in named.items())
+        return replace(new, places=places, parts=new.parts - means) == aim
 
     def corrections(self) -> Iterator[Correction]:
         """Possible corrections, the most promising first."""
@@ -292,6 +296,7 @@ class _Case:
         toppled = self.cause.objects if self.cause.kind is CauseKind.TOPPLED else ()
         if toppled and owner_of(toppled[0]) == owner:
             return  # the container does not stand what is put into it
+        yield from other_boards(self.failed)
         if self.action.safe and self.is_full:
             yield from other_places(self.failed, index)
             if self.action.target == DESK:

@@ -136,10 +136,23 @@ def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
         yield Correction(_replaced(actions, put, other), f"{target} serves as the safe place")
 
 
+def other_boards(failed: FailedStep) -> Iterator[Correction]:
+    """The branch with another board, from the top down, for what goes on a shelf of which none was
+    named; the name alone means its top.
+    """
+    actions, action = failed.branch.actions, failed.branch.actions[failed.index]
+    info = failed.start.infos.get(action.target)
+    if info is not None and action.verb is Verb.PUT_ON:
+        for board in info.boards[-2::-1]:
+            other = replace(action, target=f"{info.name}.{board}")
+            yield Correction(_replaced(actions, failed.index, other), f"{other.target} will do")
+
+
 def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """The branch with a part that stands open closed before the failed cycle, and opened again.
 
-    A door or an upper drawer that stands open covers what is behind or below it.
+    A door or an upper drawer that stands open covers what is behind or below it. What the cycle
+    takes from there waits elsewhere.
 
     Args:
         failed: the failed step.
@@ -151,16 +164,19 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
         cycle = Cycle(failed.index, failed.index + 1)  # it is done in the midst of another one
     own = actions[cycle.start : cycle.end]
     filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}
-    reached = {owner_of(action.target) for action in own}
+    taken = {action.target for action in own if action.verb is Verb.PICK_UP}
+    reached = {owner_of(action.target) for action in own} - taken
     start = hand_free_at(actions, cycle.start, failed.start)
     for part in scene.infos[name].parts:
-        needed = {part.address, f"{part.owner}.{part.name}"} & filled or any(
-            target in scene.states and is_inside(scene, target, part.address) for target in reached
-        )
+        inside = {one for one in scene.states if is_inside(scene, one, part.address)}
+        needed = {part.address, f"{part.owner}.{part.name}"} & filled or inside & reached
         if start is None or needed or is_closed(scene, part):
             continue
+        waiting = tuple(
+            action for one in sorted(taken & inside) for action in set_aside(failed, one)
+        )
         shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
-        cleared = (*actions[:start], shut, *actions[start : cycle.end])
+        cleared = (*actions[:start], *waiting, shut, *actions[start : cycle.end])
         change = f"{part.address} is closed meanwhile"
         yield Correction((*cleared, *actions[cycle.end :]), change)
         needed_at = _needed_at(actions, cycle.end, part, scene)

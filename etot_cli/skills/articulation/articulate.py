@@ -204,9 +204,11 @@ def articulation_outcome(
     if (fraction >= OPEN_AT) if opening else (fraction <= CLOSED_AT):
         return DONE
     stopped = trace.stopped
-    if stopped is not None and stopped.name in ("transit", "approach"):
+    obstacles = _pressed(belief, part, trace) or _carried_along(belief, part, after)
+    # A second hold meets on its way what a first one did not get as far as meant.
+    if stopped is not None and stopped.name in ("transit", "approach") and not obstacles:
         return arm_stopped(f"on its way to {address}", trace.against(), [owner], trace.seconds)
-    obstacles = _pressed(belief, part, trace) or _beyond(belief, part, fraction, opening)
+    obstacles = obstacles or _beyond(belief, part, fraction, opening)
     verb, state = ("open", "open") if opening else ("close", "closed")
     if obstacles:
         return failed(
@@ -222,6 +224,19 @@ def articulation_outcome(
         trace.seconds,
         another_way=True,
     )
+
+
+def _carried_along(belief: Belief, part: Part, after: SceneState) -> list[str]:
+    """Other furniture with a door or drawer that the part has moved: the hand slips off then."""
+    return [
+        name
+        for name, entry in belief.world.entries.items()
+        if name != part.info.owner
+        and any(
+            abs(after.openness(other.info) - belief.scene.openness(other.info)) > HALTED
+            for other in entry.parts
+        )
+    ]
 
 
 def _beyond(belief: Belief, part: Part, fraction: float, opening: bool) -> list[str]:

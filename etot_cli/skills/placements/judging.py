@@ -242,12 +242,11 @@ class Judge:
             # On a surface what rests higher up rests on something else than was asked for.
             highest = np.inf if support.is_container else FLAT
             kind[within & bearable & (lift > -FLAT) & (lift <= highest)] = Quality.PILED
-        usable = stands & clear & bearable
-        if not support.is_even:
-            return kind
-        kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
-        too_tall = ~within if not self._has_lid else lift + turned.height > support.room
-        kind[usable & too_tall] = -1 if support.from_front else Quality.STICKS_OUT
+        if support.is_even:
+            usable = stands & clear & bearable
+            kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
+            too_tall = ~within if not self._has_lid else lift + turned.height > support.room
+            kind[usable & too_tall] = Quality.STICKS_OUT
         if support.from_front:
             kind[lift + turned.height > support.room] = -1
         return kind

@@ -223,7 +223,7 @@ class _Way:
         low, high = checker.extent(attached.name, self._target.rotation)
         out = np.array([*support.axes[0], 0.0])
         depth = float(support.local(self._target.position[None, :2])[0, 0])
-        length = support.half[0] - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
+        length = support.front - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
         for higher in (ENTRY_HIGHER, 0.0):
             poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
             path, count = arm.line(poses, inside.joints)

@@ -36,6 +36,7 @@ class Support:
         room: free height above the floor, up to the rim or the roof [m].
         is_container: it has walls, and what is let go in it falls no further than its floor.
         from_front: got at level, through the side that ``axes[0]`` points to.
+        front: how far away that side is from the middle [m].
         owner: the object that it belongs to; None for the desk.
         is_even: a plane; else what lies on it lies on its highest points.
     """
@@ -48,6 +49,7 @@ class Support:
     room: float = np.inf
     is_container: bool = False
     from_front: bool = False
+    front: float = 0.0
     owner: str | None = None
     is_even: bool = True
 
@@ -78,14 +80,30 @@ def surface_support(belief: Belief, address: str) -> Support | None:
     if rotation[2, 2] < EVEN:
         return _whatever_is_up(belief, address)
     center = body.xpos + rotation @ np.array(surface.center)
-    return Support(
-        address,
-        center,
-        _level_axes(rotation),
-        np.array(surface.half),
-        surface.round,
-        owner=owner_of(address),
-    )
+    axes, half = _level_axes(rotation), np.array(surface.half)
+    top = Support(address, center, axes, half, surface.round, owner=owner_of(address))
+    return _under_roof(belief, top) or top
+
+
+def _under_roof(belief: Belief, top: Support) -> Support | None:
+    """A top as it is got at in the space that it stands in, where that is open to the side only."""
+    world = belief.world
+    boards = (surface.space for surface in world.surfaces.values())
+    for region in (*world.regions.values(), *(space for space in boards if space is not None)):
+        around = _space(belief, top.address, region, is_container=False)
+        if around is None or not around.from_front:
+            continue
+        place = around.local(top.center[None, :2])
+        above = float(top.center[2] - around.center[2])
+        if around.inside(place)[0] and 0.0 < above < around.room:
+            half = top.half if top.is_round else np.abs(around.axes @ top.axes.T) @ top.half
+            front = float(around.front - place[0, 0])
+            # A top that is turned in there does not fill these bounds.
+            return Support(
+                top.address, top.center, around.axes, half, top.is_round, around.room - above,
+                from_front=True, front=front, owner=top.owner, is_even=False,
+            )  # fmt: skip
+    return None
 
 
 def container_support(belief: Belief, address: str) -> Support | None:
@@ -120,6 +138,7 @@ def _space(belief: Belief, address: str, region: Region, *, is_container: bool) 
         2 * region.half[2],
         is_container,
         from_front,
+        float(half[0]),
         owner_of(region.address),
     )
 

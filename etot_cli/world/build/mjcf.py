@@ -32,6 +32,9 @@ def attach_mjcf(
     # Stored poses have the length of all joints, and nobody asks for them here.
     for key in child.keys:
         child.delete(key)
+    # What is known of a body goes by its name.
+    for index, part_body in enumerate(child.bodies):
+        part_body.name = part_body.name or f"body {index}"
     joints = {joint.name for joint in child.joints}
     sites = {site.name for site in child.sites}
     for part_name, part in spec.parts.items():
