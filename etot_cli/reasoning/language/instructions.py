@@ -38,6 +38,7 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _STATED = re.compile(
     r"^(?:(?:i|we) (?:am|are) |it is time )|(?:is|are) (?:almost )?(?:ready|over|here)$"
+    r"|^it is (?:getting |almost |\w+ )?(?:\w*time|late|early|morning|noon|evening|night)$"
 )
 """A sentence about people or times; what else is said may be a rule for what follows."""
 _SWEEPING = word_set("other others rest else everything anything all each every any")
