@@ -340,7 +340,7 @@ PUT = either(
         sequence(verb, THINGS, particle, build=partial(put_to, where=where))
         for verb, particle, where in (
             (verbs.PUT_DOWN, optional("down"), DOWN),
-            (verbs.PUT, "down", DOWN),
+            (verbs.LAY, "down", DOWN),
             (verbs.PUT_BACK, optional("back"), BACK),
             (verbs.PUT, "back", BACK),
         )
