@@ -109,7 +109,7 @@ def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
     words = " ".join(["", *re.findall(r"\w+", normalized(instruction)), ""])
     for patterns, step, why in (
         (manner.ALL_THE_WAY, Open, f"what is open is so to {OPEN_AT:.0%} of its travel or more"),
-        (verbs.TO_SOMEBODY, Pick, "it is held up, not handed over"),
+        (verbs.TO_SOMEBODY, Pick, verbs.HELD_UP),
         ("as possible", Put, "how near or far is not measured"),
     ):
         said = [text for text in spellings(patterns) if f" {text} " in words]

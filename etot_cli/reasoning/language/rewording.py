@@ -38,8 +38,8 @@ _DENYING = re.compile(
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""
 _ASKED = re.compile(r"(?:is|are|was|were|has|have|does|did|where|what|which|who|how|why)\b")
 """Questions, which ask for nothing to be done."""
-_BOUND = r"\b(?:every|all|each|any|without|except|only|not)(?: the)?"
-"""Words behind which none can be left out without asking for more, or for the opposite."""
+_BOUND = r"\b(?:every|all|each|any)(?: the)?"
+"""Words behind which none can be left out without asking for more."""
 _USUAL = (
     ({"in", "into", "inside", "within"}, ("in", "on")),
     ({*SIDES, "beside", "next", "between", "behind", "where"}, ("next to",)),

@@ -27,7 +27,7 @@ class FrozenScene:
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         self._data = mujoco.MjData(self._model)
         self._postures: dict[float, Vector] = {}
-        self._live = self._data
+        self._live = self._data  # until something else is frozen
         self._riders: dict[str, list[str]] = {}
         self._tool = world.robot.tool_site
         robot = (*world.robot.qpos, *world.robot.finger_qpos)

@@ -264,10 +264,10 @@ def turn_jacobian(turn: Vector) -> Vector:
     x, y, z = turn.tolist()
     squared = x * x + y * y + z * z
     angle = math.sqrt(squared)
-    # What the expression tends to where it cannot be computed.
+    # For small turns what the expression tends to: there it is a difference of large numbers.
     share = 1 / 12
-    if 1e-3 < angle < math.pi - 1e-6:
-        share = 1 / squared - (1 + math.cos(angle)) / (2 * angle * math.sin(angle))
+    if angle > 1e-3:
+        share = 1 / squared - 1 / (2 * angle * math.tan(angle / 2))
     a, b, c = share * x, share * y, share * z
     diagonal = 1.0 - share * squared
     return np.array(

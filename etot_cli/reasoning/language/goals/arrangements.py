@@ -27,6 +27,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     context.tell_others(clause.things, clause.base)
     themes = context.phrases.things(clause.things, Role.THEME)
     text = clause.things.text
+    places = context.places.of(clause.base, themes) if clause.base else ()
     indices = _any_of(context, themes, clause)
     things = [context.discourse.things(index)[0] for index in indices]
     if not indices:
@@ -37,8 +38,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
     bottom = indices[0]
-    if clause.base:
-        places = context.places.of(clause.base, indices)
+    if places:
         context.steps.append(Put((indices[0],), places))
         under = places[0].where
         if len(things) == 1 and len(places) == 1 and under is not None:

@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
 )
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
 
 
@@ -44,6 +45,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             poses = clause.poses or (None,)
             for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
                 context.steps.append(Pick(index, poses))
+            if clause.to:
+                context.discourse.notes.append(f"{clause.to!r}: {verbs.HELD_UP}")
         case PutClause():
             put(context, clause)
         case RemoveClause():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import product
@@ -271,12 +271,6 @@ def not_beside(
         replace(near, landmarks=marks, denied=True)
         for place in context.places.of(out, themes)
         for near in place.beside
-        for marks in _each(context, near.landmarks)
+        for marks in product(*map(context.discourse.each, near.landmarks))
     )
     return tuple(replace(place, beside=(*place.beside, *denied)) for place in places)
-
-
-def _each(context: Context, landmarks: Sequence[int]) -> Iterator[tuple[int, ...]]:
-    """All that landmarks may mean, one by one."""
-    for things in product(*(context.discourse.things(index) for index in landmarks)):
-        yield tuple(context.single(thing, thing.name) for thing in things)

@@ -154,6 +154,8 @@ class PickClause:
 
     things: Things
     poses: tuple[GraspPose, ...] = ()
+    to: str = ""
+    """To whom it is to be handed ("to me")."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,9 +84,9 @@ PICK = sequence(
 HAND_OVER = quiet(
     sequence(
         "hand[ing], bring[ing], giv(e|ing), pass[ing]",
-        phrase("it, them"),
-        "[over] to me",
-        build=lambda text: PickClause(Things((NounPhrase(pronoun=text, text=text),))),
+        THINGS,
+        phrase("[over] to me"),
+        build=lambda things, to: PickClause(things, to=to),
     )
 )
 _DESKS = [(noun,) for noun in DESK_NOUNS]

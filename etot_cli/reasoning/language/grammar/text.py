@@ -27,6 +27,11 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
+_WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
+_NOTHING_ELSE = re.compile(
+    rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
+)
+"""Behind the things it stands for what is said of them behind their place."""
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
@@ -67,11 +72,7 @@ def normalized(text: str) -> str:
     )
     text = re.sub(r"\bnothing but\b", "only", text)
     text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 only ", text)
-    text = re.sub(
-        r",? (?:and|but) nothing else,? ((?:in|on|to|next|inside|onto|into)\b[^,.;]*)",
-        r" \1, and nothing else",
-        text,
-    )
+    text = _NOTHING_ELSE.sub(r"\1 \2, and nothing else", text)
     text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
     text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.

@@ -63,6 +63,16 @@ class Discourse:
             fitting=dict(self.fitting),
         )
 
+    def each(self, referent: int) -> tuple[int, ...]:
+        """All that a phrase may mean, each a referent of its own: beside neither of two cups, away
+        from either of them.
+        """
+        options = self.referents[referent].options
+        if len(options) == 1:
+            return (referent,)
+        singles = (Resolved(((t,),), definite=True, noun=t.name) for t in things_in(options))
+        return tuple(self.add(alone, alone.noun, Role.ANY) for alone in singles)
+
     def add(
         self,
         resolved: Resolved,

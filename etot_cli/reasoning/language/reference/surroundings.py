@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Sequence, Set
 from contextlib import suppress
 from dataclasses import replace
 
@@ -122,7 +122,7 @@ class Surroundings:
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
             landmarks += self._landmark(phrase, themes, beside.relation)
         if beside.relation is Nearby.AWAY:
-            landmarks = [each for index in landmarks for each in self._each(index)]
+            landmarks = [each for index in landmarks for each in self._discourse.each(index)]
         if beside.text.startswith(("closer", "nearer")):
             beside = replace(beside, relation=self._closer(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
@@ -135,17 +135,6 @@ class Surroundings:
         if beside.relation in _OPPOSITE:
             self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
-
-    def _each(self, landmark: int) -> Iterator[int]:
-        """All that a landmark may mean: away from either cup is away from both."""
-        referent = self._discourse.referents[landmark]
-        things = things_in(referent.options)
-        if len(referent.options) == 1:
-            yield landmark
-            return
-        for thing in things:
-            alone = Resolved(((thing,),), definite=True, noun=thing.name)
-            yield self._discourse.add(alone, thing.name, Role.ANY)
 
     def _closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby:
         """Where is closer to something: near it, for what is near it already next to it."""

@@ -9,9 +9,10 @@ PICK = """
     gather[ing], (fetch|fetching|get|getting|grab|find|take) me, hand[ing] over, let me have
 """
 TO_SOMEBODY = """
-    (hand|handing|bring|bringing|give|giving|pass|passing) (me|it to me|them to me), hand[ing] over
+    (hand|handing|bring|bringing|give|giving|pass|passing) me, hand[ing] over
 """
 """They ask for more than picking up, which is all that is done."""
+HELD_UP = "it is held up, not handed over"
 SHIFT = "mov(e|ing), relocat(e|ing), shift[ing]"
 """Of what is not to be moved, "on the tray" tells which it is rather than where to."""
 SET = """
