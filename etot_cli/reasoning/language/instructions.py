@@ -13,6 +13,7 @@ from etot_cli.reasoning.builtin.goal import Goal, Open, Pick, Put
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
+from etot_cli.reasoning.language.grammar.asides import without_asides
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.grammar.text import words_in
 from etot_cli.reasoning.language.languages import other_language
@@ -25,7 +26,7 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular, word
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import OPEN_AT, SceneState
 
-_HEADING = re.compile(r"([^.:;!?\n]+)([:.;!])\s+(\S.*)", re.DOTALL)
+_HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last then do t"
@@ -36,12 +37,7 @@ _REFERRING = word_set(
     "everything anything all both each every any same here there"
 )
 """Below a heading they may speak of what that is about, which is not read."""
-_STATED = re.compile(
-    r"^(?:(?:i|we) (?:am|are) |it is time )|(?:is|are) (?:almost )?(?:ready|over|here)$"
-    r"|^it is (?:getting |almost |\w+ )?(?:\w*time|late|early|morning|noon|evening|night)$"
-)
-"""A sentence about people or times; what else is said may be a rule for what follows."""
-_SWEEPING = word_set("other others rest else everything anything all each every any")
+_SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
 _OF_ITS_OWN = re.compile(r"\b(?:all|both|each|every|any)(?: of)? the\b")
 """Such words before a noun speak of what that names."""
@@ -59,19 +55,20 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     """
     vocabulary = Vocabulary(scene)
     try:
-        return _read(instruction, scene, vocabulary)
+        return _read(normalized(instruction), scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
         with suppress(UnreadableError, ReferenceProblem):
-            return _read(instruction, scene, vocabulary, common=True)
+            return _read(normalized(instruction), scene, vocabulary, common=True)
         with suppress(UnreadableError, ReferenceProblem):
             return _below_heading(instruction, scene, vocabulary)
+        with suppress(UnreadableError, ReferenceProblem):
+            return _beside_asides(instruction, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
 
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
     """What a colon announces ("season the salad: put the salt next to it"), where the words before
-    it ask for nothing that could be read, condition nothing and deny nothing; they are noted. So is
-    a sentence that says how things are outside of the scene ("I am hungry").
+    it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
 
     Raises:
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
@@ -80,33 +77,54 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     words = words_in(normalized(said[1])) if said else ()
     if said is None or not words or _DEPENDING & {*words}:
         raise UnreadableError(instruction, "")
-    doing = VERB_WORDS | OTHER_VERBS
-    called = {singular(word) for word in vocabulary.words()}.difference(DESK_NOUNS)
-    named = any(singular(word) in called or is_category(word) for word in words)
-    heading = said[2] == ":" and (words[0] in doing or words[0] not in OPENING_WORDS)
-    below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[3])))}
-    speaks = (_REFERRING if named else _SWEEPING) & below and (named or {*DESK_NOUNS} & {*words})
-    if speaks or not (heading or (not named and _STATED.search(" ".join(words)))):
-        raise UnreadableError(said[3], "")
-    goal = _read(said[3], scene, vocabulary)
-    kind = "a heading: what stands below it" if heading else "not asked for: the rest"
-    note = f"{said[1].strip()!r} is {kind} is done"
+    on_desk = bool({*DESK_NOUNS} & {*words})
+    named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
+    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in OPENING_WORDS
+    below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[2])))}
+    if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
+        raise UnreadableError(said[2], "")
+    goal = _read(normalized(said[2]), scene, vocabulary)
+    note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))
 
 
-def _read(
-    instruction: str, scene: SceneState, vocabulary: Vocabulary, *, common: bool = False
-) -> Goal:
-    """The goal; slips of the pen in words that stand in no scene are put right where ``common``."""
-    found = read(vocabulary.joined(normalized(instruction)), vocabulary.words(), common=common)
+def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is asked for beside reasons and remarks, which are noted.
+
+    Raises:
+        UnreadableError, ReferenceProblem: there are none, or the rest is not read.
+    """
+    plain = without_asides(normalized(instruction), partial(_is_name, vocabulary=vocabulary))
+    if plain is None:
+        raise UnreadableError(instruction, "")
+    goal = _read(plain.text, scene, vocabulary)
+    written = (re.search(re.escape(aside), instruction, re.IGNORECASE) for aside in plain.asides)
+    said = (
+        found[0] if found else aside for found, aside in zip(written, plain.asides, strict=True)
+    )
+    notes = (f"{text!r} is not asked for: the rest is done" for text in said)
+    return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _is_name(word: str, vocabulary: Vocabulary) -> bool:
+    """Whether something in the scene is called by a word."""
+    called = (*DESK_NOUNS, *map(singular, vocabulary.words()))
+    return is_category(word) or singular(word) in called
+
+
+def _read(text: str, scene: SceneState, vocabulary: Vocabulary, *, common: bool = False) -> Goal:
+    """The goal of normalized text; slips of the pen in words that stand in no scene are put right
+    where ``common``.
+    """
+    found = read(vocabulary.joined(text), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
-    return replace(goal, notes=(*slips, *goal.notes, *_said_with_more(instruction, goal)))
+    return replace(goal, notes=(*slips, *goal.notes, *_said_with_more(text, goal)))
 
 
-def _said_with_more(instruction: str, goal: Goal) -> Iterator[str]:
+def _said_with_more(text: str, goal: Goal) -> Iterator[str]:
     """What words that ask for more than any skill does were taken for."""
-    words = " ".join(["", *re.findall(r"\w+", normalized(instruction)), ""])
+    words = " ".join(["", *re.findall(r"\w+", text), ""])
     for patterns, step, why in (
         (manner.ALL_THE_WAY, Open, f"what is open is so to {OPEN_AT:.0%} of its travel or more"),
         (verbs.TO_SOMEBODY, Pick, verbs.HELD_UP),
@@ -166,7 +184,7 @@ def _fits(text: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
 
 def _reads(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
     try:
-        _read(instruction, scene, vocabulary)
+        _read(normalized(instruction), scene, vocabulary)
     except (UnreadableError, ReferenceProblem):
         return False
     return True

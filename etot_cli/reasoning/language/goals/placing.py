@@ -9,9 +9,11 @@ from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation
 from etot_cli.reasoning.builtin.relations import can_topple, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, ReorientClause
 from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
 
 
@@ -155,6 +157,27 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
         before = index
 
 
+def where_is(context: Context, where: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
+    """In or on what something is, or will be by then.
+
+    Raises:
+        ReferenceProblem: it is on the desk, where no other thing fits, or where is not known.
+    """
+    (phrase,) = where.targets
+    steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
+    found: set[tuple[Place, ...]] = set()
+    moved = {index for step in steps for index in step.what}
+    still = {*range(len(context.discourse.referents))} - moved if phrase.pronoun else set()
+    for index in context.phrases.refer(phrase, Role.ANY, [*{*themes} | still]):
+        put = [step.places for step in steps if index in step.what]
+        found.add(put[-1] if put else context.source((index,)))
+    (places, *others) = found
+    held = [place.where for place in places if place.where is not None and not place.beside]
+    if others or len(held) != 1 or context.discourse.is_desk(held[0]):
+        raise ReferenceProblem(where.word, REASONS["where"], 3)
+    return places
+
+
 def reorient(context: Context, clause: ReorientClause) -> None:
     """Stands up what has toppled, where it lies; any other turning is part of what follows."""
     if clause.only_named:
@@ -163,7 +186,8 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             named = (*context.phrases.things(clause.things, Role.ANY),)
         if clause.remark:
             context.discourse.remarked |= {*named}
-            context.discourse.notes.append(f"not checked: {clause.remark}")
+            if clause.remark != ASIDE:  # that is told anyway
+                context.discourse.notes.append(f"not checked: {clause.remark}")
         return
     themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:

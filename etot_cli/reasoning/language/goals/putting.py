@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.goals.placing import (
     side_by_side,
     spread,
     upright,
+    where_is,
 )
 from etot_cli.reasoning.language.goals.prohibitions import (
     avoid,
@@ -75,6 +76,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -112,6 +114,12 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         placed |= own
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
+            continue
+        if any(item.toward is Toward.WITH for item in group.destinations):
+            (at, *more) = group.destinations
+            if more or ruled_out or clause.conditions:
+                raise ReferenceProblem(at.word, REASONS["where"], 3)
+            add_put(context, themes, where_is(context, at, themes), clause.grouping)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)

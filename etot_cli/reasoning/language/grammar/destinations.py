@@ -139,6 +139,22 @@ _top_of = sequence(
     "top, surface",
     build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
+_with = spanned(
+    either(
+        sequence(
+            "with, together with",
+            phrase("it, them"),
+            build=lambda text: NounPhrase(pronoun=text, text=text),
+        ),
+        sequence(
+            "[to] where",
+            noun_phrase,
+            "(is|are) [now|standing|lying]",
+            build=lambda np: None if np.pronoun else np,
+        ),
+    ),
+    lambda text, np: Destination(Toward.WITH, (np,), text),
+)
 destination = Rule(
     either(
         INTO,
@@ -147,6 +163,7 @@ destination = Rule(
         OVER,
         _to,
         _top_of,
+        _with,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),

@@ -7,6 +7,7 @@ from functools import partial
 from operator import add
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import (
     EARLIER,
     LEAD,
@@ -170,6 +171,7 @@ _REMARK = either(
 _SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
+    sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
 _NAMED = plain(either(sequence(THINGS, build=partial(ReorientClause, only_named=True)), _SAID))
 

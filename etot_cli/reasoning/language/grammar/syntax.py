@@ -103,6 +103,8 @@ class Toward(StrEnum):
     """On what the landmark stands on."""
     HOME = "home"
     """Where it was at the start."""
+    WITH = "with"
+    """In or on what the target is in or on."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.reference.vessels import bears, goes_in, lies_on
+from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     SIDES,
@@ -88,6 +89,8 @@ class Places:
         """Alternative places."""
         places: dict[Place, None] = {}
         for destination in destinations:
+            if destination.toward is Toward.WITH:
+                raise ReferenceProblem(destination.word, REASONS["where"], 3)
             if destination.toward is Toward.HERE:
                 found = list(self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE:

@@ -9,15 +9,19 @@ WITHOUT_MEANING = """
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
-    pls, plz, thx, (would|will|could|can) you, any way you like, whichever you like,
+    pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present,
+    whichever you like,
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
-    [please and] thank you, thanks [a lot], cheers, that is all,
+    [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
     (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
     i (do not|don t) (care|mind) [which] [one], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
-    without (dropping|breaking) (it|them)
+    without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
+    (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
+    (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
+    that would be (great|nice|lovely|perfect|all), (much|very much) appreciated
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -44,8 +48,8 @@ FRAMES = f"""
 """
 ANY_MORE = "anymore, any more, any longer"
 REMARKS = """
-    (is|are) [now|already|still|all|no longer] (dirty|clean|ripe|rotten|ready|done|finished|used|
-    hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
+    (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
+    (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
     (has|have) been (used|washed|cleaned)
 """

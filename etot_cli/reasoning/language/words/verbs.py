@@ -62,7 +62,8 @@ ENSURE = """
 """
 ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up)"
 NOTHING_IS = """
-    (nothing should|nothing must|there should|there must) be (|nothing|left|nothing left) (in|on),
+    (nothing (should|must|may|is to|has to)|there should|there must) be
+    (|nothing|left|nothing left) (in|on), nothing (should|must|may) (stay|remain) (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 _BROUGHT = """
@@ -71,12 +72,12 @@ _BROUGHT = """
 """
 _BEING = "standing|lying|sitting|located|resting"
 MODAL = f"""
-    (should|must|shall) (be|end up|get|finally be|then be|go|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go),
+    (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
+    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go [back]),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
-    (is|are) supposed to be, goes, go, belong[s], live[s],
-    (can|could|may|might|will) (go|be put|be placed)
+    (is|are) supposed to be, go[es] [back], belong[s], live[s],
+    (can|could|may|might|will) (go [back]|be put|be placed)
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] be [{_BROUGHT}]"
