@@ -165,7 +165,7 @@ def _message(
     lines = [head, second]
     example = next(rewordings(refused, scene, partial(_reads, vocabulary=vocabulary)), None)
     if example is not None:
-        lines.append(f"  what would be read: {example}")
+        lines.append(f"  what would be read: {plain(example)}")
     lines.append(
         "  or write the goal as conditions under 'goal:' in the task file, or let a model read it "
         "with --reasoner vlm"

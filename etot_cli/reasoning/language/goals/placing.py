@@ -165,12 +165,14 @@ def where_is(context: Context, where: Destination, themes: Sequence[int]) -> tup
     """
     (phrase,) = where.targets
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
-    found: set[tuple[Place, ...]] = set()
-    moved = {index for step in steps for index in step.what}
-    still = {*range(len(context.discourse.referents))} - moved if phrase.pronoun else set()
-    for index in context.phrases.refer(phrase, Role.ANY, [*{*themes} | still]):
-        put = [step.places for step in steps if index in step.what]
-        found.add(put[-1] if put else context.source((index,)))
+    moved = {index: step.places for step in steps for index in step.what}
+    said = range(len(context.discourse.referents)) if phrase.pronoun else ()
+    others = [index for index in said if index not in moved]
+    found = {
+        # "With it" is with what was moved, "where it is" where something has been all along.
+        moved[index] if phrase.pronoun else () if index in moved else context.source((index,))
+        for index in context.phrases.refer(phrase, Role.ANY, [*themes, *others])
+    }
     (places, *others) = found
     held = [place.where for place in places if place.where is not None and not place.beside]
     if others or len(held) != 1 or context.discourse.is_desk(held[0]):
@@ -184,6 +186,7 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         named: tuple[int, ...] = ()
         if not (clause.remark and all(np.pronoun for np in clause.things.phrases)):
             named = (*context.phrases.things(clause.things, Role.ANY),)
+            context.discourse.is_about(named)
         if clause.remark:
             context.discourse.remarked |= {*named}
             if clause.remark != ASIDE:  # that is told anyway

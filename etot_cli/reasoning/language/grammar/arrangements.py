@@ -167,6 +167,26 @@ TOWER = either(
         build=lambda upward, things: _tower(things, upward, None),
     ),
 )
+_IN_ITS_PLACE = sequence(
+    noun_phrase,
+    "[to] where",
+    noun_phrase,
+    "(is|are|was|were) [now|before]",
+    build=lambda one, other: (one, other),
+)
+
+
+def _exchanged(
+    there: tuple[NounPhrase, NounPhrase], back: tuple[NounPhrase, NounPhrase]
+) -> SwapClause | None:
+    """Of two things each goes where the other is; "the green one" takes up the other's noun."""
+    alike = all(
+        one.words == other.words or (other.head == "one" and one.words[:-1] == other.words[:-1])
+        for one, other in zip(there, back[::-1], strict=True)
+    )
+    return SwapClause(Things(there), back=back) if alike else None
+
+
 SWAP = either(
     sequence(
         verbs.SET_DOWN,
@@ -178,7 +198,14 @@ SWAP = either(
         build=lambda new, old: SwapClause(Things((old, new)), replaces=True),
     ),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
-    sequence(THINGS, verbs.CHANGE_PLACES, build=SwapClause),
+    sequence(optional("have, let, make"), THINGS, verbs.CHANGE_PLACES, build=SwapClause),
+    sequence(verbs.SET_DOWN, _IN_ITS_PLACE, "and", _IN_ITS_PLACE, build=_exchanged),
+    sequence(
+        verbs.SET_DOWN,
+        _IN_ITS_PLACE,
+        "and vice versa, and the other way (round|around)",
+        build=lambda pair: SwapClause(Things(pair)),
+    ),
     sequence(
         one_of({False: "swap[ping], exchang(e|ing), switch[ing]", True: "replac(e|ing)"}),
         noun_phrase,

@@ -69,7 +69,8 @@ WANTED = either(
         build=put_to,
     ),
     sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
-    sequence(ALL_THINGS, verbs.MODAL, SOURCE, build=RemoveClause),
+    sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}", SOURCE, build=RemoveClause),
+    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
     sequence(verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=PickClause),
 )
 AGAIN = either(

@@ -92,7 +92,10 @@ KEEP_STILL = either(
     sequence(_EVERYTHING_ELSE, _STAYS, build=lambda: AvoidClause(Avoid.MOVE, None)),
     sequence(
         # After "the cups" rather one of them that is left out.
-        either(sequence(verbs.KEEP, THINGS, manner.AS_IT_IS), sequence("leav(e|ing)", THINGS)),
+        either(
+            sequence(verbs.KEEP, THINGS, manner.AS_IT_IS),
+            sequence("leav(e|ing), ignore, ignoring", THINGS),
+        ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
     ),
     sequence(

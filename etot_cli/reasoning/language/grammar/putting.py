@@ -108,7 +108,7 @@ def _quantified(things: Things, said: str) -> Things | None:
 
 
 PUT_GROUP = sequence(
-    either(THINGS, sequence(THINGS, phrase("both, all, each"), build=_quantified)),
+    either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
     _ASIDE,
     optional("somewhere, anywhere"),
@@ -116,7 +116,7 @@ PUT_GROUP = sequence(
     build=lambda things, upright, where: PutGroup(things, where, upright),
 )
 _BROUGHT = either(
-    sequence(verbs.PUT, THINGS),
+    sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
     sequence(verbs.WANT, ALL_THINGS),
     sequence(ALL_THINGS, verbs.MODAL),
 )

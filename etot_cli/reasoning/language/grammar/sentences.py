@@ -51,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     ReorientClause,
     State,
     Things,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import pronouns
@@ -219,7 +220,13 @@ _WITH_MORE_BEFORE_IT = either(
     sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
     sequence(verbs.TIDY, _NAMED, COMMA, _PLACED, build=_sorted),
     plain(IF_NOT_SO),
-    sequence("with", plain(SO), COMMA, valued(CHAIN, _then), build=add),
+    sequence(
+        "with",
+        plain(either(SO, sequence(ALL_THINGS, optional(verbs.BE), DESTINATIONS, build=put_to))),
+        COMMA,
+        valued(CHAIN, _then),
+        build=add,
+    ),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),

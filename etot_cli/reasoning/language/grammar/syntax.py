@@ -280,6 +280,8 @@ class SwapClause:
 
     things: Things
     replaces: bool = False
+    back: tuple[NounPhrase, ...] = ()
+    """The same things, where it is said again which one goes back where."""
 
 
 @dataclass(frozen=True, slots=True)

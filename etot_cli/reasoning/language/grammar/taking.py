@@ -107,6 +107,13 @@ REMOVE = either(
     sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
     sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
+    sequence(
+        "clear[ing], empty[ing], rid",
+        noun_phrase,
+        "of",
+        THINGS,
+        build=lambda source, things: RemoveClause(things, source),
+    ),
 )
 
 

@@ -42,7 +42,7 @@ _CLITICS = (
     (r"\bdoesn't\b", "does not"),
     (r"\b(is|are)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
-    (r"\bi'd\b", "i would"),
+    (r"\b(i|it)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
@@ -81,6 +81,7 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
+    text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return re.sub(r"[^\S\n]+", " ", text).strip()

@@ -179,6 +179,15 @@ class Discourse:
         noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
         self.mentions.append(Mention(referent, role, self.clause, noun))
 
+    def is_about(self, topic: Collection[int]) -> None:
+        """Of what a clause mentions "it" is what that is about, rather than what tells where."""
+        self.mentions[:] = [
+            replace(mention, role=Role.THEME)
+            if mention.referent in topic and mention.clause == self.clause
+            else mention
+            for mention in self.mentions
+        ]
+
     def step_back(self, first: int, meant: Collection[int] = ()) -> None:
         """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is, what
         was ``meant`` rather than what that was told by.

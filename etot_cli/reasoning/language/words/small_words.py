@@ -38,7 +38,9 @@ FRAMES = f"""
     i would like [that you], i want, let us, try to, please to, [your|the] (task|goal|job) ~comma,
     the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
-    how about, your job is, it is time to,
+    (how|what) about, why do not you, i (wonder|was wondering) if you could,
+    (would|is) it [be] possible to, it would be (good|great|nice|better) to,
+    i ask you to, your job is, it is time to,
     i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
@@ -64,16 +66,20 @@ SAME_AGAIN = """
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
     first, before anything else, firstly, first of all, to begin with, to start with,
-    [as a|the] first step [is to], first things first
+    (start|begin) [off] by,
+    [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = """
     finally, lastly, last, last of all, at the end, in the end, last but not least,
-    [as a|the] (last|final) step [is to]
+    [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
+    (finish|end) [up|off] by
 """
 LEADING_THEN = """
     then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
-    after doing so, [the|as a] (next|second|third|fourth) step [is to],
+    after doing so,
+    [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
+    the (next|second|third|fourth) is to,
     once (that is done|done|you are done), when done, and then, subsequently, later
 """
 TRAILING_FIRST = "first, before, beforehand, before that, before anything else"

@@ -109,6 +109,7 @@ DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
+COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|are to] come[s]"
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
@@ -123,7 +124,7 @@ BUILD = "build[ing], mak(e|ing), creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
-    (swap|exchange|switch) the (places|positions) of
+    (swap|exchange|switch|trade|change) [the] (places|positions) of
 """
 CHANGE_PLACES = """
     [should|must|shall|have to|need to|are to] (change|swap|switch|trade|exchange)
