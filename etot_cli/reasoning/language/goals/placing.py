@@ -167,11 +167,11 @@ def where_is(context: Context, where: Destination, themes: Sequence[int]) -> tup
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
     moved = {index: step.places for step in steps for index in step.what}
     said = range(len(context.discourse.referents)) if phrase.pronoun else ()
-    others = [index for index in said if index not in moved]
+    still = [index for index in said if index not in moved]
     found = {
         # "With it" is with what was moved, "where it is" where something has been all along.
         moved[index] if phrase.pronoun else () if index in moved else context.source((index,))
-        for index in context.phrases.refer(phrase, Role.ANY, [*themes, *others])
+        for index in context.phrases.refer(phrase, Role.ANY, [*themes, *still])
     }
     (places, *others) = found
     held = [place.where for place in places if place.where is not None and not place.beside]
