@@ -27,7 +27,9 @@ _BECAUSE = "because|since|as|now that|in case"
 _LEADING = re.compile(rf"^(?:{_BECAUSE}|while) (?P<said>[^~]+) {COMMA} (?:so )?(?P<rest>.+)$")
 _TRAILING = re.compile(
     rf"^(?P<rest>.+?) (?:{COMMA} )?(?P<said>(?:because|since|now that|in case|before) [^~]+"
-    r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+|for (?:later|(?!me)\w+ing|\w+ time))$"
+    r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+"
+    r"|so (?:that )?nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|\w+ed)"
+    r"|for (?:later|(?!me)\w+ing|\w+ time))$"
 )
 _THEREFORE = re.compile(
     rf"^(?P<said>[^~]+?) (?:(?:{COMMA} )?(?:and |that is )?(?:so|therefore|hence|why)|{COMMA}) "
@@ -43,7 +45,8 @@ _PERSON = re.compile(
     rf"^(?:but |and )?{_PEOPLE} (?:just |already |also |really |always )*(?P<did>.+)$"
 )
 _HAPPENED = re.compile(
-    r"^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
+    r"^can not (?:reach|see|find|get at|get to)\b"
+    r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
     r"|^(?:have|has|had|am|are|is|was|were|likes?|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|will be|hope|think|know|"
     r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
@@ -120,12 +123,11 @@ def _tells(said: str, is_name: Callable[[str], bool]) -> bool:
     words = said.split()
     person = _PERSON.match(said)
     if person:
-        did = person["did"].split()
         happened = _HAPPENED.match(person["did"])
         if happened is None:
             return False
+        did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith(" to "):
-            did = person["did"].removeprefix(happened[0]).split()
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((_DOING | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))

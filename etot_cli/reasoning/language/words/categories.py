@@ -134,11 +134,16 @@ SORTS: dict[str, frozenset[str]] = {
     "literature": _READING,
 }
 """Category words, several for one thing, with the nouns of what counts among it."""
-PACKED = _DRINKS | _SPICES | _SAUCES | _SWEETS | _OTHER_FOOD | _FRUIT | _VEGETABLES | _TOILETRIES
+_SUPPLIES = word_set(
+    "glue paint ink oil grease flux solder varnish acetone ethanol detergent bleach polish wax"
+)
+PACKED = frozenset().union(
+    *(_DRINKS, _SPICES, _SAUCES, _SWEETS, _OTHER_FOOD, _FRUIT, _VEGETABLES, _TOILETRIES, _SUPPLIES)
+)
 """What :data:`PACKS` of it are still called by (a milk carton is among "the drinks")."""
-_POURED = word_set(
-    "shampoo conditioner lotion toothpaste perfume detergent bleach glue oil honey soup sugar flour"
-).union(_DRINKS, _SPICES, _SAUCES)
+_POURED = word_set("shampoo conditioner lotion toothpaste perfume honey soup sugar flour").union(
+    _SUPPLIES, _DRINKS, _SPICES, _SAUCES
+)
 """What comes out of its pack bit by bit: without an article some of it is meant, not the pack."""
 _KEEPING = word_set("basket hamper crate box bin bag tray rack cooler caddy cart sink trash can")
 """Where packs are kept or carried as they are: nobody pours ketchup into a basket."""

@@ -144,6 +144,7 @@ DESK_NOUNS = (
     "desktop",
     "worktop",
     "workbench",
+    "bench",
     "counter",
     "countertop",
     "surface",

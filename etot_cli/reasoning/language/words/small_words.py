@@ -10,7 +10,7 @@ WITHOUT_MEANING = """
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
     pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present,
-    whichever you like,
+    whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
@@ -53,6 +53,8 @@ REMARKS = """
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
     (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
+    (is|are|stands|lies) in (my|the) way, (need|needs) (washing|cleaning|a wash),
+    (takes|take) up too much (space|room),
     (has|have) been (used|washed|cleaned)
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
