@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
-from etot_cli.reasoning.builtin.goal import Pick, Place, Put, things_in
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
@@ -28,6 +29,16 @@ def check_taken(
         isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
         for step in context.done[-1:]
     ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
+    where = {place.where for place in places if place.where is not None}
+    reached = {*context.discourse.things(*where)}
+    for phrase in group.things.phrases:
+        out = (np for item in phrase.modifiers if item.prep is Prep.FROM for np in item.phrases)
+        for np in out:
+            left: set[Thing] = set()
+            with suppress(ReferenceProblem):
+                left = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
+            if reached & left:
+                raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
     for phrase in (np for item in group.destinations for np in item.targets):
         told = any(HERE_BEFORE in item.words for item in phrase.modifiers)
         if not taken or told or not phrase.is_elliptic:

@@ -45,7 +45,7 @@ _PERSON = re.compile(
     rf"^(?:but |and )?{_PEOPLE} (?:just |already |also |really |always )*(?P<did>.+)$"
 )
 _HAPPENED = re.compile(
-    r"^can not (?:reach|see|find|get at|get to)\b"
+    r"^(?:can not (?:reach|see|find|get at|get to)|do not need)\b"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
     r"|^(?:have|has|had|am|are|is|was|were|likes?|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|will be|hope|think|know|"
@@ -115,6 +115,8 @@ def _parted(sentence: str, is_name: Callable[[str], bool]) -> tuple[str, str, st
         asked = _ASKED.search(found["said"])
         if not asked and not (named and found["said"].startswith(("before", "for"))):
             sentence, after = found["rest"], found["said"]
+    elif _tells((last := sentence.rpartition(f" {COMMA} "))[2], is_name):
+        sentence, after = last[0], last[2]
     return before, sentence, after
 
 

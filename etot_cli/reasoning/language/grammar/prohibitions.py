@@ -94,7 +94,7 @@ KEEP_STILL = either(
         # After "the cups" rather one of them that is left out.
         either(
             sequence(verbs.KEEP, THINGS, manner.AS_IT_IS),
-            sequence("leav(e|ing), keep[ing], ignore, ignoring", THINGS),
+            sequence("leav(e|ing), keep[ing], ignore, ignoring", THINGS, optional("out")),
         ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
     ),

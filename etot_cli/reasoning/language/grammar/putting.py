@@ -107,13 +107,19 @@ def _quantified(things: Things, said: str) -> Things | None:
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
 
+def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
+    """Things and where they go; "everything back" is what has been there, which nobody knows."""
+    sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
+    return None if how == "back" and sweeping else PutGroup(things, where, how is True)
+
+
 PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
-    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE, False)), False),
+    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
     _ASIDE,
     optional("somewhere, anywhere"),
     WHERE,
-    build=lambda things, upright, where: PutGroup(things, where, upright),
+    build=_group,
 )
 _BROUGHT = either(
     sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
@@ -346,5 +352,8 @@ PUT = either(
         )
     ),
 )
-VERBLESS = sequence(PUT_GROUPS, EXTRAS, build=put_of)
+VERBLESS = either(
+    sequence(PUT_GROUPS, EXTRAS, build=put_of),
+    sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+)
 """Places for things without a word for doing; only whole sentences are so."""

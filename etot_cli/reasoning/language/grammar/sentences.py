@@ -51,10 +51,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     ReorientClause,
     State,
     Things,
+    Toward,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
-from etot_cli.reasoning.language.grammar.trees import pronouns
+from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -140,7 +141,7 @@ def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
 
 
 _NOT_THIS = sequence(
-    "instead of, rather than", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
+    "instead of, rather than, not", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
 )
 
 
@@ -166,6 +167,7 @@ _STATED = either(
 """How things are, said of them before something is asked of them."""
 _REMARK = either(
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(ALL_THINGS, "is too, are too", silent(WORDS)),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
 )
@@ -180,7 +182,8 @@ _NAMED = plain(either(sequence(THINGS, build=partial(ReorientClause, only_named=
 def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
-    return (*topic, *rest) if remark or any(pronouns(rest[0].clause)) else None
+    therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
+    return (*topic, *rest) if remark or therein or any(pronouns(rest[0].clause)) else None
 
 
 def _sorted(topic: Reading, rest: Reading) -> Reading | None:

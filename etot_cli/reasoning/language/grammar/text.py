@@ -35,6 +35,10 @@ _NOTHING_ELSE = re.compile(
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
+_STATES = (
+    "open|closed|shut|empty|full|dirty|clean|ready|broken|fine|on|in|too|not|now|still|already|done"
+)
+"""What "the door's" is followed by where it is no possessive."""
 _CLITICS = (
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
@@ -48,6 +52,7 @@ _CLITICS = (
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
     (r"\b(?:him|her)\b(?= (?:in|on|next|down|back|to|near|beside|behind|up)|$)", "it"),
+    (rf"(?<=\w)'s(?= (?:{_STATES})\b)", " is"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )

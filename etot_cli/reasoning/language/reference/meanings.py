@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
+from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
@@ -64,6 +64,19 @@ class Meanings:
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
+        noun = self.discourse.last_noun(role)
+        try:
+            return self._meaning(phrase, role, noun)
+        except ReferenceProblem:
+            # "Take it from the basket and put it on the others": those of its kind.
+            moved = self.discourse.last_noun(Role.THEME)
+            plain = usual_form(phrase)
+            bare = not (plain.words or plain.pronoun) and quantity_of(plain.determiner).other
+            if not bare or moved in (None, noun):
+                raise
+            return self._meaning(phrase, role, moved)
+
+    def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
         discourse = self.discourse
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             # "One of it" is one of them.
@@ -86,7 +99,6 @@ class Meanings:
                 phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
             )
         possessor = {"its": "it", "their": "them"}.get(phrase.determiner.split(" ")[0])
-        noun_before = discourse.last_noun(role)
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
             phrase = self._possessed(phrase, pronoun, role, noun_before)

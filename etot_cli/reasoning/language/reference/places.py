@@ -321,6 +321,8 @@ class Places:
             raise ReferenceProblem(word, "say on top of what", 2)
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
         place = latest_place(discourse, relation, themes, word)
+        if word == "on top" and place in discourse.last_places:
+            raise ReferenceProblem(word, "say on top of what", 2)  # of that, or of what is there
         if relation is Relation.INSIDE or place.where is None:
             out = {thing for index in themes for thing in discourse.left_out.get(index, ())}
             if place.where is not None and out.issuperset(discourse.things(place.where)):

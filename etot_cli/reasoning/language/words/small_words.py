@@ -4,7 +4,7 @@ from __future__ import annotations
 
 WITHOUT_MEANING = """
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
-    also, too, as well, just, simply, now,
+    also, too, as well, just, simply, now, though,
     again,
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
@@ -53,8 +53,9 @@ REMARKS = """
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
     (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
-    (is|are|stands|lies) in (my|the) way, (need|needs) (washing|cleaning|a wash),
-    (takes|take) up too much (space|room),
+    (is|are|stands|lies) in (my|the) way,
+    (is|are) (fine|good|ok|okay|alright) [there|where (it is|they are)],
+    (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (has|have) been (used|washed|cleaned)
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""

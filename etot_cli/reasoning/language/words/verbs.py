@@ -4,8 +4,8 @@ from __future__ import annotations
 
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
-    fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up], seiz(e|ing),
-    collect[ing], hand me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
+    fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
+    collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
     pass[ing] me, retriev(e|ing), gather[ing], (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have
 """
@@ -24,7 +24,7 @@ SET = """
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
-    slot[ting], dump[ing], fit[ting]
+    slot[ting], fit[ting]
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
