@@ -168,14 +168,22 @@ def where_is(context: Context, where: Destination, themes: Sequence[int]) -> tup
     moved = {index: step.places for step in steps for index in step.what}
     said = range(len(context.discourse.referents)) if phrase.pronoun else ()
     still = [index for index in said if index not in moved]
-    found = {
-        # "With it" is with what was moved, "where it is" where something has been all along.
-        moved[index] if phrase.pronoun else () if index in moved else context.source((index,))
-        for index in context.phrases.refer(phrase, Role.ANY, [*themes, *still])
-    }
-    (places, *others) = found
-    held = [place.where for place in places if place.where is not None and not place.beside]
-    if others or len(held) != 1 or context.discourse.is_desk(held[0]):
+    was = where.word.split()[-1] in ("was", "were", "before")
+
+    def at(index: int) -> tuple[Place, ...]:
+        if phrase.pronoun:
+            return moved.get(index, ())
+        if was is not (index in context.discourse.put):
+            return ()  # where something was is free only once it has gone
+        if was:
+            things = context.only(index, REASONS["where"])
+            return tuple(dict.fromkeys(map(context.home, things)))
+        return context.source((index,))
+
+    (places, *others) = {*map(at, context.phrases.refer(phrase, Role.ANY, [*themes, *still]))}
+    held = [place.where for place in places if place.where is not None]
+    occupied = any(place.beside for place in places) or any(map(context.discourse.is_desk, held))
+    if others or len(held) != 1 or (occupied and not was):
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     return places
 

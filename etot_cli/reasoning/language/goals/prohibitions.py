@@ -177,10 +177,13 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     indices = context.phrases.things(clause.things, Role.THEME, before)
     places = rule_out(context, indices, clause.destinations)
     context.discourse.last_places = places
-    marks = context.discourse.things(*(p.where for p in places if p.where is not None))
-    for thing in context.discourse.things(*indices) if clause.not_left else ():
-        if any(m.name != DESK and touches(thing, m, context.scene) for m in marks):
-            index = context.single(thing, thing.name)
+    where = context.discourse.things(*(p.where for p in places if p.where is not None))
+    marks = [thing for thing in where if thing.name != DESK]
+    for at in indices if clause.not_left else ():
+        things = context.discourse.things(at)
+        there = [t for t in things if any(touches(t, m, context.scene) for m in marks)]
+        whole = len(context.discourse.referents[at].options) == 1 and len(there) == len(things)
+        for index in (at,) if whole else (context.single(thing, thing.name) for thing in there):
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
 

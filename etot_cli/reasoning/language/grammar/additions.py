@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import SO, state_of
+from etot_cli.reasoning.language.grammar.states import SO, all_of, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
@@ -54,6 +54,7 @@ EXTRA = sequence(
             build=lambda words: ("apart", words),
         ),
         phrase("each, apiece", ("apart", ())),
+        sequence(phrase("all, both"), "of them", build=lambda said: ("whole", said)),
         phrase(manner.NOT_BOTH, ("one", ())),
         sequence(
             either(
@@ -104,6 +105,12 @@ def put_of(
         if more or only is None:
             return None
         groups = only
+    for whole in (item[1] for item in said if item[0] == "whole"):
+        things = groups[0].things
+        nps = all_of(things.phrases, whole)
+        if (nps == things.phrases and not nps[1:]) or groups[1:]:
+            return None
+        groups = (replace(groups[0], things=replace(things, phrases=nps)),)
     if "upright" in named:
         groups = tuple(replace(group, upright=True) for group in groups)
     return PutClause(

@@ -149,7 +149,7 @@ _with = spanned(
         sequence(
             "[to] where",
             noun_phrase,
-            "(is|are) [now|standing|lying]",
+            "(is|are) [now|standing|lying], (was|were) [before]",
             build=lambda np: None if np.pronoun else np,
         ),
     ),

@@ -57,6 +57,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -190,9 +191,19 @@ def _sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     put = rest[0].clause
     told = isinstance(put, PutClause) and all(
-        np.is_elliptic for group in put.groups for np in group.things.phrases
+        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
+        for group in put.groups
+        for np in group.things.phrases
     )
     return (*topic, *rest) if told else None
+
+
+def _shared_out(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things are taken, and each of them goes somewhere of its own."""
+    clause = topic[0].clause
+    nps = clause.things.phrases if isinstance(clause, ReorientClause) else ()
+    several = len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
+    return _sorted(topic, rest) if several else None
 
 
 def _set_down(topic: Reading, rest: Reading) -> Reading | None:
@@ -222,6 +233,13 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
     sequence(verbs.TIDY, _NAMED, COMMA, _PLACED, build=_sorted),
+    sequence(
+        "tak(e|ing), get[ting], grab[bing], pick[ing] up",
+        _NAMED,
+        "and, and then, ~comma and",
+        CHAIN,
+        build=_shared_out,
+    ),
     plain(IF_NOT_SO),
     sequence(
         "with",

@@ -133,7 +133,8 @@ def _tidied(verb: str, things: Things, where: Any) -> PutClause:
     """Who tidies a place brings away what is there; several things are tidied away themselves."""
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
-    return replace(put_to(things, where), far_fetched=0 if things_said else 1)
+    cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
+    return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
 EMPTY = either(

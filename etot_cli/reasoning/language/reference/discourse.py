@@ -220,7 +220,7 @@ class Discourse:
         found: dict[Thing, None] = {}
         for mention in self.mentions:
             options = self.referents[mention.referent].options
-            said = mention.noun.split("_")  # "vial C" is a noun of one label
+            said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
             alike = mention.referent in self.put or any(
                 same_noun(word, noun or "") for word in said
             )

@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
     THING_NOUNS,
+    head_of,
     is_descriptive,
     matches_any,
     same_noun,
@@ -64,17 +65,16 @@ class Meanings:
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
-        noun = self.discourse.last_noun(role)
-        try:
-            return self._meaning(phrase, role, noun)
-        except ReferenceProblem:
-            # "Take it from the basket and put it on the others": those of its kind.
-            moved = self.discourse.last_noun(Role.THEME)
-            plain = usual_form(phrase)
-            bare = not (plain.words or plain.pronoun) and quantity_of(plain.determiner).other
-            if not bare or moved in (None, noun):
-                raise
-            return self._meaning(phrase, role, moved)
+        noun, moved = self.discourse.last_noun(role), self.discourse.last_noun(Role.THEME)
+        plain = usual_form(phrase)
+        bare = plain.words in ((), ("one",)) and not plain.pronoun
+        if bare and quantity_of(plain.determiner).other and role is not Role.ANY:
+            # After "crate A" "the other one" is another crate; "take it from the basket and put it
+            # on the others" speaks of those of its kind.
+            for other in filter(None, dict.fromkeys((noun, head_of(noun or ""), moved))):
+                with suppress(ReferenceProblem):
+                    return self._meaning(phrase, role, other)
+        return self._meaning(phrase, role, noun)
 
     def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
         discourse = self.discourse

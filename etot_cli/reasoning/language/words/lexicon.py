@@ -266,6 +266,11 @@ def singular(word: str) -> str:
     return word
 
 
+def head_of(noun: str) -> str:
+    """The noun in one of several words: "crate" in "crate_a", "carton" in "carton_of_milk"."""
+    return re.sub(r"_(?:(?:of|with|for)_.*|\w|\d+)$", "", noun).rpartition("_")[2]
+
+
 def same_noun(first: str, second: str) -> bool:
     """Whether two words are the same noun, apart from number."""
     return first == second or singular(first) == singular(second)
