@@ -48,7 +48,7 @@ _HAPPENED = re.compile(
     r"^(?:can not (?:reach|see|find|get at|get to)|do not need)\b"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
     r"|^(?:have|has|had|am|are|is|was|were|likes?|loves?|hates?|broke|bought|left|made|forgot|lost|"
-    r"found|got|did|went|came|ate|drank|saw|spilt|felt|will be|hope|think|know|"
+    r"found|got|did|went|came|ate|drank|saw|spilt|felt|will (?:be|need)|hope|think|know|"
     r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
 )
 """What somebody did, is or is about to do."""

@@ -66,6 +66,12 @@ def _away(text: str, things: Things) -> PutClause:
 
 
 _THEREIN = valued(phrase(places.THEREIN), lambda text: Destination(Toward.HERE, word=text))
+_INSERTED = sequence(
+    "insert[ing]",
+    THINGS,
+    build=lambda things: put_to(things, (Destination(Toward.HERE, word="in"),)),
+)
+"""Into what was opened or named before."""
 THROWN = quiet(
     either(
         sequence(
@@ -267,6 +273,10 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
+def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
+    return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
+
+
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(
@@ -290,6 +300,12 @@ PUT = either(
         build=lambda np, things, said: put_to(
             things, (Destination(Toward.TO, all_of((np,), said)),)
         ),
+    ),
+    sequence(
+        # "Box A gets the cup and box B the plate"
+        sequence(noun_phrase, verbs.RECEIVE, noun_phrase, build=_received),
+        some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
+        build=lambda first, more: PutClause((first, *more)),
     ),
     sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(
@@ -317,6 +333,7 @@ PUT = either(
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
     THROWN,
+    _INSERTED,
     sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.

@@ -48,6 +48,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
     PutClause,
+    RemoveClause,
     ReorientClause,
     State,
     Things,
@@ -57,7 +58,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -158,7 +161,24 @@ def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
     return None if articled else EnsureClause((State(nps, word=word),))
 
 
-_PLACED = plain(VERBLESS)
+def _topic(things: Things) -> ReorientClause | None:
+    """What is named; "milk out of the fridge" rather says what is to be done."""
+    return None if _sources(things) else ReorientClause(things, only_named=True)
+
+
+def _sources(things: Things) -> list[Modifier]:
+    """What says of a thing where it is taken from."""
+    return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
+
+
+def _taken_out(things: Things) -> RemoveClause | None:
+    """What is taken from somewhere, without a verb."""
+    all_of_them = len(_sources(things)) == len(things.phrases)
+    doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
+    return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
+
+
+_PLACED = plain(either(VERBLESS, sequence(ALL_THINGS, build=_taken_out)))
 _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
 _STATED = either(
@@ -177,7 +197,9 @@ _SAID = either(
     spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
     sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
-_NAMED = plain(either(sequence(THINGS, build=partial(ReorientClause, only_named=True)), _SAID))
+
+
+_NAMED = plain(either(sequence(THINGS, build=_topic), _SAID))
 
 
 def _about(topic: Reading, rest: Reading) -> Reading | None:

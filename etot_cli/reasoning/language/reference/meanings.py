@@ -67,7 +67,7 @@ class Meanings:
         """What a phrase means, without speaking of it."""
         noun, moved = self.discourse.last_noun(role), self.discourse.last_noun(Role.THEME)
         plain = usual_form(phrase)
-        bare = plain.words in ((), ("one",)) and not plain.pronoun
+        bare = plain.head in ("", "one", "ones") and not plain.pronoun
         if bare and quantity_of(plain.determiner).other and role is not Role.ANY:
             # After "crate A" "the other one" is another crate; "take it from the basket and put it
             # on the others" speaks of those of its kind.

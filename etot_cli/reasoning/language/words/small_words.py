@@ -9,7 +9,7 @@ WITHOUT_MEANING = """
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
-    pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present,
+    pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
     whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],

@@ -47,7 +47,7 @@ TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
 REMOVE = """
-    remov(e|ing), clear[ing] away, extract[ing], tak(e|ing) (out|off|away|down),
+    remov(e|ing), clear[ing] away, bring[ing] down, extract[ing], tak(e|ing) (out|off|away|down),
     get[ting] (out|down), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
