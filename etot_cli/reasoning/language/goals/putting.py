@@ -305,15 +305,21 @@ def remove(context: Context, clause: RemoveClause) -> None:
 def _shared(
     context: Context, group: PutGroup, themes: Sequence[int], grouping: Grouping
 ) -> tuple[PutGroup, Grouping]:
-    """Several things into "the same cup": together in any, unless one was spoken of before."""
+    """Several things into "the same cup" or "one cup": together in any, unless the same was spoken
+    of before.
+    """
     several = len([thing for i in themes for thing in context.discourse.referents[i].options[0]])
+    each = {"each", "every"} & {*group.things.phrases[0].determiner.split()}
     destinations = []
     for item in group.destinations:
         targets = []
         for target in item.targets:
-            same = "same" in target.determiner.split()
+            said = {*target.determiner.split()}
             role = Role.CONTAINER if item.toward is Toward.INSIDE else Role.PLACE
-            if same and several > 1 and context.phrases.spoken_of(target, role, themes) is None:
+            if said & {"one", "single"} and grouping is Grouping.ANY and several > 1 and not each:
+                grouping = Grouping.TOGETHER
+            same = "same" in said and several > 1
+            if same and context.phrases.spoken_of(target, role, themes) is None:
                 target = replace(target, determiner="one")
                 grouping = Grouping.TOGETHER
             targets.append(target)

@@ -8,7 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.coordination import coordinated
-from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, after, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -225,7 +225,9 @@ WHERE = Rule(
         sequence(
             DESTINATIONS,
             OPTIONAL_COMMA,
-            f"{nouns.CONTRAST}, anywhere (but|except)",
+            either(
+                f"{nouns.CONTRAST}, anywhere (but|except)", sequence(after("anywhere"), "except")
+            ),
             separated(destination, "or, nor", most=3),
             build=lambda where, out: (*where, *_denied(out)),
         ),

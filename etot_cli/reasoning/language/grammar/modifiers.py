@@ -184,7 +184,7 @@ _none_of = valued(
 )
 
 
-def _after(*said: str) -> Parser:
+def after(*said: str) -> Parser:
     """Nothing, where any of some words was said before."""
     return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
 
@@ -254,7 +254,7 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
 
 CONTRASTED = quiet(
     sequence(
-        either(nouns.CONTRAST, sequence(_after("rather", "prefer"), "than")),
+        either(nouns.CONTRAST, sequence(after("rather", "prefer"), "than")),
         separated(noun_phrase, "or, nor", most=3),
         build=_contrasted,
     )
@@ -305,7 +305,7 @@ _modifier = either(
         either(
             sequence("[and] not", PLAIN_MODIFIER),
             sequence("and not", QUALITY),
-            sequence(_after("not", "neither"), "nor", either(PLAIN_MODIFIER, QUALITY)),
+            sequence(after("not", "neither"), "nor", either(PLAIN_MODIFIER, QUALITY)),
         ),
         build=_denied,
     ),

@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import nouns, small_words
 from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
     COMMON_NOUNS,
     LEVELS,
     NUMBERS,
@@ -129,6 +130,8 @@ _ANY_ONE = either("one, of them", silent(NOUN_WORD))
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
 _COLORED = valued(_DESCRIPTIVE, lambda text: Modifier(Prep.QUALITY, words=(text,)))
+_LEVEL = word(lambda given, text: text in LEVELS)
+_PART_NOUN = word(lambda given, text: text in (*BOARD_NOUNS, "drawer"))
 _OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
 noun_phrase.define(
     spanned(
@@ -244,6 +247,18 @@ noun_phrase.define(
                 MODIFIERS,
                 build=lambda det, owner, words, mods: NounPhrase(
                     "the", words, mods, owner=NounPhrase(det, owner, text=" ".join(owner))
+                ),
+            ),
+            sequence(
+                # "The chest, upper drawer"
+                OPTIONAL_DETERMINER,
+                WORDS,
+                COMMA,
+                optional("[in|on|into|onto] the"),
+                sequence(_LEVEL, _PART_NOUN, build=lambda *words: words),
+                either(COMMA, at_end),
+                build=lambda det, owner, words: NounPhrase(
+                    "the", words, owner=NounPhrase(det, owner, text=" ".join(owner))
                 ),
             ),
             sequence(PRONOUN, MODIFIERS, build=_pronoun),

@@ -101,7 +101,7 @@ _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONA
 
 
 _PARTICLE = """
-    down, up, away, back, over, out, inside, somewhere, anywhere, some place,
+    down, up, away, back, over, out, inside, somewhere, anywhere, some place, out of the way,
     one (by one|at a time|after the other|after another)
 """
 
@@ -277,6 +277,12 @@ def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
 
+def _brought(things: Things, source: Any, where: tuple[Destination, ...]) -> PutGroup:
+    """Things from one place to another; "from the lower to the upper board" speaks of boards."""
+    lent = source and where[0].targets and coordinated(source, where[0].targets[:1])
+    return PutGroup(things.taken_from(lent[0] if lent else source), where)
+
+
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(
@@ -291,7 +297,7 @@ PUT = either(
         verbs.MODAL,
         SOURCE,
         DIRECTED,
-        build=lambda things, source, where: put_to(things.taken_from(source), where),
+        build=lambda *said: PutClause((_brought(*said),)),
     ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
@@ -316,7 +322,12 @@ PUT = either(
         "one (on|to) (each|either) side",
         build=lambda things, np: _flanking(things, "each", np),
     ),
-    sequence(_FIRST_THEN, verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        _FIRST_THEN,
+        either(verbs.MODAL, sequence(COMMA, verbs.PUT, "them [both|all]")),
+        DESTINATIONS,
+        build=put_to,
+    ),
     _SAID_AHEAD,
     _FRONTED,
     _FOLLOWING,
@@ -351,7 +362,7 @@ PUT = either(
                 # "Off the tray and onto the shelf"
                 optional(sequence(SOURCE, optional(LIST)), None),
                 DIRECTED,
-                build=lambda things, source, where: PutGroup(things.taken_from(source), where),
+                build=_brought,
             ),
             LIST,
             most=5,

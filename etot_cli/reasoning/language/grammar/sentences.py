@@ -213,7 +213,7 @@ def _sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     put = rest[0].clause
     told = isinstance(put, PutClause) and all(
-        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
+        np.is_elliptic or np.pronoun == "them" or np.text.split()[-1:] in (["one"], ["other"])
         for group in put.groups
         for np in group.things.phrases
     )
@@ -262,10 +262,18 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_shared_out,
     ),
+    sequence(verbs.TIDY_AWAY, _NAMED, either(COMMA, "and"), CHAIN, build=_sorted),
     plain(IF_NOT_SO),
     sequence(
         "with",
-        plain(either(SO, sequence(ALL_THINGS, optional(verbs.BE), DESTINATIONS, build=put_to))),
+        plain(
+            either(
+                SO,
+                sequence(
+                    ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
+                ),
+            )
+        ),
         COMMA,
         valued(CHAIN, _then),
         build=add,

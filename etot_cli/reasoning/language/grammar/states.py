@@ -226,6 +226,7 @@ IF_NOT_SO = quiet(
 """A sentence of its own: what follows it might be asked for in that case only."""
 _EACH = phrase("each, both, all")
 _TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
+_TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
@@ -287,7 +288,7 @@ ENSURE = either(
             *said,
             PREDICATE,
             # "…, the ball in the cup": the verb is left out.
-            some(sequence(LIST, NP_LIST, _TO_BE, PREDICATE, build=state_of), most=4),
+            some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
             build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
         )
         for said in (

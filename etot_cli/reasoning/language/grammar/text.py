@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -89,7 +89,17 @@ def normalized(text: str) -> str:
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    return re.sub(r"[^\S\n]+", " ", text).strip()
+    return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
+
+
+def _counted(text: str) -> str:
+    """With numbers for "the biggest …, the next biggest …" of one sort of things."""
+    for size in re.findall(r"\bnext (\w+est)\b", text):
+        first, *more = text.split(f" next {size}")
+        if size in SIZES and len(re.findall(rf"\b{size}\b", text)) == len(more) + 1 < 5 + 1:
+            numbered = zip(("second", "third", "fourth", "fifth"), more, strict=False)
+            text = first + "".join(f" {number} {size}{rest}" for number, rest in numbered)
+    return text
 
 
 def _listed(text: str) -> str:

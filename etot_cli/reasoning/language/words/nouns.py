@@ -30,7 +30,10 @@ GENERAL_NOUNS = """
     everything, anything, something, everything else, all else, the (rest|others|other ones),
     all (others|the others|the rest)
 """
-EXCEPT = "except [for], but not, other than, apart from, but, excluding, aside from, save [for]"
+EXCEPT = """
+    except [for], but not, other than, apart from, but, excluding, aside from, save [for],
+    [in|of] any (color|colour) (except|but|other than|apart from)
+"""
 CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, as opposed to"
 """Before what is not meant, behind what is."""
 AS_YOU_LIKE = "[that|which] you (like|want|prefer|wish|please|choose)"
