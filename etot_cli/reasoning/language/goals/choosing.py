@@ -32,16 +32,18 @@ def check_taken(
     where = {place.where for place in places if place.where is not None}
     reached = {*context.discourse.things(*where)}
     for phrase in group.things.phrases:
-        out = (np for item in phrase.modifiers if item.prep is Prep.FROM for np in item.phrases)
-        for np in out:
-            left: set[Thing] = set()
+        for prep, np in ((item.prep, np) for item in phrase.modifiers for np in item.phrases):
+            told: set[Thing] = set()
             with suppress(ReferenceProblem):
-                left = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
-            if reached & left:
+                told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
+            if prep is Prep.FROM and reached & told:
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
+            there = any(touches(one, at, context.scene) for one in told for at in reached)
+            if prep is Prep.CONTRAST and there:
+                raise ReferenceProblem(np.text, "it is there; say where that is to go", 3)
     for phrase in (np for item in group.destinations for np in item.targets):
-        told = any(HERE_BEFORE in item.words for item in phrase.modifiers)
-        if not taken or told or not phrase.is_elliptic:
+        described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
+        if not taken or described or not phrase.is_elliptic:
             continue
         for place in (place.where for place in places if place.where is not None):
             below = context.discourse.things(place)
