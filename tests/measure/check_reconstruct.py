@@ -26,6 +26,7 @@ import numpy as np
 
 from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.capture.folder import read_masks
+from etot_cli.reconstruction.masks.labels import grown
 from etot_cli.reconstruction.options import Options
 from etot_cli.reconstruction.pipeline import Twin, reconstruct
 from etot_cli.specs.bounds import DEPTH_UNIT
@@ -42,6 +43,8 @@ TITLE = "Reconstruction"
 TIME_LIMIT_S, COACD_TIME_LIMIT_S = 10.0, 30.0
 REAL = ROOT.parent / "shared" / "real" / "task5"
 RANDOM_SEEDS = range(8)
+EDGE = 3
+"""Depth is compared this far to both sides of where two things meet in the picture [px]."""
 SQUARE = ("sphere", "cylinder", "cup", "bowl")
 
 
@@ -92,11 +95,23 @@ def errors_of(scene: str, twin: Twin, folder: Path) -> tuple[list[Error], list[s
         spec = twin.document["objects"][best]
         center = 1000 * float(np.linalg.norm(solid.center - true["position"]))
         size, yaw = _size_and_yaw(solid.size, np.degrees(solid.yaw), true)
-        stacked = "on" in spec or "inside" in spec or solid.observation.complete < 0.8
+        others = [other for item, other in masks.items() if item != name]
+        stacked = "on" in spec or "inside" in spec or _covered(mask, others, twin.seen.depth)
         found.append(
             Error(scene, name, center, size, yaw, float(overlaps[best]), stacked, solid.kind)
         )
     return found, missing
+
+
+def _covered(mask: Any, others: list[Any], depth: Any) -> bool:
+    """Whether other things stand in front of a fifth of the edge of a mask (h, w), or more."""
+    around = grown(mask, EDGE) & ~mask
+    before = 0
+    for other in others:
+        beside = around & other
+        if beside.any() and np.median(depth[beside]) < np.median(depth[grown(beside, EDGE) & mask]):
+            before += int(beside.sum())
+    return bool(before > 0.2 * around.sum())
 
 
 def _size_and_yaw(size: Any, yaw: float, true: dict[str, Any]) -> tuple[float, float]:
