@@ -98,7 +98,10 @@ def _check_remarks(goal: Goal, discourse: Discourse) -> None:
     used = {step.what for step in goal.steps if not isinstance(step, Put)}
     used |= {index for step in puts for index in step.what}
     used |= {index for step in puts for place in step.places for index in place.referents()}
-    for referent in (goal.referents[index] for index in sorted(used)):
+    for index in sorted(used):
+        referent = goal.referents[index]
+        if index in discourse.remarked and len(referent.options) > 1:  # "one of them is dirty"
+            raise AmbiguousReference(referent.text, [t.name for t in things_in(referent.options)])
         free = [option for option in referent.options if not told & {*option}]
         if 0 < len(free) < len(referent.options):
             names = [thing.name for thing in things_in((*free, *referent.options))]

@@ -23,8 +23,10 @@ ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
 MOST = 3
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
-_BECAUSE = "because|since|as|now that|in case"
-_LEADING = re.compile(rf"^(?:{_BECAUSE}|while) (?P<said>[^~]+) {COMMA} (?:so )?(?P<rest>.+)$")
+_BECAUSE = r"because|since|as(?! (?:soon|long|far|well|much|if)\b)|now that"
+_LEADING = re.compile(
+    rf"^(?:{_BECAUSE}|while(?= (?:i|we|my|our)\b)) (?P<said>[^~]+) {COMMA} (?:so )?(?P<rest>.+)$"
+)
 _TRAILING = re.compile(
     rf"^(?P<rest>.+?) (?:{COMMA} )?(?P<said>(?:because|since|now that|in case|before) [^~]+"
     r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+"
@@ -47,14 +49,15 @@ _PERSON = re.compile(
 _HAPPENED = re.compile(
     r"^(?:can not (?:reach|see|find|get at|get to)|do not need)\b"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
-    r"|^(?:have|has|had|am|are|is|was|were|likes?|loves?|hates?|broke|bought|left|made|forgot|lost|"
+    r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|will (?:be|need)|hope|think|know|"
     r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
 )
 """What somebody did, is or is about to do."""
 _ASKING = word_set(
     "want wants need needs wanted needed wish like prefer should must shall would could may let "
-    "please not never no none nothing without if unless when until instead except only"
+    "go goes belong belongs hoping wondering please not never no none nothing without if "
+    "unless when until instead except only"
 )
 _DOING = {
     verb

@@ -36,7 +36,9 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
-    "open|closed|shut|empty|full|dirty|clean|ready|broken|fine|on|in|too|not|now|still|already|done"
+    r"(?:on|in|too|not|now|still|already)\b"
+    r"|(?:open|closed|shut|empty|full|dirty|clean|ready|broken|fine)"
+    r"(?: (?:and|so|but|where)\b|[,.;:]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
 _CLITICS = (
@@ -52,7 +54,7 @@ _CLITICS = (
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
     (r"\b(?:him|her)\b(?= (?:in|on|next|down|back|to|near|beside|behind|up)|$)", "it"),
-    (rf"(?<=\w)'s(?= (?:{_STATES})\b)", " is"),
+    (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )
