@@ -274,7 +274,7 @@ class Loop:
         if world is not None and true_before is not None:
             account.harm.motion(true_before, world.read(), tuple(self._spare))
             self._spare.clear()
-            trajectory = world.watched()[1]
+            trajectory = world.watched()
             if trajectory is not None and foreseen is not None:
                 parted = parting(world.world, trajectory, twin.world, foreseen, begun_s)
         self._look(f"after {action}")

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 
 from etot_cli.control.robot import Contacts, Guards, RobotState
-from etot_cli.control.simulated_robot import SimulatedRobot
 from etot_cli.errors import ServiceError
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.skills.motion.motion import PhaseEnd
@@ -25,7 +23,7 @@ class SimulatedDevice:
 
     def __init__(self, world: ExecutionWorld) -> None:
         self.world = world
-        self._stopped = self._closed = False
+        self._closed = False
         self._event: tuple[float, Callable[[], None]] | None = None
 
     def connect(self) -> str:
@@ -51,7 +49,7 @@ class SimulatedDevice:
             targets = np.vstack([np.repeat(start, delay, axis=0), targets])
         while True:
             count = self._until_event(len(targets))
-            end = self._run(partial(SimulatedRobot.follow, targets=targets[:count], guards=guards))
+            end = self.world.robot().follow(targets[:count], guards)
             targets = targets[count:]
             self._happen()
             if end is not PhaseEnd.DONE or not len(targets):
@@ -68,14 +66,8 @@ class SimulatedDevice:
         periods = round(seconds / CONTROL_PERIOD)
         while True:
             count = self._until_event(periods)
-            end = self._run(
-                partial(
-                    SimulatedRobot.wait,
-                    seconds=count * CONTROL_PERIOD,
-                    guards=guards,
-                    until_rest=until_rest,
-                )
-            )
+            seconds = count * CONTROL_PERIOD
+            end = self.world.robot().wait(seconds, guards, until_rest=until_rest)
             periods -= count
             if not self._happen() or end is not PhaseEnd.DONE or periods <= 0:
                 return end
@@ -88,7 +80,6 @@ class SimulatedDevice:
         """Stops where it is: every joint's target becomes where that joint is."""
         data, robot = self.world.data, self.world.world.robot
         data.ctrl[robot.ctrl] = data.qpos[robot.qpos]
-        self._stopped = True
 
     def close(self) -> None:
         """Stops for good."""
@@ -99,13 +90,6 @@ class SimulatedDevice:
     def _check(self) -> None:
         if self._closed:
             raise ServiceError("the robot's connection is closed")
-
-    def _run(self, do: Callable[[SimulatedRobot], PhaseEnd]) -> PhaseEnd:
-        robot = self.world.robot()
-        try:
-            return do(robot)
-        finally:
-            self.world.steps += robot.steps
 
     def _until_event(self, periods: int) -> int:
         """How many of the coming control periods pass before the event, one at least."""

@@ -78,7 +78,6 @@ class ExecutionWorld:
         self.memory = Memory()
         self.keep_frames = keep_frames
         self.recorder: Recorder | None = None
-        self.steps = 0
         self._begin()
 
     @property
@@ -101,18 +100,17 @@ class ExecutionWorld:
         )
 
     def robot(self) -> SimulatedRobot:
-        """The arm in it, as it now stands; counts its own steps."""
+        """The arm in it, as it now stands."""
         return SimulatedRobot(self.world, self.data, self.recorder)
 
     def watch(self) -> None:
-        """Begins the record of a motion."""
-        self.recorder = Recorder(self.world, self.data, keep_frames=self.keep_frames)
+        """Begins the record of a motion, where configurations are kept."""
+        if self.keep_frames:
+            self.recorder = Recorder(self.world, self.data)
 
-    def watched(self) -> tuple[Mapping[str, float], Trajectory | None]:
-        """Displacements [m] and configurations since :meth:`watch`."""
-        if self.recorder is None:
-            return {}, None
-        return self.recorder.displacement(), self.recorder.trajectory()
+    def watched(self) -> Trajectory | None:
+        """Configurations since :meth:`watch`."""
+        return None if self.recorder is None else self.recorder.trajectory()
 
     def random(self, *salt: object) -> np.random.Generator:
         """Random numbers that depend on the state and ``salt`` alone."""
