@@ -316,7 +316,8 @@ def _shared(
         for target in item.targets:
             said = {*target.determiner.split()}
             role = Role.CONTAINER if item.toward is Toward.INSIDE else Role.PLACE
-            if said & {"one", "single"} and grouping is Grouping.ANY and several > 1 and not each:
+            single = several > 1 and not each and said & {"one", "single", "another"}
+            if single and grouping is Grouping.ANY:
                 grouping = Grouping.TOGETHER
             same = "same" in said and several > 1
             if same and context.phrases.spoken_of(target, role, themes) is None:

@@ -198,7 +198,9 @@ SWAP = either(
         build=lambda new, old: SwapClause(Things((old, new)), replaces=True),
     ),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
-    sequence(optional("have, let, make"), THINGS, verbs.CHANGE_PLACES, build=SwapClause),
+    sequence(
+        optional(f"have, let, make, {verbs.WANT}"), THINGS, verbs.CHANGE_PLACES, build=SwapClause
+    ),
     sequence(verbs.SET_DOWN, _IN_ITS_PLACE, "and", _IN_ITS_PLACE, build=_exchanged),
     sequence(
         verbs.SET_DOWN,

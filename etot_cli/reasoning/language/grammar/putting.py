@@ -61,8 +61,8 @@ from etot_cli.world.spatial import Nearby
 
 
 def _away(text: str, things: Things) -> PutClause:
-    trash = NounPhrase("the", ("trash",), text=text)
-    return put_to(things, (Destination(Toward.INSIDE, (trash,)),))
+    to, noun = (Toward.ON, "shelf") if text.startswith("shelv") else (Toward.INSIDE, "trash")
+    return put_to(things, (Destination(to, (NounPhrase("the", (noun,), text=text),)),))
 
 
 _THEREIN = valued(phrase(places.THEREIN), lambda text: Destination(Toward.HERE, word=text))
@@ -88,7 +88,7 @@ THROWN = quiet(
             ),
             build=PutClause,
         ),
-        sequence(phrase(verbs.THROW_AWAY), THINGS, build=_away),
+        sequence(phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"), THINGS, build=_away),
         sequence(
             verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
         ),

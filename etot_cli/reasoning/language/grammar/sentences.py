@@ -262,7 +262,7 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_shared_out,
     ),
-    sequence(verbs.TIDY_AWAY, _NAMED, either(COMMA, "and"), CHAIN, build=_sorted),
+    sequence(verbs.TIDY_AWAY, _NAMED, "[away|up] (~comma|and)", CHAIN, build=_sorted),
     plain(IF_NOT_SO),
     sequence(
         "with",

@@ -131,7 +131,8 @@ SWAP = """
 """
 CHANGE_PLACES = """
     [should|must|shall|have to|need to|are to] (change|swap|switch|trade|exchange)
-    (places|place|positions|position|spots)
+    (places|place|positions|position|spots),
+    [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
