@@ -52,6 +52,7 @@ class _Run:
 
     def __init__(self, robot: Robot, limits: JointLimits) -> None:
         self._robot, self._limits = robot, limits
+        self._origin = robot.state().time_s
         self._way_out: Vector | None = None
         self._sent: Vector | None = None
         self._held_from = 0.0
@@ -75,8 +76,8 @@ class _Run:
             PhaseTrace(
                 phase.name,
                 end,
-                round(begun, 4),
-                round(state.time_s, 4),
+                round(begun - self._origin, 4),
+                round(state.time_s - self._origin, 4),
                 round(state.opening, 6),
                 tuple(round(float(value), 6) for value in state.joints),
                 command,

@@ -18,7 +18,7 @@ class RobotState:
     """What a robot senses of itself.
 
     ``joints`` and ``targets``: (n,) measured and commanded joint values [rad]; ``opening``:
-    distance between the pads [m]; ``time_s``: since the robot was handed the motion [s]; ``sent``:
+    distance between the pads [m]; ``time_s``: on its own clock [s]; ``sent``:
     the opening that the gripper was last sent to [m]; ``handled``: joint values (n,) at which the
     fingers last closed, opened or lost what they held [rad]; None where that is not known.
     """

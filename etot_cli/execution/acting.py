@@ -1,62 +1,12 @@
-"""One motion on a robot, as the loop needs it: time counted from its start, and foreseen."""
+"""What a motion takes, and what it has left the gripper at."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
-from etot_cli.control.robot import Contacts, Guards, Robot, RobotState
 from etot_cli.skills.motion.motion import Hand, Motion, Move, PhaseEnd, Trace
 from etot_cli.skills.motion.timing import CONTROL_PERIOD, JointLimits, time_line, time_path
 from etot_cli.world.arrays import Vector
-
-
-class FromNow:
-    """A robot whose clock begins now, whatever its own clock says, and whose last word to the
-    gripper is remembered.
-
-    Args:
-        robot: who moves.
-        sent: the opening that its gripper was last sent to [m]; None where that is not known.
-        handled: joint values at which the fingers last took hold of or let go something [rad].
-        clock: whether the clock begins anew.
-    """
-
-    def __init__(
-        self,
-        robot: Robot,
-        sent: float | None,
-        handled: tuple[float, ...] | None = None,
-        *,
-        clock: bool = True,
-    ) -> None:
-        self._robot, self._sent, self._handled = robot, sent, handled
-        self._begun = robot.state().time_s if clock else 0.0
-
-    def state(self) -> RobotState:
-        """What it senses now."""
-        sensed = self._robot.state()
-        return replace(
-            sensed, time_s=sensed.time_s - self._begun, sent=self._sent, handled=self._handled
-        )
-
-    def follow(self, targets: Vector, guards: Guards) -> PhaseEnd:
-        """As the robot does."""
-        return self._robot.follow(targets, guards)
-
-    def set_opening(self, opening: float) -> None:
-        """As the robot does."""
-        self._sent = opening
-        self._robot.set_opening(opening)
-
-    def wait(self, seconds: float, guards: Guards, *, until_rest: bool = False) -> PhaseEnd:
-        """As the robot does."""
-        return self._robot.wait(seconds, guards, until_rest=until_rest)
-
-    def contacts(self) -> Contacts:
-        """As the robot says."""
-        return self._robot.contacts()
 
 
 def duration(motion: Motion, start: Vector, limits: JointLimits) -> float:

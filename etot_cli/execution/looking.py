@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from etot_cli.execution.account import Account
-from etot_cli.execution.acting import FromNow, handled_at, last_command
+from etot_cli.execution.acting import handled_at, last_command
 from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.cell import Cell, Describes
 from etot_cli.execution.differences import differences
@@ -61,8 +61,9 @@ class Believed:
         account = self._account
         last = account.looks[-1].observation if account.looks else None
         with account.timed("looking") as spent:
-            robot = FromNow(self._cell.robot, self.command, self._handled, clock=False)
-            seen = self._cell.eyes.look(robot, last or Observation(robot.state()))
+            sensed = self._cell.robot.state()
+            state = replace(sensed, sent=self.command, handled=self._handled)
+            seen = self._cell.eyes.look(state, last or Observation(state))
             self._meet(seen)
             known = {name: item for name, item in seen.objects.items() if name in self._known}
             seen = replace(seen, objects=known)

@@ -10,7 +10,6 @@ from etot_cli.control.controller import run_motion
 from etot_cli.control.simulated_world import ATTEMPTS
 from etot_cli.errors import InstructionError
 from etot_cli.execution.account import Account
-from etot_cli.execution.acting import FromNow
 from etot_cli.execution.attribution import class_of
 from etot_cli.execution.cell import Cell, MakePlanner, TrialOptions
 from etot_cli.execution.disturbing import Somebody
@@ -268,7 +267,7 @@ class Loop:
             world.watch()
         self._somebody.during(motion, self._actions_left, index, robot, twin.limits)
         with account.timed("execution"):
-            trace = run_motion(motion, FromNow(robot, command), twin.limits)
+            trace = run_motion(motion, robot, twin.limits)
         believed.moved(trace)
         trajectory = parted = None
         if world is not None and true_before is not None:

@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.control.robot import Robot
+from etot_cli.control.robot import Robot, RobotState
 from etot_cli.execution.observation import Observation
 from etot_cli.reasoning.protocol import Assignment
 from etot_cli.skills.action import Action
@@ -86,11 +86,11 @@ class Camera(Protocol):
 class Eyes(Protocol):
     """Tells where things are."""
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         """Looks at the scene.
 
         Args:
-            robot: whose own state goes into the observation.
+            state: what the robot senses of itself, which goes into the observation.
             last: the observation before; what is not seen keeps its pose.
 
         Raises:

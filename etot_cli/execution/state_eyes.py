@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from etot_cli.control.perception import seen_at
-from etot_cli.control.robot import Robot, RobotState
+from etot_cli.control.robot import RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.world import ExecutionWorld
 from etot_cli.specs.objects import SceneObject
@@ -31,12 +31,12 @@ class StateEyes:
         self._world, self._error = world, error
         self._looks = 0
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         """Looks at the scene; what has been taken away keeps its last pose and is marked lost."""
         mujoco.mj_forward(self._world.world.model, self._world.data)
         self._looks += 1
         rng = self._world.random("look", self._looks)
-        truth = true_observation(self._world, robot.state())
+        truth = true_observation(self._world, state)
         objects = {name: self._seen(sighting, rng) for name, sighting in truth.objects.items()}
         for name, sighting in last.objects.items():
             objects.setdefault(name, replace(sighting, mark=Mark.LOST))

@@ -46,7 +46,7 @@ class Desk:
         self.last = Observation(self.robot.state())
 
     def look(self) -> Observation:
-        self.last = self.eyes.look(self.robot, self.last)
+        self.last = self.eyes.look(self.robot.state(), self.last)
         return self.last
 
     def error(self, name: str) -> float:

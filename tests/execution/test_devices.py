@@ -44,8 +44,8 @@ def test_the_reference_worker_gives_the_results_of_sim():
         first, second = own.state(), other.state()
         assert first.joints.tolist() == second.joints.tolist()
         assert (first.opening, first.time_s) == (second.opening, second.time_s)
-        seen = eyes.look(own, Observation(first))
-        assert seen.objects == WorkerEyes(other).look(other, Observation(second)).objects
+        seen = eyes.look(first, Observation(first))
+        assert seen.objects == WorkerEyes(other).look(second, Observation(second)).objects
     finally:
         other.close()
 

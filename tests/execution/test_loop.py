@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from etot_cli.control.robot import Robot
+from etot_cli.control.robot import RobotState
 from etot_cli.errors import InstructionError, RobotStoppedError, ServiceError
 from etot_cli.execution.believed import BelievedTwin
 from etot_cli.execution.cell import Cell, TrialOptions, simulated_cell
@@ -190,11 +190,11 @@ class _Faulty:
     def __init__(self, inner: StateEyes, looks: int, error: BaseException) -> None:
         self._inner, self._left, self._error = inner, looks, error
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         self._left -= 1
         if self._left < 0:
             raise self._error
-        return self._inner.look(robot, last)
+        return self._inner.look(state, last)
 
 
 @pytest.mark.parametrize(
@@ -239,7 +239,7 @@ def test_the_world_and_the_twin_share_nothing(tmp_path: Path) -> None:
     assert isinstance(cell.robot, SimulatedDevice)
     assert cell.world is not None
     twin = BelievedTwin(task.scene, 0)
-    observation = cell.eyes.look(cell.robot, Observation(cell.robot.state()))
+    observation = cell.eyes.look(cell.robot.state(), Observation(cell.robot.state()))
     before, _ = twin.see(observation, None)
     model, world = twin.world.model, cell.world.world
     for key in ("body_mass", "geom_friction", "geom_size", "actuator_gainprm"):

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from etot_cli.control.robot import Robot
+from etot_cli.control.robot import RobotState
 from etot_cli.execution.cameras.rendered import RenderedCamera
 from etot_cli.execution.cameras.watched import WatchedCamera
 from etot_cli.execution.cell import Cell, TrialOptions
@@ -38,11 +38,11 @@ HOSTS = (f"127.{os.getpid() % 250 + 1}.1.{index}" for index in itertools.count(1
 class Still:
     """Sees everything where the scene has it."""
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         upright = (1.0, 0.0, 0.0, 0.0)
         objects = {"ball": (0.36, 0.12, 0.155), "cup": (0.38, -0.15, 0.16)}
         seen = {name: Sighting(place, upright) for name, place in objects.items()}
-        return Observation(robot.state(), seen)
+        return Observation(state, seen)
 
 
 def controller(faults: Faults) -> FakeController:

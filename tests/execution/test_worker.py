@@ -50,7 +50,7 @@ def test_a_worker_that_behaves():
     assert robot.follow(np.zeros((3, 6)), Guards()) is PhaseEnd.DONE
     assert robot.wait(0.1, Guards()) is PhaseEnd.DONE
     last = Observation(robot.state(), {"cup": Sighting((0, 0, 0), (1, 0, 0, 0), Mark.HELD)})
-    seen = WorkerEyes(robot).look(robot, last)
+    seen = WorkerEyes(robot).look(robot.state(), last)
     assert seen.objects["ball"].position == (1, 2, 3)
     assert seen.objects["cup"].mark is Mark.HELD  # nothing was said of it
     robot.close()
@@ -84,7 +84,7 @@ def test_a_worker_that_misbehaves_is_found_out_and_ended(how, words, monkeypatch
     begun = time.monotonic()
     with pytest.raises(ServiceError, match=words) as found:
         robot.connect()
-        WorkerEyes(robot).look(robot, Observation(robot.state()))
+        WorkerEyes(robot).look(robot.state(), Observation(robot.state()))
     assert found.value.exit_code == 3
     pid = pid_of(robot)
     robot.close()

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from scipy.spatial import cKDTree
 
-from etot_cli.control.robot import Robot, RobotState
+from etot_cli.control.robot import RobotState
 from etot_cli.execution.observation import Mark, Observation, Sighting
 from etot_cli.execution.perception.following import Following
 from etot_cli.execution.perception.furniture import Furniture
@@ -50,7 +50,7 @@ class CameraEyes:
         self._found: dict[str, Pose] = {}
         self._connected = False
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         """Looks at the scene.
 
         Raises:
@@ -59,7 +59,6 @@ class CameraEyes:
         if not self._connected:
             self._camera.connect()
             self._connected = True
-        state = robot.state()
         known = self._known
         known.set_robot(state)
         self._frame = self._camera.frame()

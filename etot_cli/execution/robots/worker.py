@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from etot_cli.control.robot import Contacts, Guards, Robot, RobotState
+from etot_cli.control.robot import Contacts, Guards, RobotState
 from etot_cli.errors import ServiceError, SpecError
 from etot_cli.execution.observation import Observation
 from etot_cli.execution.protocols import Frame
@@ -180,16 +180,14 @@ class WorkerEyes:
     def __init__(self, robot: WorkerRobot) -> None:
         self._worker = robot
 
-    def look(self, robot: Robot, last: Observation) -> Observation:
+    def look(self, state: RobotState, last: Observation) -> Observation:
         """Looks; what the worker says nothing of keeps its last sighting."""
         if "look" not in self._worker.offers:
             raise ServiceError("the worker offers no 'look'; expected one, or --perception camera")
         told = Looked.of(last).model_dump(mode="json")
         seen = self._worker.ask("look", Looked, {"last": told}, LOOKS_WITHIN)
-        found = seen.observation(robot.state())
-        return Observation(
-            found.robot, {**last.objects, **found.objects}, {**last.parts, **found.parts}
-        )
+        found = seen.observation(state)
+        return Observation(state, {**last.objects, **found.objects}, {**last.parts, **found.parts})
 
 
 class WorkerCamera:

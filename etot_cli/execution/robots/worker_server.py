@@ -138,7 +138,7 @@ class _Session:
             return Touched.of(robot.contacts())
         elif method == "look" and served.eyes is not None:
             last = Looked.model_validate(request.get("last") or {}).observation(NO_STATE)
-            return Looked.of(served.eyes.look(robot, last))
+            return Looked.of(served.eyes.look(robot.state(), last))
         elif method == "frame" and served.camera is not None:
             return _picture(served.camera)
         elif method == "close":
