@@ -56,11 +56,23 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    BINS,
+    is_descriptive,
+    singular,
+)
 from etot_cli.world.spatial import Nearby
 
 
-def _away(text: str, things: Things) -> PutClause:
+def _away(text: str, things: Things, into: Destination | None) -> PutClause | None:
+    """Into what is named as a bin, or the only one; who throws away "everything in the drawer"
+    means what is in there.
+    """
+    if into is not None:
+        said = {word for np in into.targets for word in "_".join(np.words).split("_")}
+        plain = said & BINS or not into.targets
+        fits = (plain or text.startswith(("discard", "dispos"))) and not things.are_any
+        return replace(put_to(things, (into,)), far_fetched=int(not plain)) if fits else None
     to, noun = (Toward.ON, "shelf") if text.startswith("shelv") else (Toward.INSIDE, "trash")
     return put_to(things, (Destination(to, (NounPhrase("the", (noun,), text=text),)),))
 
@@ -79,7 +91,6 @@ THROWN = quiet(
             separated(
                 sequence(
                     THINGS,
-                    optional("away, out"),
                     sequence(either(INTO, ONTO, _THEREIN), build=lambda place: (place,)),
                     build=PutGroup,
                 ),
@@ -88,9 +99,18 @@ THROWN = quiet(
             ),
             build=PutClause,
         ),
-        sequence(phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"), THINGS, build=_away),
         sequence(
-            verbs.THROW, THINGS, phrase("away, out"), build=lambda things, text: _away(text, things)
+            phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"),
+            THINGS,
+            optional(either(INTO, _THEREIN), None),
+            build=_away,
+        ),
+        sequence(
+            verbs.THROW,
+            THINGS,
+            phrase("away, out"),
+            optional(either(INTO, _THEREIN), None),
+            build=lambda things, text, into: _away(text, things, into),
         ),
     )
 )
@@ -251,6 +271,12 @@ def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     return put_of(groups, extras) if nested or extras or len(groups) > 1 else None
 
 
+def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Each thing to its place; "put away everything on the tray" tells what, and not where to."""
+    away = verb.endswith("away") and any(group.things.are_any for group in groups)
+    return None if away else put_of(groups, extras)
+
+
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
     group = PutGroup(things, (Destination(Toward.TO, over),))
     return put_of((group,), extras, Grouping.SPREAD)
@@ -342,7 +368,7 @@ PUT = either(
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
-    sequence(verbs.SET_DOWN, PUT_GROUPS, EXTRAS, build=put_of),
+    sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away),
     THROWN,
     _INSERTED,
     sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
@@ -83,6 +84,12 @@ class Things:
     def text(self) -> str:
         """As written."""
         return (" or " if self.either else " and ").join(phrase.text for phrase in self.phrases)
+
+    @property
+    def are_any(self) -> bool:
+        """Whether only what follows may tell which they are ("everything on the tray")."""
+        bare = (np.words for np in self.phrases if len(np.words) == 1 and not np.modifiers)
+        return any(matches_any(noun, THING_NOUNS) for (noun,) in bare)
 
     def taken_from(self, source: NounPhrase | None) -> Things:
         """The same, each of them from somewhere."""

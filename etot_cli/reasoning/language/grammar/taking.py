@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, alternatives
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -129,8 +129,12 @@ def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Cl
     return RemoveClause(contents) if where is None else put_to(contents, where)
 
 
-def _tidied(verb: str, things: Things, where: Any) -> PutClause:
-    """Who tidies a place brings away what is there; several things are tidied away themselves."""
+def _tidied(verb: str, things: Things, away: str, where: Any) -> PutClause | None:
+    """Who tidies a place brings away what is there; several things are tidied away themselves.
+    "Tidy up everything on the tray" does not say where to.
+    """
+    if things.are_any and not away:
+        return None
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
     cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
@@ -139,7 +143,15 @@ def _tidied(verb: str, things: Things, where: Any) -> PutClause:
 
 EMPTY = either(
     sequence("empty[ing] [out], unload[ing]", THINGS, optional(DESTINATIONS, None), build=_emptied),
-    sequence(phrase(verbs.TIDY), THINGS, optional("away, up"), DESTINATIONS, build=_tidied),
+    sequence(
+        phrase(verbs.TIDY), THINGS, optional(phrase("away, up"), ""), DESTINATIONS, build=_tidied
+    ),
+    sequence(
+        verbs.TIDY,
+        THINGS,
+        DIRECTED,
+        build=lambda things, where: put_to(things, where) if things.are_any else None,
+    ),
     sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
     sequence(
         either(
