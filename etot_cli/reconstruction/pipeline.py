@@ -17,7 +17,6 @@ from etot_cli.reconstruction.articulation.two_frames import Joint, articulate
 from etot_cli.reconstruction.capture.calibration import Calibrated, calibrate
 from etot_cli.reconstruction.capture.folder import disjoint, read_capture, safe_name, unique_name
 from etot_cli.reconstruction.capture.standpoint import stand
-from etot_cli.reconstruction.fit.rejoin import rejoin
 from etot_cli.reconstruction.fit.second_look import look_again
 from etot_cli.reconstruction.fit.supports import fit_all
 from etot_cli.reconstruction.free_form.completion import complete
@@ -188,7 +187,6 @@ def _shapes(
     solids = fit_all(seen, segments, rng=rng, hints=hints)
     lost = {segment.name for segment in segments} - {solid.name for solid in solids}
     whole, solids = solids, look_again(seen, segments, solids, hints, seed=options.seed)
-    solids = rejoin(seen, solids, hints, seed=options.seed)
     if solids is not whole:
         segments = [segment for segment in segments if segment.name in lost]
         segments += [solid.segment for solid in solids]

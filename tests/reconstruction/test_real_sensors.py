@@ -14,7 +14,6 @@ import pytest
 from numpy.typing import NDArray
 
 from etot_cli.reconstruction.fit.protrusions import without_protrusions
-from etot_cli.reconstruction.fit.rejoin import COMPACT, _is_compact
 from etot_cli.reconstruction.masks.boundaries import like_desk
 from etot_cli.reconstruction.masks.fragments import INSIDE, without_crumbs
 from etot_cli.reconstruction.twin.assembly import what_a_scene_may_have
@@ -55,14 +54,6 @@ def test_corners_necks_and_slim_things_do_not_stand_out(degrees: float) -> None:
     cv2.fillPoly(cone, [np.array([[85, 80], [155, 80], [140, 160], [100, 160]])], 1)
     for thing in (body(), bottle, cone, body(12)):
         assert without_protrusions(turned(thing, degrees)) is None
-
-
-def test_two_round_things_side_by_side_are_no_compact_one() -> None:
-    v, u = np.mgrid[0:200, 0:300]
-    one, two = (np.hypot(u - x, v - 100) < 50 for x in (100, 200))
-    assert _is_compact(one)
-    assert not _is_compact(one | two)
-    assert 2 * np.pi / (np.pi + 4) < COMPACT
 
 
 def test_crumbs_go_to_what_they_lie_in_and_others_go() -> None:

@@ -127,17 +127,6 @@ def _ball_in(
     return Solid(segment, fit, vessel.name, "rim", observation.thinned(*FINE, rng))
 
 
-def fit_alone(
-    seen: Calibrated,
-    segment: Segment,
-    others: list[Segment],
-    rng: np.random.Generator,
-    hint: str | None = None,
-) -> Solid | None:
-    """A segment's shape on the desk; ``others`` may hide parts of it."""
-    return _fit_one(seen, segment, [segment, *others], [], rng, hint)
-
-
 def free_ball(
     seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
 ) -> Fit:

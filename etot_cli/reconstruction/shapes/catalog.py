@@ -12,8 +12,6 @@ from etot_cli.reconstruction.shapes.upright import ConicalCup, Cup, Cylinder
 Tiers = list[list[Family]]
 MOST_DRAWERS = 3
 """Drawers of a unit that are told apart; each more makes shapes to compare."""
-NO_FURNITURE = "no furniture"
-"""Said instead of a kind where a thing's shape is asked for only if it is none of furniture."""
 RODS = ("pen", "capsule")
 """Kinds whose names people use for each other: a stick may be pointed or not."""
 
@@ -32,8 +30,6 @@ def tiers(hint: str | None = None) -> Tiers:
     doors: list[Family] = [OpenCabinet("left"), OpenCabinet("right")]
     if hint is None:
         return [simple, [ConicalCup()], [*units, *doors]]
-    if hint == NO_FURNITURE:
-        return [simple, [ConicalCup()]]
     if hint == "drawer_unit":
         return [[Block()], units]
     if hint == "cabinet":
