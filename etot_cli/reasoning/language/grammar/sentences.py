@@ -306,7 +306,8 @@ WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
         EMPTY_WORDS,
-        optional(small_words.TIDY_UP),
+        optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
+        optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
         _PLACED,
         some(_JOINED, most=12),
         _END,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.known import OPENING_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 
 MAX_CHARACTERS = 2000
@@ -32,6 +32,10 @@ _NOTHING_ELSE = re.compile(
     rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
+_NO_NOUNS = "|".join(sorted(OPENING_WORDS - {"the", "a", "my", "your", "its", COMMA}))
+_NOUNS = rf"(?:\b(?!(?:{_NO_NOUNS})\b)\w+\b ?)+"
+_ITEM = re.compile(rf"(^|[.;,\n]\s*)({_NOUNS}):\s*(?={_NOUNS}(?:$|[.;,\n]))")
+"""What goes where, in a table ("lemon: white bowl")."""
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
@@ -88,6 +92,7 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
+    text = _ITEM.sub(r"\1\2 to ", text)
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)

@@ -28,6 +28,7 @@ for, every plan does: things are set down, and no plan may harm anything."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
+TASK = "[your|the] (task|goal|job) ~comma"
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um,
@@ -35,7 +36,7 @@ FRAMES = f"""
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
-    i would like [that you], i want, let us, try to, please to, [your|the] (task|goal|job) ~comma,
+    i would like [that you], i want, let us, try to, please to, {TASK},
     the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
