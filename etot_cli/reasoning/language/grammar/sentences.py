@@ -213,7 +213,7 @@ def _sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     put = rest[0].clause
     told = isinstance(put, PutClause) and all(
-        np.is_elliptic or np.pronoun == "them" or np.text.split()[-1:] in (["one"], ["other"])
+        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
         for group in put.groups
         for np in group.things.phrases
     )
@@ -226,6 +226,15 @@ def _shared_out(topic: Reading, rest: Reading) -> Reading | None:
     nps = clause.things.phrases if isinstance(clause, ReorientClause) else ()
     several = len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
     return _sorted(topic, rest) if several else None
+
+
+def _all_put(topic: Reading, rest: Reading) -> Reading | None:
+    """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
+    put = rest[0].clause
+    told = isinstance(put, PutClause) and all(
+        np.pronoun == "them" for group in put.groups for np in group.things.phrases
+    )
+    return (*topic, *rest) if told else None
 
 
 def _set_down(topic: Reading, rest: Reading) -> Reading | None:
@@ -262,7 +271,7 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_shared_out,
     ),
-    sequence(verbs.TIDY_AWAY, _NAMED, "[away|up] (~comma|and)", CHAIN, build=_sorted),
+    sequence(verbs.TIDY_AWAY, _NAMED, "[away|up] (~comma|and)", CHAIN, build=_all_put),
     plain(IF_NOT_SO),
     sequence(
         "with",
