@@ -86,7 +86,7 @@ def perform(work: TrialWork) -> TrialResult:
     assert setup is not None  # every worker has begun
     task, method = setup.tasks[work.key.task], METHODS[work.key.method]
     begun = time.monotonic()
-    bench = _Bench(setup, task, method)
+    bench = _Bench(setup, method)
     try:
         trial = run_trial(
             task,
@@ -123,16 +123,14 @@ def perform(work: TrialWork) -> TrialResult:
 class _Bench:
     """The planner of one trial, and what it cost."""
 
-    def __init__(self, setup: Setup, task: Task, method: Method) -> None:
-        self._setup, self._task, self._method = setup, task, method
+    def __init__(self, setup: Setup, method: Method) -> None:
+        self._setup, self._method = setup, method
         self._thinking: list[Thinking] = []
-        self._models: list[WorldModel] = []
 
     def make_planner(self, scene: Scene) -> Planner:
         """A planner for a twin of a scene."""
         thinking, imagined = self._open(scene)
         self._thinking.append(thinking)
-        self._models.append(imagined)
         twin = _twin(self._setup.seed, scene, recorded=self._setup.reasoner != "builtin")
         means = Means(
             thinking=thinking,
@@ -163,8 +161,6 @@ class _Bench:
         """Ends sessions; idempotent."""
         for thinking in self._thinking:
             thinking.close()
-        for model in self._models:
-            model.close()
 
     def result(self, work: TrialWork, trial: Trial, wall_s: float, report: str) -> TrialResult:
         """The trial as a line of the journal."""

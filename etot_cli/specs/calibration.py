@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from etot_cli.errors import SpecError
 from etot_cli.specs.base import Spec
 from etot_cli.specs.bounds import MAX_PICTURE_SIDE
-from etot_cli.specs.document import Node, read_document
+from etot_cli.specs.document import read_document
 from etot_cli.specs.problems import validate
 from etot_cli.specs.quantity import Finite
 
@@ -90,8 +89,7 @@ def read_calibration(path: Path) -> Calibration:
             "inverse, with z of the optical frame ahead"
         )
     if fault is not None:
-        raise SpecError(fault, file=str(path), line=_line(node, "camera_to_base"),
-                        path="camera_to_base")  # fmt: skip
+        raise node.error(("camera_to_base",), fault)
     return found
 
 
@@ -101,9 +99,3 @@ def _passes(pose: Array) -> float:
     if ahead[2] >= -1e-3:
         return float("inf")
     return float(np.linalg.norm((position - ahead * position[2] / ahead[2])[:2]))
-
-
-def _line(node: Node, key: str) -> int | None:
-    value: Any = node.value
-    item = value.get(key) if isinstance(value, dict) else None
-    return item.place.line if isinstance(item, Node) else None

@@ -36,7 +36,7 @@ def resize(scene: Scene, seed: int) -> Scene:
         return scene
     for level in range(HALVINGS + 1):
         objects = {
-            name: _scaled(item, 1.0 + share * 0.5**level * _draw(seed, name))
+            name: _scaled(item, 1.0 + share * 0.5**level * uniform(seed, 1, name, "size")[0])
             for name, item in scene.objects.items()
         }
         resized = scene.model_copy(update={"objects": objects})
@@ -45,12 +45,13 @@ def resize(scene: Scene, seed: int) -> Scene:
     return scene
 
 
-def _draw(seed: int, name: str) -> float:
-    """Uniform in −1…1."""
+def uniform(seed: int, count: int, name: str, salt: str) -> list[float]:
+    """Numbers in −1…1 that depend on seed, name and salt alone."""
     import numpy as np  # here, because starting the program must not wait for it
 
-    entropy = [seed % 2**64, zlib.crc32(name.encode()), zlib.crc32(b"size")]
-    return float(np.random.default_rng(entropy).uniform(-1.0, 1.0))
+    entropy = [seed % 2**64, zlib.crc32(name.encode()), zlib.crc32(salt.encode())]
+    drawn: list[float] = np.random.default_rng(entropy).uniform(-1.0, 1.0, count).tolist()
+    return drawn
 
 
 def _scaled(item: ObjectBase, factor: float) -> ObjectBase:

@@ -16,7 +16,7 @@ from etot_cli.specs.objects import FURNITURE, ROLLING_DEFAULT, Cup, Mjcf
 from etot_cli.specs.placement import Placed, place_all
 from etot_cli.specs.quantity import MAX_ROLLING
 from etot_cli.specs.references import DESK, support_of
-from etot_cli.specs.resize import resize
+from etot_cli.specs.resize import resize, uniform
 from etot_cli.specs.scene import Actuation, Scene
 
 TRIES = 50
@@ -96,11 +96,11 @@ def vary_truth(scene: Scene, seed: int) -> Scene:
     for name, item in varied.objects.items():
         if bounds.rolling_friction and not isinstance(item, (*FURNITURE, Mjcf)):
             rolling = ROLLING_DEFAULT if item.rolling_friction is None else item.rolling_friction
-            (draw,) = _uniform(seed, 1, name, "rolling")
+            (draw,) = uniform(seed, 1, name, "rolling")
             rolling *= 1.0 + bounds.rolling_friction * draw
             item = item.model_copy(update={"rolling_friction": min(rolling, MAX_ROLLING)})
         objects[name] = item
-    pads, force, delay, *servo = _uniform(seed, 3 + MAX_JOINTS, "", "robot")
+    pads, force, delay, *servo = uniform(seed, 3 + MAX_JOINTS, "", "robot")
     actuation = Actuation(
         pad_friction=1.0 + bounds.pad_friction * pads,
         gripper_force=1.0 + bounds.gripper_force * force,
@@ -108,15 +108,6 @@ def vary_truth(scene: Scene, seed: int) -> Scene:
         delay_s=bounds.delay_s * (1.0 + delay) / 2.0,
     )
     return varied.model_copy(update={"objects": objects, "actuation": actuation})
-
-
-def _uniform(seed: int, count: int, name: str, salt: str) -> list[float]:
-    """Numbers in −1…1 that depend on seed, name and salt alone."""
-    import numpy as np  # here, because starting the program must not wait for it
-
-    entropy = [seed % 2**64, zlib.crc32(name.encode()), zlib.crc32(salt.encode())]
-    drawn: list[float] = np.random.default_rng(entropy).uniform(-1.0, 1.0, count).tolist()
-    return drawn
 
 
 def _draw(seed: int, attempt: int, name: str) -> _Draw:

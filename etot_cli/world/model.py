@@ -184,12 +184,10 @@ def _extents(model: mujoco.MjModel, name: str) -> tuple[float, float, float]:
         body = int(model.geom_bodyid[geom])
         if model.body(int(model.body_rootid[body])).name != name:
             continue
-        box = model.geom_aabb[geom]
-        for corner in np.array(np.meshgrid(*[[-1, 1]] * 3)).reshape(3, -1).T:
-            local = box[:3] + corner * box[3:]
-            point = data.geom_xpos[geom] + data.geom_xmat[geom].reshape(3, 3) @ local
-            point = rotation.T @ (point - root.xpos)
-            low, high = np.minimum(low, point), np.maximum(high, point)
+        box, turn = model.geom_aabb[geom], rotation.T @ data.geom_xmat[geom].reshape(3, 3)
+        middle = rotation.T @ (data.geom_xpos[geom] - root.xpos) + turn @ box[:3]
+        half = np.abs(turn) @ box[3:]
+        low, high = np.minimum(low, middle - half), np.maximum(high, middle + half)
     x, y, z = (float(value) for value in high - low)
     return x, y, z
 

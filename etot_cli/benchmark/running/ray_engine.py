@@ -40,7 +40,6 @@ class RayEngine:
                 "--engine ray needs Ray; install it with: pip install 'etot[ray]'"
             ) from None
         self._ray: Any = ray
-        self._closed = False
         existing = bool(os.environ.get(ADDRESS))
         try:
             ray.init(
@@ -80,9 +79,6 @@ class RayEngine:
 
     def close(self) -> None:
         """Drops what is running and leaves the cluster; idempotent."""
-        if self._closed:
-            return
-        self._closed = True
         with contextlib.suppress(Exception):  # it may be gone already
             self._ray.shutdown()
 
