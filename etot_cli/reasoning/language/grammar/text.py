@@ -32,9 +32,7 @@ _NOTHING_ELSE = re.compile(
     rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
-_NO_NOUNS = "|".join(sorted(OPENING_WORDS - {"the", "a", "my", "your", "its", COMMA}))
-_NOUNS = rf"(?:\b(?!(?:{_NO_NOUNS})\b)\w+\b ?)+"
-_ITEM = re.compile(rf"(^|[.;,\n]\s*)({_NOUNS}):\s*(?={_NOUNS}(?:$|[.;,\n]))")
+_ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
 """What goes where, in a table ("lemon: white bowl")."""
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -92,7 +90,7 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
-    text = _ITEM.sub(r"\1\2 to ", text)
+    text = _ITEM.sub(_item, text)
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
@@ -107,6 +105,12 @@ def _counted(text: str) -> str:
             numbered = zip(("second", "third", "fourth", "fifth"), more, strict=False)
             text = first + "".join(f" {number} {size}{rest}" for number, rest in numbered)
     return text
+
+
+def _item(found: re.Match[str]) -> str:
+    """A line of a table as what goes where; with words for doing or order it is none."""
+    said = {*found[0].replace(":", " ").split()} - {"the", "a", "my", "your", "its"}
+    return found[0] if said & OPENING_WORDS else f"{found[1]} to {found[2]}"
 
 
 def _listed(text: str) -> str:
