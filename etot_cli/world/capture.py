@@ -83,27 +83,25 @@ def camera_to_base(camera: Camera) -> NDArray[np.float64]:
 def capture(
     scene: Scene,
     *,
-    camera: str | None = None,
     joints: dict[str, float] | None = None,
     settle: bool = True,
     samples: int = 1,
 ) -> Picture:
-    """Renders a scene at rest from one of its cameras.
+    """Renders a scene at rest from its first camera, or :data:`DEFAULT_CAMERA`.
 
     Args:
         scene: what is seen.
-        camera: name of the camera; by default the scene's first, or :data:`DEFAULT_CAMERA`.
         joints: joint values by ``object.part`` [m or rad] instead of the scene's.
         settle: let the objects come to rest first.
         samples: renders of the colours; several make shadows soft, and take less memory than the
             one whose edges the graphics driver smooths (by 0.1 GB for 1280 × 720).
 
     Raises:
-        SpecError: there is no such camera, or its picture is too large.
+        SpecError: the camera's picture is too large.
         ServiceError: OpenGL is not available.
         WorldError: the scene cannot be built.
     """
-    name, seen = _chosen_camera(scene, camera)
+    name, seen = _first_camera(scene)
     world, data = world_at_start(scene.model_copy(update={"cameras": {name: seen}}))
     for address, value in (joints or {}).items():
         if address not in world.parts:
@@ -120,14 +118,8 @@ def capture(
     return Picture(seen, color, depth, masks, ground_truth(world, data))
 
 
-def _chosen_camera(scene: Scene, name: str | None) -> tuple[str, Camera]:
-    if name is None:
-        found = next(iter(scene.cameras.items()), (CAMERA_NAME, DEFAULT_CAMERA))
-    elif name in scene.cameras:
-        found = (name, scene.cameras[name])
-    else:
-        known = ", ".join(scene.cameras) or "none"
-        raise SpecError(f"the scene has no camera {name!r}; it has {known}")
+def _first_camera(scene: Scene) -> tuple[str, Camera]:
+    found = next(iter(scene.cameras.items()), (CAMERA_NAME, DEFAULT_CAMERA))
     if found[1].width > MAX_PICTURE[0] or found[1].height > MAX_PICTURE[1]:
         raise SpecError(
             f"camera {found[0]!r} takes pictures of {found[1].width} × {found[1].height}; expected "

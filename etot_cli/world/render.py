@@ -13,12 +13,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.errors import WorldError
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import World
 from etot_cli.world.offscreen import Image, OffscreenRenderer, Vector
 
-DEFAULT_WIDTH, DEFAULT_HEIGHT = 1280, 720
 DEFAULT_FOV_DEG = 45.0
 """MuJoCo's own default."""
 DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG = 180.0, -38.0
@@ -37,36 +35,22 @@ def fit_size(scene: Scene, camera: str | None, width: int, height: int) -> tuple
     return max(MIN_SIDE, int(wide) // 2 * 2), max(MIN_SIDE, round(wide / ratio) // 2 * 2)
 
 
-def first_camera(scene: Scene) -> str | None:
-    """The camera used unless another is named; None for the default view."""
-    return next(iter(scene.cameras), None)
-
-
 class WorldRenderer:
-    """Renders configurations of one world from one camera. A context manager.
+    """Renders configurations of one world from its scene's first camera, or of the whole desk
+    where it has none. A context manager.
 
     Args:
         world: the compiled scene.
-        camera: a camera of the scene; None for a view of the whole desk.
         width: largest width [px]; pictures keep the camera's proportions.
         height: largest height [px].
 
     Raises:
         ServiceError: there is no OpenGL.
-        WorldError: the scene has no such camera.
     """
 
-    def __init__(
-        self,
-        world: World,
-        camera: str | None = None,
-        width: int = DEFAULT_WIDTH,
-        height: int = DEFAULT_HEIGHT,
-    ) -> None:
-        if camera is not None and camera not in world.scene.cameras:
-            known = ", ".join(world.scene.cameras) or "none"
-            raise WorldError(f"the scene has no camera {camera!r}; it has {known}")
+    def __init__(self, world: World, width: int, height: int) -> None:
         self.world = world
+        camera = next(iter(world.scene.cameras), None)
         self.width, self.height = fit_size(world.scene, camera, width, height)
         self._model = world.model
         self._data = mujoco.MjData(self._model)

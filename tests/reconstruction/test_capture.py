@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from etot_cli.errors import SpecError
 from etot_cli.reconstruction.capture.folder import disjoint, mask_of, read_capture, safe_name
 from etot_cli.reconstruction.capture.view import View
 from etot_cli.world.capture import (
@@ -16,7 +15,6 @@ from etot_cli.world.capture import (
     Picture,
     add_noise,
     camera_to_base,
-    capture,
     write_capture,
 )
 from tests.reconstruction.conftest import render
@@ -71,11 +69,6 @@ def test_ray_depth_becomes_z_depth(folder: Path, picture: Picture, tmp_path: Pat
     one, two = read_capture(folder).depth, read_capture(tmp_path / "ray").depth
     both = (one > 0) & (two > 0)
     assert np.abs(one - two)[both].max() < 2e-4
-
-
-def test_unknown_camera_is_refused(table) -> None:
-    with pytest.raises(SpecError, match="has no camera 'back'; it has front"):
-        capture(table, camera="back")
 
 
 def test_masks_from_alpha_and_from_brightness() -> None:

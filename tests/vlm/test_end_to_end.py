@@ -112,7 +112,7 @@ def _check_first_frame(number: int, sent: NDArray[np.uint8]) -> None:
     simulated = SimulatedWorld(scene)
     simulated.start()
     height, width = sent.shape[:2]
-    with WorldRenderer(simulated.world, next(iter(scene.cameras)), width, height) as renderer:
+    with WorldRenderer(simulated.world, width, height) as renderer:
         expected = renderer.frame(simulated.data.qpos)
         masks = renderer.visible_pixels(simulated.data.qpos)
     assert (renderer.width, renderer.height) == (width, height)

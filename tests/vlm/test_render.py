@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from etot_cli.control.simulated_world import SimulatedWorld
-from etot_cli.errors import ServiceError, WorldError
+from etot_cli.errors import ServiceError
 from etot_cli.reasoning.vlm.frames import draw_marks, moments
 from etot_cli.specs.scene import Scene
 from etot_cli.world.film import Take, key_moments, write_frames, write_video
-from etot_cli.world.model import build_world
 from etot_cli.world.recorder import Trajectory
 from etot_cli.world.render import WorldRenderer, fit_size
 from etot_cli.world.state import Cause, CauseKind, ContactEvent, RolloutRecord
@@ -85,19 +84,13 @@ def test_every_object_is_seen_with_and_without_a_camera(trajectory: Trajectory) 
     bare = SCENE.model_copy(update={"cameras": {}})
     for scene in (SCENE, bare):
         simulated = SimulatedWorld(scene)
-        with WorldRenderer(simulated.world, next(iter(scene.cameras), None), 320, 180) as renderer:
+        with WorldRenderer(simulated.world, 320, 180) as renderer:
             image = renderer.frame(trajectory.qpos[0])
             assert image.shape == (180, 320, 3) and image.std() > 15
             masks = renderer.visible_pixels(trajectory.qpos[0])
             # From the front, towards the robot, its left is on the right of the picture.
             columns = {name: np.nonzero(mask)[1].mean() for name, mask in masks.items()}
         assert set(masks) == {"block", "marble"} and columns["block"] > columns["marble"]
-
-
-@pytest.mark.render
-def test_an_unknown_camera_is_named() -> None:
-    with pytest.raises(WorldError, match="no camera 'rear'; it has front"):
-        WorldRenderer(build_world(SCENE), "rear", 320, 180)
 
 
 def test_pictures_keep_the_proportions_of_their_camera() -> None:

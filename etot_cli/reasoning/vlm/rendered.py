@@ -19,7 +19,7 @@ from etot_cli.skills.deadline import NEVER
 from etot_cli.specs.scene import Scene
 from etot_cli.world.model import build_world
 from etot_cli.world.recorder import Trajectory
-from etot_cli.world.render import WorldRenderer, first_camera
+from etot_cli.world.render import WorldRenderer
 from etot_cli.world.state import RolloutRecord, SceneState
 
 NEVER_BEGAN = "Before the action, which never began: no motion was found for it, nothing moved"
@@ -75,14 +75,14 @@ class RenderedFrames(NominalOutcomes):
 
     def __init__(self, scene: Scene, width: int) -> None:
         super().__init__()
-        self._scene = scene
         self._world = build_world(scene)
-        self._camera = first_camera(scene)
-        self._renderer = WorldRenderer(self._world, self._camera, width, width)
+        self._renderer = WorldRenderer(self._world, width, width)
         self.spent_s = 0.0
         """Wall time that frames have taken so far [s]."""
         look = scene.model_dump_json(exclude={"directory", "name", "description"})
-        self._base = hashlib.sha256(f"{self._camera}/{width}/{look}".encode()).digest()
+        self._base = hashlib.sha256(
+            f"{next(iter(scene.cameras), None)}/{width}/{look}".encode()
+        ).digest()
 
     def close(self) -> None:
         """Frees the graphics context; idempotent."""
