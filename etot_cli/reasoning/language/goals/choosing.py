@@ -12,11 +12,12 @@ from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import PutGroup, State
+from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
@@ -50,6 +51,21 @@ def check_taken(
             above = context.discourse.things(*themes)
             if all(touches(one, other, context.scene) for one in above for other in below):
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def check_swept(context: Context, clause: PutClause) -> None:
+    """Whether "everything from the plate and the tray" may be what is on both, or the tray."""
+    (first, *more) = [np for group in clause.groups for np in group.things.phrases]
+    swept = bool(first.modifiers) and matches_any(first.head, THING_NOUNS)
+    below = {name for thing in context.scene.states for name in carriers(context.scene, thing)}
+    for second in more[:1] if swept or first.head in GENERAL else ():
+        swept = False
+        with suppress(ReferenceProblem):
+            meant = things_in(context.phrases.meaning(second, Role.THEME).options)
+            swept = any(thing.name in below for thing in meant)
+        if swept:
+            text = f"{first.text} and {second.text}"
+            raise ReferenceProblem(text, "say in two sentences where what is on each is to go", 4)
 
 
 def check_poured(

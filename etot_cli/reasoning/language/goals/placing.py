@@ -11,7 +11,12 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
-from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, ReorientClause
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    PutClause,
+    PutGroup,
+    ReorientClause,
+)
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
@@ -157,12 +162,18 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
         before = index
 
 
-def where_is(context: Context, where: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
+def where_is(
+    context: Context, clause: PutClause, group: PutGroup, themes: Sequence[int]
+) -> tuple[Place, ...]:
     """In or on what something is, or will be by then.
 
     Raises:
-        ReferenceProblem: it is on the desk, where no other thing fits, or where is not known.
+        ReferenceProblem: it is on the desk, where no other thing fits; where is not known; or more
+            is said of the place than that.
     """
+    (where, *more) = group.destinations
+    if more or clause.conditions:
+        raise ReferenceProblem(where.word, REASONS["where"], 3)
     (phrase,) = where.targets
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
     moved = {index: step.places for step in steps for index in step.what}

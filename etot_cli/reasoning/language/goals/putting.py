@@ -22,6 +22,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
     check_describes,
     check_poured,
+    check_swept,
     check_taken,
     choose_by_place,
     choose_from_somewhere,
@@ -76,7 +77,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -92,6 +92,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
+    check_swept(context, clause)
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
@@ -115,11 +116,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
             continue
-        if any(item.toward is Toward.WITH for item in group.destinations):
-            (at, *more) = group.destinations
-            if more or ruled_out or clause.conditions:
-                raise ReferenceProblem(at.word, REASONS["where"], 3)
-            add_put(context, themes, where_is(context, at, themes), clause.grouping)
+        if not ruled_out and any(w.toward is Toward.WITH for w in group.destinations):
+            add_put(context, themes, where_is(context, clause, group, themes), clause.grouping)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
