@@ -129,9 +129,13 @@ _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", eith
 _ANY_ONE = either("one, of them", silent(NOUN_WORD))
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
-_COLORED = valued(_DESCRIPTIVE, lambda text: Modifier(Prep.QUALITY, words=(text,)))
-_LEVEL = word(lambda given, text: text in LEVELS)
-_PART_NOUN = word(lambda given, text: text in (*BOARD_NOUNS, "drawer"))
+_PART_OF_IT = sequence(
+    word(lambda given, text: text in LEVELS),
+    word(lambda given, text: text in (*BOARD_NOUNS, "drawer")),
+    either(COMMA, at_end),
+    build=lambda *words: (words, ()),
+)
+"""Behind a comma ("the chest, upper drawer")."""
 _OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
 noun_phrase.define(
     spanned(
@@ -197,7 +201,7 @@ noun_phrase.define(
             ),
             sequence(
                 phrase(nouns.FREE_RELATIVE),
-                either(PLAIN_MODIFIER, _COLORED, quality_alone),
+                either(PLAIN_MODIFIER, quality_alone),
                 MODIFIERS,
                 build=lambda said, first, more: NounPhrase(
                     "all other" if "else" in said else "all", ("objects",), (first, *more)
@@ -242,23 +246,12 @@ noun_phrase.define(
             sequence(
                 OPTIONAL_DETERMINER,
                 WORDS,
-                "'s",
-                WORDS,
-                MODIFIERS,
-                build=lambda det, owner, words, mods: NounPhrase(
-                    "the", words, mods, owner=NounPhrase(det, owner, text=" ".join(owner))
+                either(
+                    sequence("'s", WORDS, MODIFIERS),
+                    sequence(COMMA, optional("[in|on|into|onto] the"), _PART_OF_IT),
                 ),
-            ),
-            sequence(
-                # "The chest, upper drawer"
-                OPTIONAL_DETERMINER,
-                WORDS,
-                COMMA,
-                optional("[in|on|into|onto] the"),
-                sequence(_LEVEL, _PART_NOUN, build=lambda *words: words),
-                either(COMMA, at_end),
-                build=lambda det, owner, words: NounPhrase(
-                    "the", words, owner=NounPhrase(det, owner, text=" ".join(owner))
+                build=lambda det, owner, part: NounPhrase(
+                    "the", part[0], part[1], owner=NounPhrase(det, owner, text=" ".join(owner))
                 ),
             ),
             sequence(PRONOUN, MODIFIERS, build=_pronoun),

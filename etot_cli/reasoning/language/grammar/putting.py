@@ -402,7 +402,6 @@ PUT = either(
             (verbs.PUT_DOWN, optional("down"), DOWN),
             (verbs.LAY, "down", DOWN),
             (verbs.PUT_BACK, optional("back"), BACK),
-            (verbs.PUT, "back", BACK),
         )
     ),
 )
