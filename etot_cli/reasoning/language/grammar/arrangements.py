@@ -35,6 +35,7 @@ REORIENT = either(
     sequence(
         phrase(verbs.REORIENT),
         THINGS,
+        optional("around, round"),
         optional(
             either(
                 phrase(f"{manner.UPRIGHT}, {manner.STANDING}", True), phrase(manner.FITTING, False)

@@ -36,7 +36,7 @@ _FORBIDDEN = either(
         one_of(
             {
                 Avoid.TOUCH: verbs.TOUCH,
-                Avoid.MOVE: f"{verbs.DISTURB}, {verbs.PICK}",
+                Avoid.MOVE: f"{verbs.DISTURB}, {verbs.PICK}, {verbs.REMOVE}",
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
             }
@@ -45,6 +45,7 @@ _FORBIDDEN = either(
         optional(small_words.TRAILING_THEN),
         build=_avoid,
     ),
+    sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         "leav(e|ing)",

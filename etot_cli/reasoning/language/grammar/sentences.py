@@ -278,6 +278,7 @@ _WITH_MORE_BEFORE_IT = either(
         plain(
             either(
                 SO,
+                sequence(ALL_THINGS, build=_taken_out),
                 sequence(
                     ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
                 ),

@@ -51,7 +51,8 @@ SIDE = """
     (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
     (on|at) the (left|right) of the (desk|table|scene),
     (on|at) the far (left|right), in front, (furthest|farthest) (left|right|back),
-    (furthest|farthest|closest|nearest|most) (to|on|at) the (left|right|front|back) [side|end|edge],
+    (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) the
+    (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
     (at|from|on) the [very] (top|bottom), on top
 """

@@ -83,7 +83,7 @@ MODAL = f"""
     (can|could|may|might|will) (go [back]|be put|be placed)
 """
 CAN = "can, could, may"
-BE_PUT = f"[please] be [{_BROUGHT}]"
+BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like,
