@@ -94,7 +94,11 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     Raises:
         UnreadableError, ReferenceProblem: there are none, or the rest is not read.
     """
-    plain = without_asides(normalized(instruction), partial(_is_name, vocabulary=vocabulary))
+    plain = without_asides(
+        normalized(instruction),
+        partial(_is_name, vocabulary=vocabulary),
+        partial(_is_sentence, vocabulary=vocabulary),
+    )
     if plain is None:
         raise UnreadableError(instruction, "")
     goal = _read(plain.text, scene, vocabulary)
@@ -104,6 +108,14 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     )
     notes = (f"{text!r} is not asked for: the rest is done" for text in said)
     return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _is_sentence(text: str, vocabulary: Vocabulary) -> bool:
+    """Whether the grammar reads a sentence, whatever it is about."""
+    with suppress(UnreadableError):
+        read(vocabulary.joined(text), vocabulary.words())
+        return True
+    return False
 
 
 def _is_name(word: str, vocabulary: Vocabulary) -> bool:

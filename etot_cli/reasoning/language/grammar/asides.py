@@ -30,8 +30,8 @@ _LEADING = re.compile(
 _TRAILING = re.compile(
     rf"^(?P<rest>.+?) (?:{COMMA} )?(?P<said>(?:because|since|now that|in case|before) [^~]+"
     r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+"
-    r"|so (?:that )?nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|\w+ed)"
-    r"|for (?:later|(?!me)\w+ing|\w+ time))$"
+    r"|so (?:that )?nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
+    r"|for (?:later|(?!\w*thing)\w+ing|(?:lunch|dinner|tea|play|bed)\w* ?time))$"
 )
 _THEREFORE = re.compile(
     rf"^(?P<said>[^~]+?) (?:(?:{COMMA} )?(?:and |that is )?(?:so|therefore|hence|why)|{COMMA}) "
@@ -63,7 +63,7 @@ _DOING = {
     verb
     for verb in VERB_WORDS
     if VERB_WORDS & {f"{verb}ing", f"{verb[:-1]}ing", f"{verb}{verb[-1]}ing"}
-}
+} | {"open", "shut", "empty"}
 """What the robot could be asked to do."""
 _ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
 _OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
@@ -85,17 +85,25 @@ class Plain:
     asides: tuple[str, ...]
 
 
-def without_asides(text: str, is_name: Callable[[str], bool]) -> Plain | None:
+def without_asides(
+    text: str, is_name: Callable[[str], bool], is_sentence: Callable[[str], bool]
+) -> Plain | None:
     """An instruction with every aside replaced by what it names; None where there is none.
 
     Args:
         text: normalized.
         is_name: whether something in the scene is called by a word.
+        is_sentence: whether the grammar reads a sentence as it stands; what it reads stays whole.
     """
     kept: list[str] = []
     asides: list[str] = []
     for sentence in sentences_of(text):
         before, rest, after = _parted(" ".join(words_in(sentence)), is_name)
+        # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
+        outside = after.startswith("for ") or not (rest or _PERSON.match(sentence))
+        if is_sentence(sentence) and not outside:
+            kept.append(sentence)
+            continue
         asides += [spaced(said.split()) for said in (before, after) if said]
         kept += [_named(before, is_name), rest, _named(after, is_name)]
     if not 0 < len(asides) <= MOST or not any(kept):
