@@ -172,7 +172,9 @@ def where_is(
             is said of the place than that.
     """
     (where, *more) = group.destinations
-    if more or clause.conditions:
+    # "Drop it not in the bowl where the apple is" says nothing of which it is.
+    denied = any(item.denied for np in group.things.phrases for item in np.modifiers)
+    if more or clause.conditions or denied:
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     (phrase,) = where.targets
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]

@@ -67,6 +67,7 @@ _DOING = {
 """What the robot could be asked to do."""
 _ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
 _OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
+_TOO = re.compile(r"^(?:the|my|your|our) [^~]+ (?:is|are) (?:far |much )?too \w+")
 _IN_GENERAL = re.compile(
     r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
 )
@@ -144,8 +145,9 @@ def _tells(said: str, is_name: Callable[[str], bool]) -> bool:
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((_DOING | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
-    outside = _OUTSIDE.search(said) and not any(map(is_name, words))
-    asking = (_DOING | _ASKING | _REFERRING) & {*words}
+    outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
+    told = _TOO.sub("", said).split()  # "too close" is no "close"
+    asking = (_DOING | _ASKING | _REFERRING) & {*told}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
 
 
