@@ -31,7 +31,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
-from etot_cli.reasoning.language.grammar.putting import PUT, PUT_GROUP
+from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
+from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (

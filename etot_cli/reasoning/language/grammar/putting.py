@@ -24,24 +24,21 @@ from etot_cli.reasoning.language.grammar.destinations import (
     INSTEAD,
     INTO,
     ONTO,
-    WHERE,
 )
-from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS, lending_nouns
+from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
-    Rule,
     either,
     optional,
     phrase,
     quiet,
     separated,
     sequence,
-    silent,
     some,
     valued,
-    variants,
 )
+from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
@@ -54,99 +51,15 @@ from etot_cli.reasoning.language.grammar.syntax import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
+from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
-    BINS,
     is_descriptive,
     singular,
 )
 from etot_cli.world.spatial import Nearby
 
-
-def _away(text: str, things: Things, into: Destination | None) -> PutClause | None:
-    """Into what is named as a bin, or the only one; who throws away "everything in the drawer"
-    means what is in there.
-    """
-    if into is not None:
-        said = {word for np in into.targets for word in "_".join(np.words).split("_")}
-        plain = said & BINS or not into.targets
-        fits = (plain or text.startswith(("discard", "dispos"))) and not things.are_any
-        return replace(put_to(things, (into,)), far_fetched=int(not plain)) if fits else None
-    to, noun = (Toward.ON, "shelf") if text.startswith("shelv") else (Toward.INSIDE, "trash")
-    return put_to(things, (Destination(to, (NounPhrase("the", (noun,), text=text),)),))
-
-
-_THEREIN = valued(phrase(places.THEREIN), lambda text: Destination(Toward.HERE, word=text))
-_INSERTED = sequence(
-    "insert[ing]",
-    THINGS,
-    build=lambda things: put_to(things, (Destination(Toward.HERE, word="in"),)),
-)
-"""Into what was opened or named before."""
-THROWN = quiet(
-    either(
-        sequence(
-            verbs.THROW,
-            separated(
-                sequence(
-                    THINGS,
-                    sequence(either(INTO, ONTO, _THEREIN), build=lambda place: (place,)),
-                    build=PutGroup,
-                ),
-                LIST,
-                most=3,
-            ),
-            build=PutClause,
-        ),
-        sequence(
-            phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"),
-            THINGS,
-            optional(either(INTO, _THEREIN), None),
-            build=_away,
-        ),
-        sequence(
-            verbs.THROW,
-            THINGS,
-            phrase("away, out"),
-            optional(either(INTO, _THEREIN), None),
-            build=lambda things, text, into: _away(text, things, into),
-        ),
-    )
-)
-
-
-_MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
-_ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
-
-
-_PARTICLE = """
-    down, up, away, back, over, out, inside, somewhere, anywhere, some place, out of the way,
-    one (by one|at a time|after the other|after another)
-"""
-
-
-def _quantified(things: Things, said: str) -> Things | None:
-    """Things of which it is said before the place that each of them, or all, go there."""
-    nps = tuple(all_of((np,), said) for np in things.phrases)
-    several = len(nps) > 1 or nps[0] != things.phrases[:1]
-    return replace(things, phrases=sum(nps, ())) if several and not things.either else None
-
-
-def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
-    """Things and where they go; "everything back" is what has been there, which nobody knows."""
-    sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
-    return None if how == "back" and sweeping else PutGroup(things, where, how is True)
-
-
-PUT_GROUP = sequence(
-    either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
-    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
-    _ASIDE,
-    optional("somewhere, anywhere"),
-    WHERE,
-    build=_group,
-)
 _BROUGHT = either(
     sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
     sequence(verbs.WANT, ALL_THINGS),
@@ -164,7 +77,6 @@ _SAID_AHEAD = sequence(
     build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
 )
 """What may follow the place stands before it."""
-PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
 
 
 def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause | None:
@@ -370,7 +282,7 @@ PUT = either(
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away),
     THROWN,
-    _INSERTED,
+    INSERTED,
     sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.

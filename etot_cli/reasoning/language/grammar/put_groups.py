@@ -1,0 +1,57 @@
+"""Rules for things with the place where they go, and for several such pairs in a row."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import WHERE
+from etot_cli.reasoning.language.grammar.gapping import lending_nouns
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    Rule,
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+    some,
+    variants,
+)
+from etot_cli.reasoning.language.grammar.states import all_of
+from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, Things
+from etot_cli.reasoning.language.words import manner, small_words
+
+_MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
+_ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
+
+
+_PARTICLE = """
+    down, up, away, back, over, out, inside, somewhere, anywhere, some place, out of the way,
+    one (by one|at a time|after the other|after another)
+"""
+
+
+def _quantified(things: Things, said: str) -> Things | None:
+    """Things of which it is said before the place that each of them, or all, go there."""
+    nps = tuple(all_of((np,), said) for np in things.phrases)
+    several = len(nps) > 1 or nps[0] != things.phrases[:1]
+    return replace(things, phrases=sum(nps, ())) if several and not things.either else None
+
+
+def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
+    """Things and where they go; "everything back" is what has been there, which nobody knows."""
+    sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
+    return None if how == "back" and sweeping else PutGroup(things, where, how is True)
+
+
+PUT_GROUP = sequence(
+    either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
+    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
+    _ASIDE,
+    optional("somewhere, anywhere"),
+    WHERE,
+    build=_group,
+)
+PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
