@@ -141,6 +141,19 @@ def stacked() -> SceneState:
     )  # fmt: skip
 
 
+def piled() -> SceneState:
+    """A block upon another, one on a tray, one on the desk."""
+    return scene(
+        item("red_block", "box", (0.30, 0.20), size=CUBE, color="red", label="block"),
+        item("green_block", "box", (0.30, 0.20), size=CUBE, color="green", label="block",
+             on="red_block", z=0.19),
+        item("tray", "box", (0.55, 0.35), size=(0.25, 0.20, 0.02), color="black"),
+        item("blue_block", "box", (0.55, 0.35), size=CUBE, color="blue", label="block",
+             on="tray", z=0.17),
+        item("pink_block", "box", (0.40, -0.10), size=CUBE, color="pink", label="block"),
+    )  # fmt: skip
+
+
 def sorting() -> SceneState:
     """Red, green and blue bowls, and for each a cube of the colour; two more red things."""
     return scene(

@@ -216,8 +216,16 @@ def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False
     discourse, scene = context.discourse, context.scene
     referent = discourse.referents[theme]
     if stacked:
-        above = (tuple(t for t in o if carriers(scene, t.name)) for o in referent.options)
-        options = tuple(option for option in above if option)
+        above = [tuple(t for t in o if carriers(scene, t.name)) for o in referent.options]
+        # "The blocks" are upon each other; one that lies on a tray is in no stack.
+        names = [{thing.name for thing in option} for option in referent.options]
+        upon = [
+            tuple(t for t in option if carriers(scene, t.name) & own)
+            for option, own in zip(above, names, strict=True)
+        ]
+        options = tuple(
+            one or other for one, other in zip(upon, above, strict=True) if one or other
+        )
         if not options:
             raise ReferenceProblem(referent.text, "it stands on nothing that can be moved", 3)
         discourse.referents[theme] = replace(referent, options=options)
@@ -235,5 +243,5 @@ def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False
     options = named or held
     if options and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
-        names = ", ".join(dict.fromkeys(thing.name for thing in things_in(options)))
-        discourse.notes.append(f"{referent.text!r} is one that is in or on something ({names})")
+        those = ", ".join(dict.fromkeys(thing.name for thing in things_in(options)))
+        discourse.notes.append(f"{referent.text!r} is one that is in or on something ({those})")

@@ -34,6 +34,7 @@ _NOTHING_ELSE = re.compile(
 """Behind the things it stands for what is said of them behind their place."""
 _ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
 """What goes where, in a table ("lemon: white bowl")."""
+_SMALL = {"the", "a", "my", "your", "its", "please", "kindly"}
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
@@ -90,7 +91,8 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
-    text = _ITEM.sub(_item, text)
+    table = _ITEM.sub(_item, text)
+    text = text if ":" in table else table  # all of its lines, or none
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
@@ -109,7 +111,7 @@ def _counted(text: str) -> str:
 
 def _item(found: re.Match[str]) -> str:
     """A line of a table as what goes where; with words for doing or order it is none."""
-    said = {*found[0].replace(":", " ").split()} - {"the", "a", "my", "your", "its"}
+    said = {*found[0].replace(":", " ").split()} - _SMALL
     return found[0] if said & OPENING_WORDS else f"{found[1]} to {found[2]}"
 
 

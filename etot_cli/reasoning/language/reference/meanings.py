@@ -229,7 +229,8 @@ class Meanings:
         if problem is not None:
             raise problem
         if found or resolved is None:
-            ways = [thing.name for options in found for thing in things_in(options)]
+            said = (*found, *([resolved.options] if resolved else ()))
+            ways = [thing.name for options in said for thing in things_in(options)]
             raise AmbiguousReference(phrase.text, ways)
         return resolved
 

@@ -31,7 +31,8 @@ GENERAL_NOUNS = """
     all (others|the others|the rest)
 """
 EXCEPT = """
-    except [for], but not, other than, apart from, but, excluding, aside from, save [for],
+    except [for], with the exception of, but not, other than, apart from, but, excluding,
+    aside from, save [for],
     [in|of] any (color|colour) (except|but|other than|apart from)
 """
 CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, as opposed to"
