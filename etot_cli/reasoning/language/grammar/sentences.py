@@ -43,6 +43,7 @@ from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
+    Clause,
     Destination,
     EnsureClause,
     Modifier,
@@ -205,7 +206,18 @@ def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
     therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
-    return (*topic, *rest) if remark or therein or any(pronouns(rest[0].clause)) else None
+    one = _are_several(topic[0].clause) and any(
+        isinstance(item, NounPhrase) and item.is_elliptic and item.determiner == "the"
+        for item in nodes(rest[0].clause)
+    )
+    spoken = remark or therein or one or any(pronouns(rest[0].clause))
+    return (*topic, *rest) if spoken else None
+
+
+def _are_several(topic: Clause) -> bool:
+    """Whether several things are named."""
+    nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
+    return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
 
 
 def _sorted(topic: Reading, rest: Reading) -> Reading | None:
@@ -221,10 +233,7 @@ def _sorted(topic: Reading, rest: Reading) -> Reading | None:
 
 def _shared_out(topic: Reading, rest: Reading) -> Reading | None:
     """Several things are taken, and each of them goes somewhere of its own."""
-    clause = topic[0].clause
-    nps = clause.things.phrases if isinstance(clause, ReorientClause) else ()
-    several = len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
-    return _sorted(topic, rest) if several else None
+    return _sorted(topic, rest) if _are_several(topic[0].clause) else None
 
 
 def _all_put(topic: Reading, rest: Reading) -> Reading | None:

@@ -101,6 +101,7 @@ class Resolver:
         *,
         noun: str | None = None,
         excluded: Sequence[Thing] = (),
+        among: Sequence[Thing] = (),
         parts_first: bool = False,
         pronoun: Pronoun = lambda phrase: (),
     ) -> Resolved:
@@ -111,6 +112,7 @@ class Resolver:
             role: what it is used for.
             noun: the noun of an earlier phrase, for "one" and "the other".
             excluded: what "the other" is not.
+            among: several things that were spoken of: where some of them fit, it is one of these.
             parts_first: it is about drawers rather than about whole chests.
             pronoun: what a pronoun in a modifier means.
 
@@ -129,6 +131,7 @@ class Resolver:
             things = [thing for thing in things if thing not in excluded]
             if not things:
                 raise ReferenceProblem(phrase.text, "there is no other one", 2)
+        things = [thing for thing in things if thing in among] or things
         things = usable_ones(things, role, phrase, self._scene)
         return self._resolved(asked, things, pronoun)
 
