@@ -1182,3 +1182,20 @@ def greenhouse() -> SceneState:
         item("spade", "box", (0.62, -0.52), size=(0.12, 0.05, 0.01), on="in_tray", z=0.16),
         item("flask_1", "cylinder", (0.30, 0.40), size=(0.06, 0.06, 0.2), label="water bottle"),
     )
+
+
+def block_field() -> SceneState:
+    """Blocks of four colours all over the desk, two of them side by side."""
+    places = {
+        "green": ((0.22, -0.05), (0.45, 0.065), (0.62, 0.35)),
+        "blue": ((0.30, -0.05), (0.45, 0.02), (0.35, 0.35)),
+        "yellow": ((0.40, -0.30), (0.60, 0.05), (0.30, 0.20)),
+        "orange": ((0.48, -0.30), (0.55, 0.25)),
+    }
+    return scene(
+        *(
+            item(f"{color}_{number}", "box", at, size=CUBE, color=color, label=f"{color} block")
+            for color, found in places.items()
+            for number, at in enumerate(found, 1)
+        )
+    )

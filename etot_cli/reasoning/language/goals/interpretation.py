@@ -49,7 +49,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     ReorientClause,
 )
 from etot_cli.reasoning.language.grammar.trees import reading_cost
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
@@ -229,7 +229,10 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
             attempt.read(reading)
             goal = attempt.goal()
         except ReferenceProblem as error:
-            if unclear is None and isinstance(error, AmbiguousReference):
+            strict = not isinstance(error, UnclearLandmark)
+            if isinstance(error, AmbiguousReference) and (
+                unclear is None or (strict and isinstance(unclear, UnclearLandmark))
+            ):
                 unclear = error
             # Of a far-fetched reading it says little that some of its phrases are understood.
             if problem is None or error.weight - simplicity > blame:
@@ -246,7 +249,8 @@ def _best_reading(state: _State, sentence: Sentence) -> _State:
         undecided = min(len(item.context.discourse.undecided) for item in found.values())
         if len(found) > MAX_COMPARED:
             raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
-    if unclear is not None:
+    settled_here = isinstance(unclear, UnclearLandmark) and found and not undecided
+    if unclear is not None and not settled_here:
         # What is no simpler than a reading that leaves the choice open settles nothing.
         raise unclear
     if not found:

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     some,
+    spanned,
     valued,
     word,
 )
@@ -39,6 +40,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 noun_phrase = Rule()
 exceptions = Rule()
@@ -74,6 +76,19 @@ def _between(pair: tuple[NounPhrase, ...]) -> Modifier | None:
     return None if half else Modifier(Prep.BETWEEN, pair)
 
 
+_NEAREST_AREA = sequence(
+    "closest to, nearest [to], closer to, nearer to", "the", one_of(places.NEAREST_AREAS)
+)
+
+
+def _in_area(said: str, area: tuple[Nearby, ...]) -> Modifier:
+    return Modifier(Prep.AREA, words=tuple(said.split()), area=area)
+
+
+def _at_side(said: str) -> Modifier:
+    return Modifier(Prep.SIDE, words=tuple(said.split()))
+
+
 PLAIN_MODIFIER = either(
     sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
     sequence(
@@ -90,7 +105,8 @@ PLAIN_MODIFIER = either(
     ),
     sequence(BETWEEN, build=_between),
     sequence(nouns.SAME_COLOR, noun_phrase, build=lambda np: Modifier(Prep.COLORED, (np,))),
-    valued(SIDE, lambda text: Modifier(Prep.SIDE, words=tuple(text.split()))),
+    valued(SIDE, _at_side),
+    spanned(either(one_of(places.AREAS), _NEAREST_AREA), _in_area),
     sequence(
         word(lambda given, text: text in ORDINALS),
         valued(SIDE, lambda text: tuple(text.split())),
@@ -135,6 +151,13 @@ _contents = either(
     ),
     _contents_with(_HAVING, denied=False),
     _contents_with(nouns.LACKING, denied=True),
+    sequence(
+        _HAVING,
+        noun_phrase,
+        EXACTLY,
+        spanned(one_of(places.IT_HAS), lambda said, prep: (prep, tuple(said.split()))),
+        build=lambda np, found: Modifier(found[0], (np,), found[1]),
+    ),
     sequence(
         _HAVING,
         "nothing",
@@ -285,6 +308,18 @@ _modifier = either(
     _contents,
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
+    sequence(
+        # "That is red and on the left"
+        after("that", "which"),
+        "and [(that|which) is|is] [also]",
+        either(PLAIN_MODIFIER, quality_alone),
+    ),
+    sequence(
+        after("closest", "nearest", "farthest", "furthest"),
+        "and [also] (on|to|at) the",
+        phrase("left [side], right [side]"),
+        build=lambda said: _at_side(f"on the {said}"),
+    ),
     sequence(
         "~comma which [is|are|stands|stand|lies|lie|sits|sit] [currently|already]",
         DESCRIBED,

@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     at_end,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -45,6 +46,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     NUMBERS,
+    ORDINALS,
     THING_NOUNS,
     basic_color,
     is_descriptive,
@@ -100,6 +102,20 @@ def _general(determiner: str, head: str, quality: Any, modifiers: Any) -> NounPh
     return NounPhrase(determiner, (head,), modifiers)
 
 
+def _nearest_to(
+    determiner: str, ordinal: str, prep: Prep, words: tuple[str, ...], mark: tuple[Prep, NounPhrase]
+) -> NounPhrase | None:
+    """With the landmark of "the closest cup to the plate"; of "the second closest cup to you" the
+    robot, from which they are counted anyway.
+    """
+    side = "closest" if prep is Prep.NEAREST else "farthest"
+    if mark[0] is not prep or singular(words[-1]) != words[-1]:
+        return None
+    if mark[1].words in (("you",), ("robot",)):
+        return NounPhrase(determiner, (*filter(None, (ordinal,)), side, *words))
+    return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
+
+
 def _where_it_is(words: tuple[str, ...], np: NounPhrase) -> NounPhrase | None:
     """The place that something is in or on ("the same drawer as the pen")."""
     vague = matches_any(words[-1], (*THING_NOUNS, "color", "colour", "place", "way", "side"))
@@ -141,6 +157,18 @@ noun_phrase.define(
     spanned(
         either(
             sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
+            sequence(
+                # "The closest cup to the plate"
+                OPTIONAL_DETERMINER,
+                optional(word(lambda given, text: text in ORDINALS), ""),
+                one_of({Prep.NEAREST: "closest, nearest", Prep.FARTHEST: "farthest, furthest"}),
+                WORDS,
+                either(
+                    sequence("to", noun_phrase, build=lambda np: (Prep.NEAREST, np)),
+                    sequence("[away] from", noun_phrase, build=lambda np: (Prep.FARTHEST, np)),
+                ),
+                build=_nearest_to,
+            ),
             sequence(
                 # "The top two drawers"
                 "the",

@@ -60,7 +60,7 @@ from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -206,12 +206,21 @@ def _about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
     therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
+    spoken = remark or therein or any(pronouns(rest[0].clause))
+    return (*topic, *rest) if spoken else _one_of_them(topic, rest)
+
+
+def _one_of_them(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things are named before a clause speaks of one of them ("of the cups take the left
+    one").
+    """
     one = _are_several(topic[0].clause) and any(
-        isinstance(item, NounPhrase) and item.is_elliptic and item.determiner == "the"
+        isinstance(item, NounPhrase)
+        and item.determiner == "the"
+        and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
         for item in nodes(rest[0].clause)
     )
-    spoken = remark or therein or one or any(pronouns(rest[0].clause))
-    return (*topic, *rest) if spoken else None
+    return (*topic, *rest) if one else None
 
 
 def _are_several(topic: Clause) -> bool:
@@ -262,6 +271,7 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_about,
     ),
+    sequence("of, among, from among, out of", _NAMED, OPTIONAL_COMMA, CHAIN, build=_one_of_them),
     sequence(
         verbs.FETCH,
         _NAMED,

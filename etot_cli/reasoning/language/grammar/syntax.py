@@ -25,6 +25,8 @@ class Modifier:
     words: tuple[str, ...] = ()
     denied: bool = False
     """It is *not* so ("that is not on the tray")."""
+    area: tuple[Nearby, ...] = ()
+    """Where on the desk."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,13 @@ class AmbiguousReference(ReferenceProblem):
         super().__init__(text, f"{why} {' or '.join(found)}; name it", 4, candidates=found)
 
 
+class UnclearLandmark(AmbiguousReference):
+    """Words that are told by others that may mean several things; where these are told from each
+    other by what another reading takes with the first ("the ball behind the cup on the left"),
+    that reading is right.
+    """
+
+
 @dataclass(frozen=True, slots=True)
 class Mention:
     """A referent spoken of in a clause, in a role."""

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.reference.entries import GENERIC, SHAPES
 from etot_cli.reasoning.language.reference.matching import Match, is_object
 from etot_cli.reasoning.language.reference.modified import names_of_things
 from etot_cli.reasoning.language.reference.nouns import all_among
+from etot_cli.reasoning.language.reference.selection import side_word
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -119,6 +120,34 @@ def check_noun(asked: Asked) -> None:
         raise asked.problem(UNCLEAR, 2)
     if phrase.determiner.split()[:1] == ["some"]:
         raise asked.problem("'some' is not supported: say how many", 3, "some")
+
+
+def check_on_side(
+    asked: Asked,
+    modifiers: Sequence[Modifier],
+    things: Sequence[Thing],
+    rivals: Sequence[Thing],
+    scene: SceneState,
+) -> None:
+    """Refuses "the cup closest to you on the left" where that one stands on the right.
+
+    Args:
+        asked: the phrase.
+        modifiers: what is said of the things.
+        things: which they leave.
+        rivals: what its noun fits.
+        scene: what it is about.
+
+    Raises:
+        AmbiguousReference: another one stands on that side of the desk's middle.
+    """
+    by_distance = any(item.prep in (Prep.NEAREST, Prep.FARTHEST) for item in modifiers)
+    sides = [side_word(" ".join(item.words)) for item in modifiers if item.prep is Prep.SIDE]
+    for side in sides if by_distance and len(things) == 1 else ():
+        beyond = [t for t in rivals if space.is_beyond_middle(side or "", t, scene)]
+        if beyond and not {*things} & {*beyond}:
+            named = [thing.address for thing in (*things, *beyond)]
+            raise AmbiguousReference(asked.phrase.text, named)
 
 
 def check_modified(

@@ -80,7 +80,7 @@ def related(
     upon = [
         thing
         for thing in fitting
-        if prep in ON_SIDE and modifier.words
+        if prep in ON_SIDE and modifier.words == ("on",)
         if any(space.rests_on(thing, mark, scene) for mark in landmark_things)
     ]
     if upon and plainly:  # "the pot on the left side of the bench"

@@ -8,7 +8,7 @@ from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.language.reference.determiners import Quantity
 from etot_cli.reasoning.language.reference.landmarks import (
     HOLDING,
@@ -61,7 +61,7 @@ def modified(
         if modifier.prep is Prep.MATCHING:
             why = "say which thing's colour is meant"
             raise ReferenceProblem(phrase.text, why, 2)
-        if modifier.prep in (Prep.SIDE, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
+        if modifier.prep in (Prep.SIDE, Prep.AREA, Prep.QUALITY, Prep.EXCEPT, Prep.CONTRAST):
             continue
         if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
             things = between_the_others(things, phrase, scene)
@@ -85,7 +85,7 @@ def modified(
             continue
         if len(ways) > 1:
             named = [thing.name for way in ways for thing in way]
-            raise AmbiguousReference(phrase.text, sorted(named))
+            raise UnclearLandmark(phrase.text, sorted(named))
         found = [thing for way in ways for thing in way]
         if not found:
             raise ReferenceProblem(*_untrue(phrase, modifier, things), 1)

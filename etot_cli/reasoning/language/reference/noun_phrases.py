@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.reference.doubts import (
     check_determiner,
     check_modified,
     check_noun,
+    check_on_side,
     check_selected,
 )
 from etot_cli.reasoning.language.reference.entries import EXACT, HEAD, Entry
@@ -189,6 +190,7 @@ class Resolver:
             modifiers = (Modifier(Prep.OF, (phrase.owner,)), *modifiers)
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
+        rivals = things
         things, others = modified(
             things, modifiers, quantity, asked.count, phrase, self._scene, sets, notes
         )
@@ -200,6 +202,7 @@ class Resolver:
         idle = idle_words(match, modifiers, alone, self._scene, phrase.text, notes)
         things = select(match.selectors, modifiers, things, asked.count, self._scene, phrase.text)
         check_selected(asked, things, self._scene)
+        check_on_side(asked, modifiers, things, rivals, self._scene)
         things = called_exactly(things, match, phrase, words, quantity, self._scene, notes)
         infos = self._scene.infos
         labels = [infos[thing.name].label for thing in things if thing.name in infos]

@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.areas import in_area
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
@@ -51,6 +52,9 @@ def select(
         side = side_word(" ".join(item.words))
         at_side = _at_side(SIDES.get(side, side), things, 1, scene, phrase) if side else []
         things = [thing for thing in things if thing not in at_side]
+    for item in modifiers:
+        if item.prep is Prep.AREA:
+            things = in_area(item, things, count, scene, phrase)
     sides = [
         side_word(" ".join(item.words))
         for item in modifiers
@@ -79,6 +83,8 @@ def select(
         return [_nth_by_size(ordinals[0], by_size[0], things, scene, phrase)]
     if ordinals:
         others = [word for word in words if word in SIZES or word in SIDES]
+        if len(others) == 1 and others[0].endswith(("est", "most")) and others[0] in SIDES:
+            sides, others = [*sides, others[0]], []  # "the second closest", "… rightmost cup"
         if len(ordinals) > 1 or others or len(sides) > 1:
             word = (*ordinals[1:], *others, "the side")[0]
             why = f"{word!r} does not go together with {ordinals[0]!r}"

@@ -12,11 +12,13 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 
+import numpy as np
+
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, parts_of, radius
 from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
+from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds, outline_of
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 OFFSET = 0.01
@@ -127,6 +129,19 @@ def touches(upper: Thing, lower: Thing, scene: SceneState) -> bool:
     return rests_on(upper, lower, scene) or lies_in(upper, lower, scene)
 
 
+def is_touching(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
+    """Whether things stand upon each other, or as close together as what is said to touch."""
+    if thing.name == DESK:
+        return False
+    one, other = (outline_of(item.name, scene) for item in (thing, landmark))
+    at = np.array([position(item, scene)[:2] for item in (landmark, thing)])
+    apart = max(
+        float(one.distance(at[:1])[0]) - min(other.half),
+        float(other.distance(at[1:])[0]) - min(one.half),
+    )
+    return touches(thing, landmark, scene) or touches(landmark, thing, scene) or apart <= OFFSET
+
+
 def _alike(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     """Whether two things are known to have one colour."""
     colors = [info and info.color for info in map(scene.infos.get, (thing.name, landmark.name))]
@@ -195,6 +210,8 @@ def holds_at(
             or _levels_up(_level_of(landmark, thing, scene), thing, scene) == 1
         ),
     }
+    if prep is Prep.TOUCHING:
+        return first.name in scene.states and is_touching(thing, first, scene)
     if prep in tests:
         return first != ROBOT and all(map(tests[prep], landmarks))
     if prep in RELATIONS and any(landmark.name == DESK for landmark in landmarks):
@@ -270,6 +287,18 @@ def are_level(side: str, first: Thing, second: Thing, scene: SceneState) -> bool
     """Whether neither of two things is plainly more to a side than the other one."""
     key = _along(side, scene)
     return abs(key(first) - key(second)) < OFFSET
+
+
+def is_beyond_middle(side: str, thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing is plainly on the left, right, … of the desk's middle."""
+    ways: dict[str, tuple[Cost, float]] = {
+        "left": (lambda item: to_the_left(item, scene), 1.0),
+        "right": (lambda item: to_the_left(item, scene), -1.0),
+        "back": (lambda item: to_the_back(item, scene), 1.0),
+        "front": (lambda item: to_the_back(item, scene), -1.0),
+    }
+    of, sign = ways.get(side, (lambda item: 0.0, 0.0))
+    return bool(sign * (of(thing) - of(Thing(DESK))) > OFFSET)
 
 
 def _along(side: str, scene: SceneState) -> Cost:

@@ -23,12 +23,15 @@ class Prep(StrEnum):
     UNDER = "under"
     ABOVE = "above"
     BETWEEN = "between"
+    TOUCHING = "touching"
     NEAREST = "nearest"
     FARTHEST = "farthest"
     CONTAINING = "containing"
     WITH = "with"
     """It is in or on what is meant."""
     BEARING = "bearing"
+    AREA = "area"
+    """A part of the desk, or the nearest to it: the modifier says which."""
     SIDE = "side"
     """"on the left", "at the back": the word says which."""
     QUALITY = "quality"
@@ -45,13 +48,14 @@ class Prep(StrEnum):
 SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
 SIDE = """
     (on|at|to|in|from) the (left|right|front|back|rear|middle|centre|center)
-    [side|end|edge|corner|hand side],
-    (on|at|to|in|from) the (left|right|front|back|rear) (side|end|edge) of the
+    [side|end|edge|corner|hand side], in the (middle|centre|center) of the row,
+    (on|at|to|in|from) the [far] (left|right|front|back|rear) (side|end|edge) of the
     (desk|table|scene|room|row),
-    (on|at|in) the (middle|centre|center) of the (desk|table|scene|room|row),
+    (on|at) the (far|near) (side|end|edge) of the (desk|table|scene),
     (on|at) the (left|right) of the (desk|table|scene),
+    (on|at|to) your [far] (left|right) [side],
     (on|at) the far (left|right), in front, (furthest|farthest) (left|right|back),
-    (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) the
+    (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) (the|your)
     (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
     (at|from|on) the [very] (top|bottom), on top
@@ -81,6 +85,15 @@ NEARBY: dict[Nearby, str] = {
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
 GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"
+IT_HAS: dict[Prep, str] = {
+    Prep.FRONT: "behind (it|them)",
+    Prep.BEHIND: "in front of (it|them)",
+    Prep.RIGHT: "(to|on) the left [side] of (it|them), (on|to) its left [side]",
+    Prep.LEFT: "(to|on) the right [side] of (it|them), (on|to) its right [side]",
+    Prep.NEXT_TO: "[right] (next to|beside|by) (it|them)",
+    Prep.NEAR: "(near|close to) (it|them)",
+}
+"""Behind what a thing has beside it: where that thing is to it."""
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
@@ -94,6 +107,7 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FRONT: NEARBY[Nearby.FRONT],
     Prep.UNDER: "[from] (underneath|under|below|beneath)",
     Prep.ABOVE: "above, over",
+    Prep.TOUCHING: "touching, in contact with, [right] up against, (that|which) (touches|touch)",
     Prep.NEAREST: "(closest|nearest|closer|nearer) [to]",
     Prep.FARTHEST: "(farthest|furthest|farther|further|far) [away] from",
 }
@@ -187,3 +201,23 @@ REGIONS: dict[tuple[Nearby, ...], str] = {
         )
     },
 }
+DESK = "desk, table, tabletop, table top, workspace, scene"
+AREAS: dict[tuple[Nearby, ...], str] = {
+    (Nearby.AT_CENTRE,): f"(in|at|on) the [very|exact] (middle|centre|center) of the ({DESK})",
+    **{
+        sides: f"({said}) [of the ({DESK})]"
+        for sides, said in REGIONS.items()
+        if Nearby.AT_CORNER in sides or len({*sides} - {Nearby.AT_EDGE}) == 2
+    },
+}
+"""Parts of the desk that tell what stands there."""
+NEAREST_AREAS: dict[tuple[Nearby, ...], str] = {
+    (Nearby.AT_CENTRE,): f"(middle|centre|center) of the ({DESK})",
+    **{(side,): f"({said}) (edge|border) [of the ({DESK})]" for side, (said, _) in _SIDES.items()},
+    **{
+        (*sides, Nearby.AT_CORNER): f"({plain}|{besides}) corner [of the ({DESK})]"
+        for sides, (plain, besides) in _QUARTERS.items()
+    },
+    (Nearby.AT_EDGE,): f"(edge|border) of the ({DESK})",
+}
+"""What a thing may be nearest to."""

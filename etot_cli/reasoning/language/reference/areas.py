@@ -1,0 +1,86 @@
+"""Things told by the part of the desk that they stand on: "in the back left corner"."""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+
+import numpy as np
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.words.lexicon import SIDES
+from etot_cli.world.spatial import NEXT_TO, Nearby, Whereabouts, holds, outline_of
+from etot_cli.world.state import DESK, SceneState
+
+Area = tuple[Nearby, ...]
+_ENDS = {
+    Nearby.AT_LEFT: (1.0, None), Nearby.AT_RIGHT: (-1.0, None),
+    Nearby.AT_BACK: (None, 1.0), Nearby.AT_FRONT: (None, -1.0),
+}  # fmt: skip
+"""Where sides end, to the left and to the back, as shares of the desk's half sizes."""
+
+
+def in_area(
+    modifier: Modifier, things: list[Thing], count: int | None, scene: SceneState, phrase: str
+) -> list[Thing]:
+    """Those of the things that stand in a part of the desk, or nearest to it where that is said;
+    of several the one that is nearest to it by a hand's width.
+
+    Raises:
+        ReferenceProblem: none does, or it is not plain which one is meant.
+    """
+    area, nearest = modifier.area, SIDES.get(modifier.words[0]) == "near"
+    fitting = _standing_in(area, things, scene)
+    if not fitting and Nearby.AT_CORNER in area[1:]:
+        fitting = _standing_in(tuple(n for n in area if n is not Nearby.AT_CORNER), things, scene)
+    if modifier.denied:
+        return [thing for thing in things if thing not in fitting]
+    many = len(things) if count is None and not nearest else count or 1
+    if nearest or (len(things) == 1 and things[0].name != DESK):
+        fitting = things
+    if not fitting:
+        names = ", ".join(thing.address for thing in things)
+        raise ReferenceProblem(phrase, f"none of {names} stands there", 1)
+    ordered = sorted(fitting, key=lambda thing: _distance(area, thing, scene))
+    for one, other in zip(ordered[many - 1 :], ordered[many : many + 1], strict=False):
+        apart = _distance(area, other, scene) - _distance(area, one, scene)
+        if apart < (space.OFFSET if nearest else NEXT_TO):
+            raise AmbiguousReference(phrase, [one.address, other.address])
+    return [thing for thing in things if thing in ordered[:many]]
+
+
+def _standing_in(area: Area, things: list[Thing], scene: SceneState) -> list[Thing]:
+    where = [Whereabouts(relation) for relation in area]
+    on_desk = (thing for thing in things if thing.name in scene.states)
+    return [thing for thing in on_desk if all(holds(item, thing.name, scene) for item in where)]
+
+
+def _distance(area: Area, thing: Thing, scene: SceneState) -> float:
+    """Distance of a thing from the point, corner or border that an area is about [m]."""
+    desk = outline_of(DESK, scene)
+    x, y = scene.forward
+    axes = ((space.to_the_left, (-y, x)), (space.to_the_back, (x, y)))
+    offsets = [of(thing, scene) - of(Thing(DESK), scene) for of, _ in axes]
+    halves = [desk.extent(np.array(axis)) for _, axis in axes]
+    goals = [
+        [0.0 if end is None else end * half - offset for end, half, offset in
+         zip(ends, halves, offsets, strict=True)]
+        for ends in _points(area)
+    ]  # fmt: skip
+    if Nearby.AT_CENTRE in area:
+        return math.hypot(*offsets)
+    return min(math.hypot(*goal) for goal in goals)
+
+
+def _points(area: Area) -> list[tuple[float | None, float | None]]:
+    """What an area may be about; None where it says nothing of that direction."""
+    sides = [_ENDS[relation] for relation in area if relation in _ENDS]
+    left = next((end for end, _ in sides if end is not None), None)
+    back = next((end for _, end in sides if end is not None), None)
+    if Nearby.AT_CORNER in area:
+        return list(product((left,) if left else (1.0, -1.0), (back,) if back else (1.0, -1.0)))
+    return [(left, back)] if sides else list(_ENDS.values())
