@@ -9,7 +9,12 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, SwapClause, TowerClause
+from etot_cli.reasoning.language.grammar.syntax import (
+    NounPhrase,
+    SwapClause,
+    Things,
+    TowerClause,
+)
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
@@ -25,15 +30,20 @@ median (docs/results.md), so two equal things of 50 mm differ by 0.6 mm in the m
 def tower(context: Context, clause: TowerClause) -> None:
     """Everything upon each other, from the bottom up; the bottom one stays where it is."""
     context.tell_others(clause.things, clause.base)
-    themes = context.phrases.things(clause.things, Role.THEME)
     text = clause.things.text
+    # "Stack them: the red one, …": nothing was spoken of before
+    spoken = clause.whole and (context.discourse.mentions or not clause.whole.phrases[0].pronoun)
+    whole = context.phrases.things(clause.whole, Role.THEME) if clause.whole and spoken else ()
+    themes = whole or context.phrases.things(clause.things, Role.THEME)
     places = context.places.of(clause.base, themes) if clause.base else ()
-    indices = _any_of(context, themes, clause)
+    indices = [] if whole else _any_of(context, themes, clause)
     things = [context.discourse.things(index)[0] for index in indices]
     if not indices:
         things = [*context.discourse.things(*themes)]
-        if len(things) > 1:
-            things = _upward(context, things, clause, text, listed=len(themes) > 1)
+        if whole:
+            things = _parts(context, clause.things, things, whole)
+        elif len(things) > 1:
+            things = _upward(context, things, clause, text, listed=len(themes) == len(things))
         indices = [context.single(thing, thing.name) for thing in things]
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
@@ -47,6 +57,18 @@ def tower(context: Context, clause: TowerClause) -> None:
         place = _upon(context, lower, upper, below, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _parts(
+    context: Context, layers: Things, things: Sequence[Thing], whole: Sequence[int]
+) -> list[Thing]:
+    """The things that layers name one by one, which are all that is to be stacked."""
+    found = [_end(context, phrase, things) for phrase in layers.phrases]
+    count = sum(len(context.discourse.referents[index].options[0]) for index in whole)
+    if not len({*found}) == len(found) == count:
+        rest = ", ".join(thing.name for thing in things if thing not in found)
+        raise ReferenceProblem(layers.text, f"say where {rest or 'each of them'} goes", 2)
+    return found
 
 
 def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> list[int]:

@@ -71,6 +71,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     State,
     Things,
     Toward,
+    TowerClause,
     Turns,
     put_to,
 )
@@ -243,6 +244,8 @@ def again(context: Context, clause: AgainClause) -> None:
         if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
             why = "say whether it goes there, too, or is one more place to go to"
             raise ReferenceProblem(text, why, 4)
+        if isinstance(context.last, TowerClause):
+            raise ReferenceProblem(text, "say where in the stack it goes", 3)
         add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
         return
     role = Role.THEME if isinstance(step, Pick) else Role.PART

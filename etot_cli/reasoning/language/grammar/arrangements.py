@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     some,
+    valued,
     variants,
     word,
 )
@@ -28,8 +29,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
-from etot_cli.reasoning.language.words import manner, places, verbs
-from etot_cli.reasoning.language.words.lexicon import basic_color
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import basic_color, is_descriptive
 
 REORIENT = either(
     sequence(
@@ -51,15 +52,9 @@ REORIENT = either(
         build=lambda things: ReorientClause(things, upright=True),
     ),
 )
+_END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP})
 _ENDS = separated(
-    sequence(
-        noun_phrase,
-        optional(verbs.BE),
-        one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP}),
-        build=lambda np, end: (np, end),
-    ),
-    LIST,
-    most=3,
+    sequence(noun_phrase, optional(verbs.BE), _END, build=lambda np, end: (np, end)), LIST, most=3
 )
 
 
@@ -72,19 +67,47 @@ def _tower(
     return TowerClause(things, upward, base=base, **named)
 
 
+def _with_nouns(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+    """With the noun that the first of them has for those that are a colour or the like alone."""
+    bare = [all(map(is_descriptive, np.words)) for np in nps]
+    nouns = [np.head for np, out in zip(nps, bare, strict=True) if np.words and not out]
+    return tuple(
+        replace(np, words=(*np.words, nouns[0])) if out and np.words and nouns else np
+        for np, out in zip(nps, bare, strict=True)
+    )
+
+
 def _of_its_ends(base: Any, ends: Any) -> tuple[TowerClause, ...]:
     """A tower of what is named, and one of all that are called so, where that is not all."""
     nouns = [np.words[-1] for np, _ in ends if len(np.words) > 1]
     if len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
         return ()
-    full = [
-        (replace(np, words=(*np.words, nouns[0])) if nouns and len(np.words) == 1 else np, end)
-        for np, end in ends
-    ]
+    nps = _with_nouns(tuple(np for np, _ in ends))
+    full = [(np, end) for np, (_, end) in zip(nps, ends, strict=True)]
     every = NounPhrase("all", (f"{nouns[0]}s",), text=f"all {nouns[0]}s") if nouns else None
-    wholes = [Things(tuple(np for np, _ in full)), *([Things((every,))] if every else [])]
+    wholes = [Things(nps), *([Things((every,))] if every else [])]
     found = (_tower(things, None, full, base) for things in wholes)
     return tuple(tower for tower in found if tower is not None)
+
+
+def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
+    """What is named one after the other from an end on, from the bottom up ("red at the bottom,
+    then blue, then green").
+    """
+    begun = lowest[1]
+    *inner, (then, _, last) = [(then, np, end) for then, (np, end) in more]
+    end = "bottom" if begun == "top" else "top"
+    if begun == "top":
+        told = all(then and side in ("", "middle") for then, _, side in inner)
+    else:
+        between = ("", "upon", "middle") if begun else ("upon",)
+        told = all((then or side == "upon") and side in between for then, _, side in inner)
+    upon = last == "upon" and begun != "top"
+    whole = told and begun in ("", "top", "bottom")
+    nps = (lowest[0], *(np for _, (np, _) in more))
+    if not whole or not (last == end or upon or (begun and then and not last)):
+        return None
+    return nps[::-1] if begun == "top" else nps
 
 
 _COLOR = sequence(
@@ -95,6 +118,37 @@ _COLOR = sequence(
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
+_LAYER = sequence(
+    noun_phrase,
+    optional(verbs.BE),
+    optional(either(_END, phrase(manner.UPON_THAT, "upon")), ""),
+    build=lambda np, end: (np, end),
+)
+_IN_A_ROW = separated(noun_phrase, LIST, most=6)
+_LAYERS = valued(
+    either(
+        sequence(
+            _LAYER,
+            some(
+                sequence(
+                    either(
+                        sequence(OPTIONAL_COMMA, phrase(f"{small_words.THEN_JOINTS}, followed by")),
+                        sequence(LIST, build=lambda: ""),
+                    ),
+                    _LAYER,
+                    build=lambda then, layer: (then, layer),
+                ),
+                least=1,
+                most=5,
+            ),
+            build=_rising,
+        ),
+        sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
+        sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
+    ),
+    _with_nouns,
+)
+"""All of a tower from the bottom up."""
 _TOWER_ENDS = optional(
     either(
         sequence(OPTIONAL_COMMA, optional("with"), _ENDS),
@@ -152,8 +206,7 @@ TOWER = either(
             verbs.BUILD,
             "a tower, a stack, a pile",
             optional(DESTINATIONS, ()),
-            OPTIONAL_COMMA,
-            "with",
+            either(COMMA, sequence(OPTIONAL_COMMA, "with")),
             _ENDS,
             build=lambda base, ends: (base, ends),
         ),
@@ -162,10 +215,16 @@ TOWER = either(
     sequence(
         verbs.BUILD,
         "a tower, a stack, a pile",
-        _UPWARD,
-        COMMA,
-        THINGS,
-        build=lambda upward, things: _tower(things, upward, None),
+        optional(DESTINATIONS, ()),
+        either(sequence(OPTIONAL_COMMA, "with"), OPTIONAL_COMMA),
+        _LAYERS,
+        build=lambda base, nps: TowerClause(Things(nps), upward=True, base=base),
+    ),
+    sequence(
+        either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
+        optional(sequence(THINGS, either("with", sequence(COMMA, optional("with")))), None),
+        _LAYERS,
+        build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),
 )
 _IN_ITS_PLACE = sequence(

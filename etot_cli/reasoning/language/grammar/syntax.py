@@ -281,6 +281,8 @@ class TowerClause:
     """What the bottom one goes on, where it is not to stay."""
     nested: bool = False
     """They are to be inside each other."""
+    whole: Things | None = None
+    """What they are all of."""
 
 
 @dataclass(frozen=True, slots=True)
