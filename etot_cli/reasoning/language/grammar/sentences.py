@@ -184,7 +184,7 @@ _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
 _STATED = either(
     sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
-    sequence("there is, there are", ALL_THINGS),
+    sequence("there is, there are, (i|you|we) [can] see, you have", ALL_THINGS),
 )
 """How things are, said of them before something is asked of them."""
 _REMARK = either(

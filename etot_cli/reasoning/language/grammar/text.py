@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
+from etot_cli.reasoning.language.words.patterns import spellings
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -136,11 +138,23 @@ def _listed(text: str) -> str:
     return text
 
 
+_LOOKED_FOR = re.compile(
+    rf"(?:(?:{'|'.join(spellings(small_words.FRAMES))}|please|now|first|then),? )*"
+    rf"(?:{'|'.join(spellings(small_words.LOOK_FOR))}) (?:(?!,).)*$"
+)
+
+
 def sentences_of(text: str) -> list[str]:
     """The sentences of normalized text, without numbering."""
     plain = re.sub(r"\?", f" {QUESTION}?", _NUMBERING.sub(r"\1", text))
     parts = (" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain))
-    return [part for part in parts if part.removesuffix(QUESTION).strip(" ,")]
+    found: list[str] = []
+    for part in parts:
+        if found and _LOOKED_FOR.match(found[-1]):
+            found[-1] += f", {part}"  # what is looked for, and what is to be done with it
+        elif part.removesuffix(QUESTION).strip(" ,"):
+            found.append(part)
+    return found
 
 
 def words_in(sentence: str) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
-from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity
 from etot_cli.reasoning.language.reference.entries import GENERIC, SHAPES
@@ -144,7 +144,7 @@ def check_on_side(
     by_distance = any(item.prep in (Prep.NEAREST, Prep.FARTHEST) for item in modifiers)
     sides = [side_word(" ".join(item.words)) for item in modifiers if item.prep is Prep.SIDE]
     for side in sides if by_distance and len(things) == 1 else ():
-        beyond = [t for t in rivals if space.is_beyond_middle(side or "", t, scene)]
+        beyond = [t for t in rivals if rows.is_beyond_middle(side or "", t, scene)]
         if beyond and not {*things} & {*beyond}:
             named = [thing.address for thing in (*things, *beyond)]
             raise AmbiguousReference(asked.phrase.text, named)

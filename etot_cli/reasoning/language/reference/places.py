@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import FILLED, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
-from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
     antecedents,
@@ -190,8 +190,8 @@ class Places:
         if word != TOP and any(thing.board is None for thing in things_in(options)):
             raise ReferenceProblem(referent.text, "it has no boards; say into it or on it", 2)
         things = self.discourse.things(place.where)
-        if word == TOP and space.is_column(things, self._scene):
-            options = ((space.upon_each_other(things, self._scene)[-1],),)
+        if word == TOP and rows.is_column(things, self._scene):
+            options = ((rows.upon_each_other(things, self._scene)[-1],),)
         if place.relation is not Relation.ON or options == referent.options:
             return place
         self.discourse.referents.append(replace(referent, options=options))

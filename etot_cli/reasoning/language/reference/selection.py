@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
-from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.areas import in_area
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
@@ -47,6 +47,9 @@ def select(
     Raises:
         ReferenceProblem: nothing is left, or of two sides one leaves what the other does not.
     """
+    if scene.forward != (1.0, 0.0) and any("your" in item.words for item in modifiers):
+        why = "the scene is looked at through a camera; say whether the robot's side is meant"
+        raise ReferenceProblem(phrase, why, 3, word="your")
     denied = [item for item in modifiers if item.prep is Prep.SIDE and item.denied]
     for item in denied:
         side = side_word(" ".join(item.words))
@@ -153,7 +156,7 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
                 )
         return ordered
     if side not in ("top", "bottom"):
-        ordered = space.by_side(side, things, scene)
+        ordered = rows.by_side(side, things, scene)
         for one, other in pairwise(ordered):
             _check_apart(side, one, other, scene, phrase, side)
         return ordered
@@ -161,9 +164,9 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         return list(things[::-1] if upward == (side == "top") else things)
-    if not space.is_column(things, scene):
+    if not rows.is_column(things, scene):
         raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=side)
-    stack = space.upon_each_other(things, scene)
+    stack = rows.upon_each_other(things, scene)
     return stack[::-1] if side == "top" else stack
 
 
@@ -185,16 +188,16 @@ def _nth(
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         ordered = things[::-1] if origin == ("top" if upward else "bottom") else things
-    elif origin in ("top", "bottom") or space.is_column(things, scene):
+    elif origin in ("top", "bottom") or rows.is_column(things, scene):
         if origin not in ("top", "bottom"):
             why = "they lie upon each other; say 'top', 'middle' or 'bottom'"
             raise ReferenceProblem(phrase, why, 2, word=ordinal)
         ordered = in_line(origin, things, scene, phrase)
     else:
-        if origin is None and space.is_deep(things, scene):
+        if origin is None and rows.is_deep(things, scene):
             why = "they stand one behind the other; say 'front', 'middle' or 'back'"
             raise ReferenceProblem(phrase, why, 2, word=ordinal)
-        ordered = space.by_side(SIDES[origin or "left"], things, scene)
+        ordered = rows.by_side(SIDES[origin or "left"], things, scene)
     index = ORDINALS[ordinal]
     if index >= len(ordered) or many > len(ordered):
         raise too_few(things, phrase)
@@ -278,7 +281,7 @@ def _at_side(
         (owner,) = _at_side(side, owners, 1, scene, phrase)
         return [thing for thing in things if thing.name == owner.name]
     if side in ("top", "bottom"):
-        stack = space.upon_each_other(things, scene)
+        stack = rows.upon_each_other(things, scene)
         ordered = in_line(side, stack or things, scene, phrase)
         highest = max(things, key=lambda thing: space.position(thing, scene)[2])
         if stack and side == "top" and highest not in stack:
@@ -286,19 +289,22 @@ def _at_side(
             raise ReferenceProblem(phrase, why, 2, word=side)
         return _leading(ordered, count, phrase)
     if side == "middle":
-        upon = space.is_column(things, scene)
-        things = (space.upon_each_other if upon else space.in_a_row)(things, scene)
+        upon = rows.is_column(things, scene)
+        things = (rows.upon_each_other if upon else rows.in_a_row)(things, scene)
         if len(things) % 2 == 0:
             names = ", ".join(thing.name for thing in things)
             raise ReferenceProblem(phrase, f"none of {names} is in the middle", 1)
         middle = things[len(things) // 2]
-        axis = space.row_from(things, scene)
+        central = middle if upon else rows.most_central(things, scene)
+        if central != middle:
+            raise AmbiguousReference(phrase, [middle.address, central.address])
+        axis = rows.row_from(things, scene)
         for other in () if upon or middle.part or middle.board else things:
-            if other != middle and space.are_level(axis, middle, other, scene):
+            if other != middle and rows.are_level(axis, middle, other, scene):
                 why = f"{middle.name} and {other.name} are as much in the middle"
                 raise ReferenceProblem(phrase, why, 2, word="middle")
         return [middle]
-    ordered = space.by_side(side, things, scene)
+    ordered = rows.by_side(side, things, scene)
     leading = _leading(ordered, count, phrase)
     for other in ordered[len(leading) : len(leading) + 1]:
         _check_apart(side, leading[-1], other, scene, phrase, side)
@@ -308,7 +314,7 @@ def _at_side(
 def _check_apart(
     side: str, one: Thing, other: Thing, scene: SceneState, phrase: str, word: str
 ) -> None:
-    if space.are_level(side, one, other, scene):
+    if rows.are_level(side, one, other, scene):
         why = f"{one.name} and {other.name} are as far to that side"
         raise ReferenceProblem(phrase, why, 2, word=word)
 

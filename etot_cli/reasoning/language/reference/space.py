@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
 
 import numpy as np
 
@@ -28,8 +27,6 @@ ASKEW = 2.0
 another one, as by definition is what is more askew than aside at all."""
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
-DEEP = 2.0
-"""Things spread so many times more away than sideways have no first from the left."""
 
 Test = Callable[[Thing], bool]
 Cost = Callable[[Thing], float]
@@ -275,79 +272,6 @@ def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
         return math.inf
     away = math.dist(position(thing, scene)[:2], position(landmark, scene)[:2])
     return away - radius(scene.infos[thing.name]) - radius(scene.infos[landmark.name])
-
-
-def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing]:
-    """Things ordered from the most to the least ``left``, ``right``, ``near``, ``far``, …"""
-    key = _along(side, scene)
-    return sorted(things, key=key)
-
-
-def are_level(side: str, first: Thing, second: Thing, scene: SceneState) -> bool:
-    """Whether neither of two things is plainly more to a side than the other one."""
-    key = _along(side, scene)
-    return abs(key(first) - key(second)) < OFFSET
-
-
-def is_beyond_middle(side: str, thing: Thing, scene: SceneState) -> bool:
-    """Whether a thing is plainly on the left, right, … of the desk's middle."""
-    ways: dict[str, tuple[Cost, float]] = {
-        "left": (lambda item: to_the_left(item, scene), 1.0),
-        "right": (lambda item: to_the_left(item, scene), -1.0),
-        "back": (lambda item: to_the_back(item, scene), 1.0),
-        "front": (lambda item: to_the_back(item, scene), -1.0),
-    }
-    of, sign = ways.get(side, (lambda item: 0.0, 0.0))
-    return bool(sign * (of(thing) - of(Thing(DESK))) > OFFSET)
-
-
-def _along(side: str, scene: SceneState) -> Cost:
-    keys: dict[str, Cost] = {
-        "left": lambda thing: -to_the_left(thing, scene),
-        "right": lambda thing: to_the_left(thing, scene),
-        "near": lambda thing: math.hypot(*position(thing, scene)[:2]),
-        "far": lambda thing: -math.hypot(*position(thing, scene)[:2]),
-        "front": lambda thing: to_the_back(thing, scene),
-        "back": lambda thing: -to_the_back(thing, scene),
-    }
-    return keys[side]
-
-
-def upon_each_other(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
-    """Those of the things that lie on one another, from the bottom up; none of several stacks."""
-    stacked = [one for one in things if any(carries(one, other, scene) for other in things)]
-    stacked.sort(key=lambda thing: position(thing, scene)[2])
-    chain = all(low.name in below(high, scene) for low, high in pairwise(stacked))
-    return stacked if chain else []
-
-
-def is_column(things: Sequence[Thing], scene: SceneState) -> bool:
-    """Whether several things lie one upon the other."""
-    return len(things) > 1 and len(upon_each_other(things, scene)) == len(things)
-
-
-def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:
-    """Whether things stand one behind the other rather than side by side."""
-    width, depth = _spread(things, scene)
-    return depth > DEEP * width
-
-
-def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
-    """Things in order along the axis in which they spread most, sideways or away."""
-    return by_side(row_from(things, scene), things, scene)
-
-
-def row_from(things: Sequence[Thing], scene: SceneState) -> str:
-    """The side at which a row of things begins."""
-    width, depth = _spread(things, scene)
-    return "left" if width >= depth else "front"
-
-
-def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
-    """How far things are spread sideways and away from the viewer [m]."""
-    aside = [to_the_left(thing, scene) for thing in things]
-    away = [to_the_back(thing, scene) for thing in things]
-    return max(aside) - min(aside), max(away) - min(away)
 
 
 def below(thing: Thing, scene: SceneState) -> frozenset[str]:

@@ -112,7 +112,7 @@ AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
 GONE = "(has|have) (gone|been put|been placed|been moved|been brought|been set|landed)"
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
 LOOK_FOR = """
-    find, locate, look for, search for, identify, (go|move|drive|walk|navigate) [over] (to|towards),
-    approach, reach for
+    find, locate, look (for|at), search for, identify, approach, reach for,
+    (go|move|drive|walk|navigate) [over] (to|towards)
 """
 SO_THAT = "so that, such that, so, in such a way that"

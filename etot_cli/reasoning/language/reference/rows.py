@@ -1,0 +1,114 @@
+"""Things in order from a side on, in rows and in stacks, as people count them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.reference.space import (
+    OFFSET,
+    Cost,
+    below,
+    carries,
+    position,
+    to_the_back,
+    to_the_left,
+)
+from etot_cli.world.state import DESK, SceneState
+
+ROW = 0.5
+"""Things spread at most so much the other way, as a share of the way they are spread most, stand in
+a row."""
+DEEP = 2.0
+"""Things spread so many times more away than sideways have no first from the left."""
+
+
+def by_side(side: str, things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Things ordered from the most to the least ``left``, ``right``, ``near``, ``far``, …"""
+    key = _along(side, scene)
+    return sorted(things, key=key)
+
+
+def are_level(side: str, first: Thing, second: Thing, scene: SceneState) -> bool:
+    """Whether neither of two things is plainly more to a side than the other one."""
+    key = _along(side, scene)
+    return abs(key(first) - key(second)) < OFFSET
+
+
+def is_beyond_middle(side: str, thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing is plainly on the left, right, … of the desk's middle."""
+    ways: dict[str, tuple[Cost, float]] = {
+        "left": (lambda item: to_the_left(item, scene), 1.0),
+        "right": (lambda item: to_the_left(item, scene), -1.0),
+        "back": (lambda item: to_the_back(item, scene), 1.0),
+        "front": (lambda item: to_the_back(item, scene), -1.0),
+    }
+    of, sign = ways.get(side, (lambda item: 0.0, 0.0))
+    return bool(sign * (of(thing) - of(Thing(DESK))) > OFFSET)
+
+
+def _along(side: str, scene: SceneState) -> Cost:
+    keys: dict[str, Cost] = {
+        "left": lambda thing: -to_the_left(thing, scene),
+        "right": lambda thing: to_the_left(thing, scene),
+        "near": lambda thing: math.hypot(*position(thing, scene)[:2]),
+        "far": lambda thing: -math.hypot(*position(thing, scene)[:2]),
+        "front": lambda thing: to_the_back(thing, scene),
+        "back": lambda thing: -to_the_back(thing, scene),
+    }
+    return keys[side]
+
+
+def upon_each_other(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Those of the things that lie on one another, from the bottom up; none of several stacks."""
+    stacked = [one for one in things if any(carries(one, other, scene) for other in things)]
+    stacked.sort(key=lambda thing: position(thing, scene)[2])
+    chain = all(low.name in below(high, scene) for low, high in pairwise(stacked))
+    return stacked if chain else []
+
+
+def is_column(things: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether several things lie one upon the other."""
+    return len(things) > 1 and len(upon_each_other(things, scene)) == len(things)
+
+
+def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether things stand one behind the other rather than side by side."""
+    width, depth = _spread(things, scene)
+    return depth > DEEP * width
+
+
+def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Things in order along the axis in which they spread most, sideways or away."""
+    return by_side(row_from(things, scene), things, scene)
+
+
+def row_from(things: Sequence[Thing], scene: SceneState) -> str:
+    """The side at which a row of things begins."""
+    width, depth = _spread(things, scene)
+    return "left" if width >= depth else "front"
+
+
+def most_central(things: Sequence[Thing], scene: SceneState) -> Thing:
+    """The one in the middle: of a row, or of three, in order; of more that are scattered over the
+    desk the one nearest to the middle of them all.
+    """
+    row = in_a_row(things, scene)
+    spread = _spread(things, scene)
+    if len(row) <= 3 or min(spread) <= ROW * max(spread):
+        return row[len(row) // 2]
+    ends = [[of(thing, scene) for thing in things] for of in (to_the_left, to_the_back)]
+    centre = [(min(end) + max(end)) / 2 for end in ends]
+    return min(
+        things,
+        key=lambda thing: math.dist((to_the_left(thing, scene), to_the_back(thing, scene)), centre),
+    )
+
+
+def _spread(things: Sequence[Thing], scene: SceneState) -> tuple[float, float]:
+    """How far things are spread sideways and away from the viewer [m]."""
+    aside = [to_the_left(thing, scene) for thing in things]
+    away = [to_the_back(thing, scene) for thing in things]
+    return max(aside) - min(aside), max(away) - min(away)
