@@ -111,7 +111,7 @@ SIDED = [
     for name, text in READ
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
-    and not re.search(r"(?i)right (next|away|behind)|(is|be) left\b", text)
+    and not re.search(r"(?i)right (next|away|behind|then)|^right,|(is|be) left\b", text)
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
 ]
 

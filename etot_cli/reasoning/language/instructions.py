@@ -11,9 +11,11 @@ from functools import partial
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Goal, Open, Pick, Put
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.asides import without_asides
+from etot_cli.reasoning.language.grammar.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.grammar.text import words_in
 from etot_cli.reasoning.language.languages import other_language
@@ -54,11 +56,14 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         InstructionError: what could not be understood and what can be done about it.
     """
     vocabulary = Vocabulary(scene)
+    text = normalized(instruction)
     try:
-        return _read(normalized(instruction), scene, vocabulary)
+        return _read(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
+        if mark_in(text):
+            raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
         with suppress(UnreadableError, ReferenceProblem):
-            return _read(normalized(instruction), scene, vocabulary, common=True)
+            return _read(text, scene, vocabulary, common=True)
         with suppress(UnreadableError, ReferenceProblem):
             return _below_heading(instruction, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
@@ -128,10 +133,33 @@ def _read(text: str, scene: SceneState, vocabulary: Vocabulary, *, common: bool 
     """The goal of normalized text; slips of the pen in words that stand in no scene are put right
     where ``common``.
     """
+    if mark := mark_in(text):
+        return _without_corrections(text, mark, scene, vocabulary)
     found = read(vocabulary.joined(text), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
     return replace(goal, notes=(*slips, *goal.notes, *_said_with_more(text, goal)))
+
+
+def _without_corrections(
+    text: str, mark: re.Match[str], scene: SceneState, vocabulary: Vocabulary
+) -> Goal:
+    """The goal of a text with words that take something back, which is noted.
+
+    Raises:
+        UnreadableError: nothing or several things may be taken back.
+    """
+    found: dict[str, Goal] = {}
+    for way in taken_back(text, mark):
+        with suppress(UnreadableError, ReferenceProblem):
+            goal = _read(way.text, scene, vocabulary)
+            note = f"{way.words!r} is taken back: {way.instead!r} is said instead"
+            found.setdefault(formal(goal), replace(goal, notes=(note, *goal.notes)))
+    if len(found) != 1:
+        ways = " or ".join(goal.notes[0].partition(" is taken")[0] for goal in found.values())
+        why = f"it may take back {ways}" if ways else "it is unclear what that takes back"
+        raise UnreadableError(mark[0].strip(" ,.!?;\n"), "", f"{why}; say it anew")
+    return next(iter(found.values()))
 
 
 def _said_with_more(text: str, goal: Goal) -> Iterator[str]:

@@ -29,6 +29,14 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
+_WELL = re.compile(
+    r"(^|[.!?;\n]\s*)(?:"
+    r"right(?: then| so)?,\s*"
+    rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b)"
+    r"|(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
+    rf"|step (?:\d{{1,2}}|{'|'.join(NUMBERS)})\s*[:.)]\s*)"
+)
+"""What begins a sentence and says nothing, such as the number of a step alone."""
 _WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 _NOTHING_ELSE = re.compile(
     rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
@@ -67,7 +75,7 @@ _CLITICS = (
 
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
-    text = _listed(_NEW_LINE.sub("\n ", text).casefold().strip())
+    text = _WELL.sub(r"\1", _listed(_NEW_LINE.sub("\n ", text).casefold().strip()))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:

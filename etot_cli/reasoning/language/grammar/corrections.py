@@ -1,0 +1,114 @@
+"""What a speaker takes back: "put the apple, no wait, the banana, in the bowl".
+
+A text with such words is read only without what they take back, and only where what is said instead
+has its one place there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
+from etot_cli.reasoning.language.words.patterns import spellings
+
+_BEFORE_THINGS = word_set(
+    "the a an my your its their our this that these those both all every each another"
+).union(NUMBERS)
+_BEFORE_PLACES = {
+    said.split()[0]
+    for said in spellings(
+        ", ".join(
+            (places.INTO, places.ONTO, places.TO, places.SOURCE, "between", *places.NEARBY.values())
+        )
+    )
+} - {"left", "right"}
+_SEQUEL = word_set("first before then after afterwards last finally also too instead as")
+"""With such a word a whole sentence takes back none."""
+_JOINTS = word_set("and or then ,")
+_NEXT = "|".join(sorted(_BEFORE_THINGS))
+_AGAIN = f"i mean|i meant|scratch that|make that(?= (?:{_NEXT}) )"
+_MARK = re.compile(
+    r"[\s,.!?;]*(?:"
+    rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
+    r"|\b(?:i mean|i meant|or rather|scratch that)\b"
+    r"|(?<=[,.!?;\n] )(?:no|wait|oops|correction|my mistake)(?=\s*[,.!?;\n])"
+    rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
+    # "Sorry, could you …" is but polite.
+    rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{'|'.join(sorted(_BEFORE_PLACES))}) )"
+    r")[\s,.!?;]*"
+)
+_TOKEN = re.compile(r"\d+\.\d+|[^\s,.!?;]+|[,.!?;\n]")
+_ENDS = frozenset(".!?;\n")
+
+
+@dataclass(frozen=True, slots=True)
+class TakenBack:
+    """A way to understand what is taken back: the words, what is said in their place, and all of
+    the text without them.
+    """
+
+    words: str
+    instead: str
+    text: str
+
+
+def mark_in(text: str) -> re.Match[str] | None:
+    """The first words of a normalized text that take something back."""
+    found = _MARK.search(text, 1)
+    return found if found and found.end() < len(text) and found.start() else None
+
+
+def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
+    """All ways to understand what is taken back."""
+    before, after = (
+        tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
+    )
+    start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
+    stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
+    end = after.index(",") if "," in after[:stop] else stop
+    tail, said, rest = before[start:], after[:end], after[end:]
+    for first, last in _spans(tail, said, after[:stop]):
+        taken, kept = tail[first:last], tail[last:]
+        if kept and rest[:1] == (",",) and rest[1:2] not in (("and",), ("then",)):
+            continue  # "the apple in the bowl, no, the banana, in the box"
+        noun = said[-1] in ("one", "ones") and len(said) > 1
+        new = (*said[:-1], taken[-1]) if noun else said
+        for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
+            words = " ".join((*before[:start], *tail[:first], *new, *kept, *more))
+            yield TakenBack(" ".join(taken), " ".join(new), re.sub(r" (?=[,.!?;])", "", words))
+
+
+def _spans(
+    tail: Sequence[str], said: Sequence[str], sentence: Sequence[str]
+) -> Iterator[tuple[int, int]]:
+    """The words of the same sort as what is said instead."""
+    size = len(tail)
+    joints = [at for at, word in enumerate(tail) if word in _JOINTS]
+    where = [at for at, word in enumerate(tail) if at and word in _BEFORE_PLACES]
+    things = [at for at, word in enumerate(tail) if word in _BEFORE_THINGS]
+    begin = said[0]
+    if begin in VERB_WORDS:
+        clauses = (0, *(at + 1 for at in joints))
+        yield from (
+            (at, size)
+            for at in clauses
+            if tail[at : at + 1] == (begin,) and not _SEQUEL & {*sentence}
+        )
+    elif begin in _BEFORE_PLACES:
+        yield from (
+            (at, size)
+            for at in where
+            if tail[at - 1] not in _BEFORE_PLACES and at > max(joints, default=0)
+        )
+    elif begin in _BEFORE_THINGS and _BEFORE_PLACES & {*said}:
+        yield from ((at, size) for at in things if not joints)
+    elif begin in _BEFORE_THINGS:
+        for at in things:
+            yield (at, min((end for end in (*where, *joints) if end > at), default=size))
+    elif is_descriptive(begin) or things[-1:] != [size - 1]:
+        yield (size - 1, size)
+        yield from ((at + 1, size) for at in things[-1:] if at + 1 < size - 1)
