@@ -1199,3 +1199,20 @@ def block_field() -> SceneState:
             for number, at in enumerate(found, 1)
         )
     )
+
+
+def strongroom() -> SceneState:
+    """Three cups, a steak on a grill, a jar and its lid, a safe with boards, an open drawer."""
+    return scene(
+        cup("red_cup", (0.30, 0.20), color="red"),
+        cup("blue_cup", (0.30, 0.00), color="blue"),
+        cup("green_cup", (0.30, -0.20), color="green"),
+        item("grill", "box", (0.50, 0.00), size=(0.25, 0.20, 0.06)),
+        item("steak", "box", (0.50, 0.00), size=(0.08, 0.06, 0.02), on="grill", z=0.2),
+        cup("jar", (0.45, 0.35), size=(0.08, 0.08, 0.10), color="gray"),
+        item("lid", "cylinder", (0.30, 0.40), size=(0.08, 0.08, 0.02)),
+        item("money", "box", (0.25, -0.40), size=(0.10, 0.05, 0.02), label="bank notes"),
+        item("safe", "shelf", (0.70, 0.40), size=(0.30, 0.30, 0.40),
+             boards=("bottom", "middle", "top")),
+        drawers("drawer", (0.65, -0.40), {"top": 0.9}),
+    )  # fmt: skip

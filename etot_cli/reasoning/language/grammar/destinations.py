@@ -9,6 +9,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, after, noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -139,6 +140,18 @@ _top_of = sequence(
     "top, surface",
     build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
+_level = sequence(
+    # "In the safe on the bottom shelf"
+    f"{places.INTO}, {places.ONTO}",
+    noun_phrase,
+    one_of({Toward.ON: "on the", Toward.INSIDE: "in the"}),
+    LEVEL,
+    build=lambda owner, toward, level: (
+        None
+        if owner.modifiers or owner.pronoun
+        else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
+    ),
+)
 _with = spanned(
     either(
         sequence(
@@ -163,6 +176,7 @@ destination = Rule(
         OVER,
         _to,
         _top_of,
+        _level,
         _with,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),

@@ -145,12 +145,13 @@ _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", eith
 _ANY_ONE = either("one, of them", silent(NOUN_WORD))
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 _DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
-_PART_OF_IT = sequence(
+LEVEL = sequence(
     word(lambda given, text: text in LEVELS),
     word(lambda given, text: text in (*BOARD_NOUNS, "drawer")),
-    either(COMMA, at_end),
     build=lambda *words: (words, ()),
 )
+"""Of furniture: "top shelf", and nothing behind it."""
+_PART_OF_IT = sequence(LEVEL, either(COMMA, at_end))
 """Behind a comma ("the chest, upper drawer")."""
 _OR_OTHER = some(sequence(small_words.OR, _DESCRIPTIVE), least=1, most=3)
 noun_phrase.define(

@@ -254,6 +254,11 @@ def _all_put(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if told else None
 
 
+def _placed_there(np: NounPhrase, things: Things) -> PutClause:
+    """Where the robot goes to put something down is where that goes."""
+    return put_to(things, (Destination(Toward.TO, (np,)),))
+
+
 def _set_down(topic: Reading, rest: Reading) -> Reading | None:
     """What is brought over is put where the next clause says ("bring it over and set it …")."""
     put = rest[0].clause
@@ -272,6 +277,16 @@ _WITH_MORE_BEFORE_IT = either(
         build=_about,
     ),
     sequence("of, among, from among, out of", _NAMED, OPTIONAL_COMMA, CHAIN, build=_one_of_them),
+    plain(
+        sequence(
+            "(go|move|drive) [over] (to|towards)",
+            noun_phrase,
+            "and, and then, then, ~comma, ~comma then, ~comma and",
+            f"{verbs.PLACE}, stor(e|ing), leav(e|ing)",
+            ALL_THINGS,
+            build=_placed_there,
+        )
+    ),
     sequence(
         verbs.FETCH,
         _NAMED,

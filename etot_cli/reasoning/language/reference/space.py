@@ -182,7 +182,9 @@ def holds_at(
         return prep is Prep.OF
     tests: dict[Prep, Test] = {
         Prep.ON: lambda landmark: rests_on(thing, landmark, scene),
-        Prep.IN: lambda landmark: lies_in(thing, landmark, scene),
+        Prep.IN: lambda landmark: (
+            lies_in(thing, landmark, scene) or (thing != landmark == Thing(thing.name))
+        ),
         Prep.FROM: lambda landmark: (
             rests_on(thing, landmark, scene) or lies_in(thing, landmark, scene)
         ),

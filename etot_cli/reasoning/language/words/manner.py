@@ -40,9 +40,9 @@ WIDEST_BELOW = """
     [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
 """
 """As a stack is built anyway."""
-AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base"
+AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base, as (its|the|a) (base|bottom)"
 AT_MIDDLE = "in the (middle|centre|center), in between"
-AT_TOP = "at the top, on [the] top, uppermost, highest"
+AT_TOP = "at the top, on [the] top, uppermost, highest, as (its|the) top"
 AS_IT_IS = """
     where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
     unmoved, in its place, like (that|this), that way, so
