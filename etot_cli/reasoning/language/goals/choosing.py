@@ -53,6 +53,24 @@ def check_taken(
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
 
+_BESIDE = (Prep.NEXT_TO, Prep.NEAR, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRONT, Prep.BETWEEN)
+
+
+def note_described(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
+    """Notes that "vial A next to vial B" tells where the only one is, and not where it goes."""
+    if any(place.beside or place.where is None for place in places):
+        return
+    for phrase in group.things.phrases:
+        near = [item for item in phrase.modifiers if item.prep in _BESIDE and not item.denied]
+        if len(near) != 1 or near != [*phrase.modifiers]:
+            continue
+        alone = context.phrases.meaning(replace(phrase, modifiers=()), Role.THEME).options
+        if len(things_in(alone)) == 1:
+            text = phrase.text.replace("_", " ")
+            note = f"{text!r}: where it is now, not where it goes"
+            context.discourse.notes.append(note)
+
+
 def check_swept(context: Context, clause: PutClause) -> None:
     """Whether "everything from the plate and the tray" may be what is on both, or the tray."""
     (first, *more) = [np for group in clause.groups for np in group.things.phrases]

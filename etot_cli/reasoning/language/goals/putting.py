@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     choose_by_place,
     choose_from_somewhere,
     leave_among,
+    note_described,
     tell_apart,
     without_riders,
 )
@@ -133,6 +134,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         chosen_from = not (clause.stays or wherever)
         check_alone(context, group.things.phrases, themes, places, chosen=chosen_from)
         check_taken(context, group, themes, places)
+        note_described(context, group, places)
         check_poured(context, group, themes, places)
         if group.upright:
             places = upright(context, themes, places)

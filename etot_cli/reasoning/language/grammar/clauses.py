@@ -260,8 +260,29 @@ _ONLY_THESE = located(
     ),
     lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
 )
+_OPENED_OR_CLOSED = one_of({True: verbs.OPEN, False: verbs.CLOSE})
+
+
+def _both_ways(first: bool, opens: bool, things: Things) -> tuple[Clause, Clause] | None:
+    """Of the same things it is first one and then the other ("open, then close the drawer")."""
+    known = all(np.determiner in ("the", "both", "") for np in things.phrases)
+    ways = (MoveClause(things, first), MoveClause(things, opens))
+    return ways if known and not things.either and first != opens else None
+
+
+_BOTH_WAYS = located(
+    sequence(
+        _OPENED_OR_CLOSED,
+        either(sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA), "and"),
+        _OPENED_OR_CLOSED,
+        THINGS,
+        build=_both_ways,
+    ),
+    lambda at, ways: (Spoken(ways[0], at), Spoken(ways[1], at, Order.THEN)),
+)
 LED_CLAUSE = Rule(
     either(
+        sequence(LEAD, _BOTH_WAYS, build=lambda orders, said: None if orders else said),
         sequence(LEAD, CLAUSE, build=_spoken),
         sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
         plain(

@@ -152,6 +152,8 @@ _level = sequence(
         else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
     ),
 )
+
+
 _with = spanned(
     either(
         sequence(
@@ -179,6 +181,9 @@ destination = Rule(
         _level,
         _with,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
+        valued(
+            phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")
+        ),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
         sequence(

@@ -7,12 +7,14 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -20,7 +22,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.states import all_of
-from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, Things
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    NounPhrase,
+    PutGroup,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.words import manner, small_words
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
@@ -46,12 +54,22 @@ def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> P
     return None if how == "back" and sweeping else PutGroup(things, where, how is True)
 
 
-PUT_GROUP = sequence(
+def _per_place(np: NounPhrase, words: tuple[str, ...]) -> PutGroup | None:
+    """One for each of several places ("one cup per saucer")."""
+    each = NounPhrase("each", words, text=f"each {' '.join(words)}")
+    one = np.determiner in ("one", "a", "an") and np.words and not np.modifiers
+    return PutGroup(Things((np,)), (Destination(Toward.TO, (each,)),)) if one else None
+
+
+_PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
     _ASIDE,
     optional("somewhere, anywhere"),
     WHERE,
     build=_group,
+)
+PUT_GROUP = either(
+    _PUT_GROUP, quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place))
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))

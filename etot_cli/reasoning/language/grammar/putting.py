@@ -58,6 +58,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     singular,
 )
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.world.spatial import Nearby
 
 _BROUGHT = either(
@@ -211,6 +212,14 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
+def _beside_others(things: Things, said: str, np: NounPhrase) -> PutClause | None:
+    """In or on what other things are in or on ("put the spoon with the forks")."""
+    described = any(item.modifiers for item in (np, *things.phrases))
+    named = np.words and not described and np.determiner in THE_WORDS
+    where = Destination(Toward.WITH, (np,), f"{said} {np.text}")
+    return put_to(things, (where,)) if named else None
+
+
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
@@ -265,6 +274,15 @@ PUT = either(
         either(verbs.MODAL, sequence(COMMA, verbs.PUT, "them [both|all]")),
         DESTINATIONS,
         build=put_to,
+    ),
+    quiet(
+        sequence(
+            verbs.SET_DOWN,
+            THINGS,
+            phrase("with, together with, in with"),
+            noun_phrase,
+            build=_beside_others,
+        )
     ),
     _SAID_AHEAD,
     _FRONTED,

@@ -141,8 +141,22 @@ def _tidied(verb: str, things: Things, away: str, where: Any) -> PutClause | Non
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
+_CONTENTS_OF = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 EMPTY = either(
-    sequence("empty[ing] [out], unload[ing]", THINGS, optional(DESTINATIONS, None), build=_emptied),
+    sequence(
+        "empty[ing] [out], unload[ing]",
+        optional(_CONTENTS_OF),
+        THINGS,
+        optional(DESTINATIONS, None),
+        build=_emptied,
+    ),
+    sequence(
+        either(verbs.BRING, verbs.REMOVE),
+        "[all] (the|its) contents",
+        SOURCE,
+        optional(DIRECTED, None),
+        build=lambda np, where: _emptied(Things((np,)), where),
+    ),
     sequence(
         phrase(verbs.TIDY), THINGS, optional(phrase("away, up"), ""), DESTINATIONS, build=_tidied
     ),

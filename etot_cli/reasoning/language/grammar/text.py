@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, SIDES, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.patterns import spellings
 
 MAX_CHARACTERS = 2000
@@ -44,6 +44,7 @@ _NOTHING_ELSE = re.compile(
 """Behind the things it stands for what is said of them behind their place."""
 _ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
 """What goes where, in a table ("lemon: white bowl")."""
+_BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _SMALL = {"the", "a", "my", "your", "its", "please", "kindly"}
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -104,6 +105,7 @@ def normalized(text: str) -> str:
     table = _ITEM.sub(_item, text)
     text = text if ":" in table else table  # all of its lines, or none
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
+    text = _BRACKETED.sub(_qualified, text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
@@ -117,6 +119,16 @@ def _counted(text: str) -> str:
             numbered = zip(("second", "third", "fourth", "fifth"), more, strict=False)
             text = first + "".join(f" {number} {size}{rest}" for number, rest in numbered)
     return text
+
+
+def _qualified(found: re.Match[str]) -> str:
+    """A word in brackets behind a noun as what tells which it is ("the cup (red)")."""
+    noun, word = found.groups()
+    if word in LEVELS:
+        return f"{word} {noun}"
+    if word in SIDES:
+        return f"{noun} {'on' if word in ('left', 'right') else 'at'} the {word}"
+    return f"{noun} that is {word}" if is_descriptive(word) else found[0]
 
 
 def _item(found: re.Match[str]) -> str:

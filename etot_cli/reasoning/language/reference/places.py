@@ -305,8 +305,10 @@ class Places:
         discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
-        if word == "there" and discourse.last_places:
+        if word in ("there", "the same place") and discourse.last_places:
             return discourse.last_places
+        if word == "the same place":
+            raise ReferenceProblem(word, UNCLEAR, 3)
         if word in (ON_IT, "on top") and discourse.put_into:
             # On what the last thing was put into, not on the thing in it.
             inner, index = next(reversed(discourse.put_into.items()))
