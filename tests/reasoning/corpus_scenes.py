@@ -1216,3 +1216,27 @@ def strongroom() -> SceneState:
              boards=("bottom", "middle", "top")),
         drawers("drawer", (0.65, -0.40), {"top": 0.9}),
     )  # fmt: skip
+
+
+def tea_table() -> SceneState:
+    """Cups in two sizes, two saucers, forks in a caddy, vials by name."""
+    return scene(
+        cup("cup_1", (0.30, 0.40), size=(0.06, 0.06, 0.07), label="cup", color="white"),
+        cup("cup_2", (0.30, 0.28), size=(0.0604, 0.06, 0.07), label="cup", color="blue"),
+        cup("cup_3", (0.30, 0.14), size=(0.09, 0.09, 0.1), label="cup", color="white"),
+        cup("cup_4", (0.30, 0.00), size=(0.0905, 0.09, 0.1), label="cup", color="blue"),
+        item("saucer_1", "cylinder", (0.45, 0.40), size=(0.12, 0.12, 0.01), label="saucer"),
+        item("saucer_2", "cylinder", (0.45, 0.25), size=(0.12, 0.12, 0.01), label="saucer"),
+        item("caddy", "bowl", (0.60, 0.35), size=(0.20, 0.12, 0.10), color="brown"),
+        item("fork_1", "pen", (0.60, 0.33), size=(0.16, 0.02, 0.01), label="fork", on="caddy",
+             inside="caddy", z=0.16),
+        item("fork_2", "pen", (0.60, 0.37), size=(0.16, 0.02, 0.01), label="fork", on="caddy",
+             inside="caddy", z=0.16),
+        item("spoon", "pen", (0.25, -0.12), size=(0.16, 0.03, 0.02), color="gray"),
+        item("rack", "box", (0.50, 0.02), size=(0.20, 0.20, 0.03), color="gray"),
+        item("vial_a", "cylinder", (0.40, -0.15), size=(0.03, 0.03, 0.08), label="vial A"),
+        item("vial_b", "cylinder", (0.48, 0.00), size=(0.03, 0.03, 0.08), label="vial B",
+             on="rack", z=0.2),
+        item("vial_c", "cylinder", (0.48, -0.15), size=(0.03, 0.03, 0.08), label="vial C"),
+        item("tray", "box", (0.55, -0.40), size=(0.26, 0.20, 0.02), color="black"),
+    )  # fmt: skip

@@ -57,15 +57,25 @@ _BESIDE = (Prep.NEXT_TO, Prep.NEAR, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRO
 
 
 def note_described(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
-    """Notes that "vial A next to vial B" tells where the only one is, and not where it goes."""
+    """Notes that "vial A next to vial B" tells where the only one is, and not where it goes.
+
+    Raises:
+        ReferenceProblem: it is where it would go, so that this is hardly what is meant.
+    """
     if any(place.beside or place.where is None for place in places):
         return
     for phrase in group.things.phrases:
         near = [item for item in phrase.modifiers if item.prep in _BESIDE and not item.denied]
         if len(near) != 1 or near != [*phrase.modifiers]:
             continue
-        alone = context.phrases.meaning(replace(phrase, modifiers=()), Role.THEME).options
-        if len(things_in(alone)) == 1:
+        alone = things_in(
+            context.phrases.meaning(replace(phrase, modifiers=()), Role.THEME).options
+        )
+        if len(alone) == 1:
+            at = context.discourse.things(*(p.where for p in places if p.where is not None))
+            if any(touches(alone[0], place, context.scene) for place in at):
+                why = "it is there already; say 'on …, next to …' for where it goes"
+                raise ReferenceProblem(phrase.text, why, 3)
             text = phrase.text.replace("_", " ")
             note = f"{text!r}: where it is now, not where it goes"
             context.discourse.notes.append(note)

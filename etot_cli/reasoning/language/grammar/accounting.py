@@ -155,6 +155,8 @@ def _said(node: object) -> Iterator[str]:
             yield _DENIAL
         case AvoidClause():
             yield from (_DENIAL, "other", "any", "after", "afterwards")
+        case Beside(text=text) if "other side of" in text:
+            yield "other"
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):

@@ -85,6 +85,7 @@ BESIDE = spanned(
             optional("than (it is|they are) [now], than (now|before), as possible"),
             build=_beside,
         ),
+        sequence(places.ACROSS, noun_phrase, build=lambda np: _beside(Nearby.NEAR, np)),
         sequence(
             _ITS_SIDE,
             build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),

@@ -123,6 +123,31 @@ _FOLLOWING = sequence(
     NP_LIST,
     build=lambda where, nps: put_to(Things(nps), where),
 )
+
+
+def _named_behind(
+    whole: NounPhrase, where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]
+) -> PutClause | None:
+    """Several things that are announced together; "the green one" is one of these."""
+    noun = singular(whole.head)
+    if not nps[1:] or noun == whole.head or whole.determiner not in _ALL_THESE:
+        return None
+    named = (np.called(noun) if np.is_elliptic else np for np in nps)
+    return put_to(Things(tuple(named), whole=whole), where)
+
+
+_ALL_THESE = ("the", "these", "those", "all", "all the")
+_NAMED_BEHIND = quiet(
+    sequence(
+        f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}",
+        noun_phrase,
+        DESTINATIONS,
+        COMMA,
+        NP_LIST,
+        build=_named_behind,
+    )
+)
+"""What goes somewhere is named one by one at the end."""
 _ALONG_WITH = sequence(
     verbs.PUT,
     NP_LIST,
@@ -287,6 +312,7 @@ PUT = either(
     _SAID_AHEAD,
     _FRONTED,
     _FOLLOWING,
+    _NAMED_BEHIND,
     _ALONG_WITH,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.

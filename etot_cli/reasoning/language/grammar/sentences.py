@@ -30,6 +30,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     complete,
     either,
     optional,
+    quiet,
+    separated,
     sequence,
     silent,
     some,
@@ -49,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
     PutClause,
+    PutGroup,
     RemoveClause,
     ReorientClause,
     State,
@@ -266,6 +269,23 @@ def _set_down(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if taken_up else None
 
 
+_PAIRS = quiet(
+    sequence(
+        separated(
+            sequence(
+                noun_phrase,
+                noun_phrase,
+                build=lambda np, place: PutGroup(
+                    Things((np,)), (Destination(Toward.TO, (place,)),)
+                ),
+            ),
+            LIST,
+            most=6,
+        ),
+        build=lambda groups: PutClause(groups) if groups[1:] else None,
+    )
+)
+"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
@@ -297,6 +317,7 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
     sequence(verbs.TIDY, _NAMED, COMMA, _PLACED, build=_sorted),
+    sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         _NAMED,

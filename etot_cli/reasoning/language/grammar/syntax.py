@@ -81,6 +81,8 @@ class Things:
 
     phrases: tuple[NounPhrase, ...]
     either: bool = False
+    whole: NounPhrase | None = None
+    """What they are all of ("put the toys in the basket: the duck and the car")."""
 
     @property
     def text(self) -> str:

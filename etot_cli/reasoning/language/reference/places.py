@@ -135,7 +135,10 @@ class Places:
         for index in self._phrases.refer(phrase, role, themes, topmost=topmost):
             options = self.discourse.referents[index].options
             every = quantity_of(usual_form(phrase).determiner).every
-            if every and any(len(option) > 1 for option in options):
+            stack = destination.word == TOP and all(
+                rows.is_column(option, self._scene) for option in options
+            )
+            if every and not stack and any(len(option) > 1 for option in options):
                 raise ReferenceProblem(phrase.text, "say what is to go into or on which", 4)
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)

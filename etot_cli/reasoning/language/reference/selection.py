@@ -19,6 +19,10 @@ from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 ELONGATED = 2.0
 """What is so many times longer than wide is called long, among things of other shapes."""
 
+ALIKE, UNLIKE = 1.05, 1.15
+"""Sides of things of about one size differ by less, those of another size by more; sizes from
+noisy captures are off by 0.9 % in the median (docs/results.md)."""
+
 
 def side_word(phrase: str) -> str | None:
     """The side that "on the far left of the desk" and "farthest to the left" name."""
@@ -220,9 +224,10 @@ def _by_size(
         things = [t for t, size in sides.items() if size[2] >= ELONGATED * size[1]] or things
     measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
-    equal = [thing for thing in ordered if measure(thing) == measure(ordered[0])]
-    if count is None and 1 < len(equal) < len(ordered):
-        return equal  # "the small pots" of two small ones and a big one
+    groups = _groups(ordered, [abs(measure(thing)) for thing in ordered], SIZES[word][0])
+    two = len(groups) == 2 or not word.endswith("er")
+    if count is None and len(groups) > 1 and len(groups[0]) > 1 and two:
+        return groups[0]  # "the small pots" of two small ones and a big one
     last = measure(_leading(ordered, count, phrase)[-1])
     said = [own for thing in ordered for own in scene.infos[thing.name].label.casefold().split()]
     alike = len(ordered) > 1 and measure(ordered[0]) == measure(ordered[-1])
@@ -231,6 +236,20 @@ def _by_size(
         names = " and ".join(thing.name for thing in ordered)
         raise ReferenceProblem(phrase, f"{word!r} tells nothing of {names}", 2, word=word)
     return [thing for thing in ordered if measure(thing) <= last]  # of equals any may be meant
+
+
+def _groups(ordered: list[Thing], values: list[float], quantity: str) -> list[list[Thing]]:
+    """Things of about one size each; none where it is unclear which belong together."""
+    power = 3 if quantity in ("volume", "mass") else 1
+    groups: list[list[Thing]] = [ordered[:1]]
+    for thing, before, value in zip(ordered[1:], values, values[1:], strict=False):
+        apart = (max(before, value) / max(min(before, value), 1e-9)) ** (1 / power)
+        if ALIKE < apart < UNLIKE:
+            return []
+        if apart >= UNLIKE:
+            groups.append([])
+        groups[-1].append(thing)
+    return groups
 
 
 def too_few(things: Sequence[Thing], phrase: str) -> ReferenceProblem:
@@ -259,8 +278,9 @@ def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thi
     there "the shortest" is so by its length, for they are as high as each other.
     """
     quantity, sign = SIZES[word]
-    heights = {scene.infos[thing.name].size[2] for thing in things}
-    if quantity == "height" and len(heights) == 1:
+    sizes = [scene.infos[thing.name].size for thing in things]
+    lying = all(max(size[:2]) >= ELONGATED * size[2] for size in sizes)
+    if quantity == "height" and lying and len({size[2] for size in sizes}) == 1:
         quantity = "width"
 
     def measure(thing: Thing) -> float:

@@ -41,6 +41,7 @@ class Phrases(Referents):
         if not things.either:
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             self._check_apart(things, found)
+            self._check_whole(things, role, found)
             return list(dict.fromkeys(index for indices in found for index in indices))
         said = self.one_of(things.phrases, role)
         phrases = [
@@ -79,6 +80,17 @@ class Phrases(Referents):
             return things
         of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
         return replace(things, phrases=named) if of_them else things
+
+    def _check_whole(self, things: Things, role: Role, found: Sequence[Sequence[int]]) -> None:
+        """Whether things are named that are not all of what they were announced as."""
+        if things.whole is None:
+            return
+        every = things_in(self.meaning(things.whole, role).options)
+        named = {*self.discourse.things(*(index for indices in found for index in indices))}
+        if named != {*every}:
+            rest = ", ".join(thing.name for thing in every if thing not in named)
+            why = f"{rest} would be meant as well" if rest else "not all that is named is called so"
+            raise ReferenceProblem(things.whole.text, why, 3)
 
     def _check_apart(self, things: Things, found: Sequence[Sequence[int]]) -> None:
         """Whether "both drawers, the lower" names one of them twice, which says something else."""

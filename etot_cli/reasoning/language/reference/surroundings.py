@@ -18,6 +18,8 @@ from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot
 from etot_cli.reasoning.language.words.lexicon import singular, word_set
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import ACROSS
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState
 
@@ -125,6 +127,8 @@ class Surroundings:
             landmarks = [each for index in landmarks for each in self._discourse.each(index)]
         if beside.text.startswith(("closer", "nearer")):
             beside = replace(beside, relation=self._closer(beside.text, themes, landmarks))
+        if " ".join(beside.text.split()[:5]) in spellings(ACROSS):
+            beside = replace(beside, relation=self._across(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*_OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
@@ -151,6 +155,26 @@ class Surroundings:
             raise ReferenceProblem(text, "it is next to that already", 3)
         self._discourse.notes.append(f"{text!r} is next to it, as it is near that already")
         return Nearby.NEXT_TO
+
+    def _across(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby:
+        """The other side of something than that where things are, or have been put."""
+        discourse = self._discourse
+        marks = discourse.things(*landmarks)
+        if discourse.put & {*themes}:
+            near = (near for place in discourse.last_places for near in place.beside)
+            found = {n.relation for n in near if discourse.things(*n.landmarks) == marks}
+        else:
+            found = {
+                side
+                for side in _OPPOSITE
+                for name in (thing.name for thing in discourse.things(*themes))
+                if holds(Whereabouts(side, tuple(t.name for t in marks)), name, self._scene)
+            }
+        sides = [_OPPOSITE[side] for side in found if side in _OPPOSITE]
+        if len(marks) != 1 or len(sides) != len(found) or len(sides) != 1:
+            raise ReferenceProblem(text, "say 'left of', 'in front of' and so on", 3)
+        discourse.notes.append(f"{text!r} is {sides[0]} it")
+        return sides[0]
 
     def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,

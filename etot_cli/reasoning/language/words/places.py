@@ -140,6 +140,8 @@ ITS_SIDE: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) its left [side|hand side]",
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
 }
+ACROSS = "(to|on|at) the (other|opposite) side of"
+"""Where something is not yet."""
 _AT = "on|at|to|in|onto|towards|near|along"
 _SIDES = {
     Nearby.AT_LEFT: ("[far] left", "(on|at) the [far] left"),
