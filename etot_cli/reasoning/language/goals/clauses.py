@@ -9,9 +9,9 @@ from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.placing import reorient
+from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.goals.putting import again, cover, ensure, put, remove
+from etot_cli.reasoning.language.goals.putting import again, ensure, put, remove
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
@@ -12,10 +13,14 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax import (
+    CoverClause,
     Destination,
+    NounPhrase,
     PutClause,
     PutGroup,
     ReorientClause,
+    Things,
+    Toward,
 )
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
@@ -253,3 +258,29 @@ def _can_stand(context: Context, index: int) -> bool:
         can_topple(info) and (state.toppled or info.container or not is_flat(info))
         for info, state in ((scene.infos[t.name], scene.states[t.name]) for t in things)
     )
+
+
+def cover(context: Context, clause: CoverClause) -> None:
+    """Adds the steps that put a lid on something."""
+    lids = clause.cover or Things((NounPhrase("the", ("lid",), text="lid"),))
+    themes = context.phrases.things(lids, Role.THEME)
+    if clause.cover is None:
+        for index in themes:
+            context.only(index, "say with what: 'cover … with …'")
+    places = tuple(
+        place
+        for phrase in clause.things.phrases
+        for index in _covered(context, phrase, themes)
+        for place in context.places.relations_to(Toward.ON, index, themes)
+    )
+    if any(place.relation is Relation.INSIDE for place in places):
+        raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)
+    add_put(context, themes, places, Grouping.ANY)
+
+
+def _covered(context: Context, phrase: NounPhrase, lids: Sequence[int]) -> tuple[int, ...]:
+    """What gets a lid; "it" is rather a vessel than what was put into that."""
+    if phrase.pronoun:
+        with suppress(ReferenceProblem):
+            return context.phrases.refer(phrase, Role.CONTAINER, lids)
+    return context.phrases.refer(phrase, Role.PLACE, lids)

@@ -13,7 +13,6 @@ from etot_cli.reasoning.builtin.goal import (
     Pick,
     Place,
     Put,
-    Relation,
     Step,
     Thing,
     things_in,
@@ -64,7 +63,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
     AvoidClause,
-    CoverClause,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -78,6 +76,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.nouns import is_only
@@ -177,6 +176,7 @@ def ensure(context: Context, state: State) -> None:
                     all_of_them = quantity_of(phrase.determiner).every
                     keep_as_it_is(context, index, state.word, every=all_of_them)
                 context.steps.append(_made(index, opens=state.word == "open"))
+                _not_instead(context, phrase, index, opens=state.word == "open")
             if is_only(phrase.determiner):
                 for thing in context.all_called(phrase, Role.PART):
                     if thing not in context.discourse.things(index):
@@ -197,34 +197,17 @@ def ensure(context: Context, state: State) -> None:
             raise ReferenceProblem(text, why, 3)
 
 
+def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: bool) -> None:
+    """What another thing is to be open instead of is to be closed, and the other way round."""
+    contrasted = any(item.prep is Prep.CONTRAST for item in phrase.modifiers)
+    for thing in context.discourse.left_out.get(index, ()) if contrasted else ():
+        if state_holds("open" if opens else "closed", thing, context.scene):
+            other = context.single(thing, thing.part or thing.name)
+            context.steps.append(_made(other, opens=not opens))
+
+
 def _made(index: int, *, opens: bool) -> Open | Close:
     return Open(index, final=True) if opens else Close(index, final=True)
-
-
-def cover(context: Context, clause: CoverClause) -> None:
-    """Adds the steps that put a lid on something."""
-    lids = clause.cover or Things((NounPhrase("the", ("lid",), text="lid"),))
-    themes = context.phrases.things(lids, Role.THEME)
-    if clause.cover is None:
-        for index in themes:
-            context.only(index, "say with what: 'cover … with …'")
-    places = tuple(
-        place
-        for phrase in clause.things.phrases
-        for index in _covered(context, phrase, themes)
-        for place in context.places.relations_to(Toward.ON, index, themes)
-    )
-    if any(place.relation is Relation.INSIDE for place in places):
-        raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)
-    add_put(context, themes, places, Grouping.ANY)
-
-
-def _covered(context: Context, phrase: NounPhrase, lids: Sequence[int]) -> tuple[int, ...]:
-    """What gets a lid; "it" is rather a vessel than what was put into that."""
-    if phrase.pronoun:
-        with suppress(ReferenceProblem):
-            return context.phrases.refer(phrase, Role.CONTAINER, lids)
-    return context.phrases.refer(phrase, Role.PLACE, lids)
 
 
 def again(context: Context, clause: AgainClause) -> None:

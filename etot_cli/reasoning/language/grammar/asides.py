@@ -30,6 +30,7 @@ _LEADING = re.compile(
 _TRAILING = re.compile(
     rf"^(?P<rest>.+?) (?:{COMMA} )?(?P<said>(?:because|since|now that|in case|before) [^~]+"
     r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+"
+    r"|so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
     r"|so (?:that )?nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
     r"|for (?:later|(?!\w*thing)\w+ing|(?:lunch|dinner|tea|play|bed)\w* ?time))$"
 )

@@ -322,6 +322,19 @@ _SO_BY_THEN = either(
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
 _HAVING_DONE = either(
+    *(
+        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
+    ),
+    *(
+        sequence(
+            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for said, particle, opens in (
+            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
+            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
+        )
+    ),
     sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
         "taken, removed, moved, cleared",

@@ -95,7 +95,9 @@ KEEP_STILL = either(
         # After "the cups" rather one of them that is left out.
         either(
             sequence(verbs.KEEP, THINGS, manner.AS_IT_IS),
-            sequence("leav(e|ing), keep[ing], ignore, ignoring", THINGS, optional("out")),
+            sequence(
+                f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
+            ),
         ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
     ),

@@ -67,6 +67,7 @@ _PUT_GROUP = sequence(
     _ASIDE,
     optional("somewhere, anywhere"),
     WHERE,
+    silent(optional(manner.LET_GO, "")),
     build=_group,
 )
 PUT_GROUP = either(

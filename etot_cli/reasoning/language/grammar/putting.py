@@ -362,6 +362,13 @@ PUT = either(
     ),
 )
 VERBLESS = either(
+    sequence(
+        # "Into the bin with it"
+        either(INTO, ONTO),
+        "with",
+        ALL_THINGS,
+        build=lambda where, things: put_to(things, (where,)),
+    ),
     sequence(PUT_GROUPS, EXTRAS, build=put_of),
     sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
 )

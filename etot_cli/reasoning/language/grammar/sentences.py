@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     spanned,
     valued,
+    word,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
@@ -62,8 +63,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.known import ALL_WORDS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive, singular
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -185,6 +186,14 @@ def _taken_out(things: Things) -> RemoveClause | None:
 _PLACED = plain(either(VERBLESS, sequence(ALL_THINGS, build=_taken_out)))
 _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
+
+
+def is_unknown(given: Input, text: str) -> bool:
+    """Whether a word is neither the grammar's nor one of something in the scene."""
+    told = is_descriptive(text) or text in LEVELS or text in COMMON_NOUNS
+    return not (told or text in ALL_WORDS or text in given.nouns or not text.isalpha())
+
+
 _STATED = either(
     sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
     sequence("there is, there are, (i|you|we) [can] see, you have", ALL_THINGS),
@@ -194,7 +203,17 @@ _REMARK = either(
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
+    sequence(ALL_THINGS, "(is|are) (in|on|at) the wrong", silent(WORDS)),
 )
+_STRANGE = spanned(
+    sequence(
+        ALL_THINGS,
+        silent(optional("(is|are|has|have) [been|all|badly]")),
+        silent(some(word(is_unknown), least=1, most=4)),
+    ),
+    lambda said, things: ReorientClause(things, only_named=True, remark=said),
+)
+"""Before what is to be done with it ("the stopper is cracked, so bin it")."""
 _SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
@@ -213,13 +232,18 @@ def _about(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if spoken else _one_of_them(topic, rest)
 
 
+def _for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
+    """What is done with one thing for what is said of it, in whatever words."""
+    return (*topic, *rest) if {"it", "that", "them"} & {*pronouns(rest[0].clause)} else None
+
+
 def _one_of_them(topic: Reading, rest: Reading) -> Reading | None:
     """Several things are named before a clause speaks of one of them ("of the cups take the left
     one").
     """
     one = _are_several(topic[0].clause) and any(
         isinstance(item, NounPhrase)
-        and item.determiner == "the"
+        and item.determiner in ("the", "only the")
         and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
         for item in nodes(rest[0].clause)
     )
@@ -296,6 +320,7 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_about,
     ),
+    sequence(plain(_STRANGE), "[~comma] [and] so, ~comma", CHAIN, build=_for_a_reason),
     sequence("of, among, from among, out of", _NAMED, OPTIONAL_COMMA, CHAIN, build=_one_of_them),
     plain(
         sequence(
@@ -326,6 +351,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=_shared_out,
     ),
     sequence(verbs.TIDY_AWAY, _NAMED, "[away|up] (~comma|and)", CHAIN, build=_all_put),
+    sequence(small_words.TASK, plain(sequence(states, build=EnsureClause))),
     plain(IF_NOT_SO),
     sequence(
         "with",
@@ -370,6 +396,7 @@ WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
         EMPTY_WORDS,
+        OPTIONAL_COMMA,
         optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
         optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
         _PLACED,

@@ -187,6 +187,7 @@ _HANDLED = either(
     sequence(noun_phrase, build=_handled),
 )
 _BY_HANDLE = either(
+    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
     sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
     sequence(
         verbs.PICK,
@@ -237,6 +238,15 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
 
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
+    sequence(
+        # "Those parcels are for the bin"
+        NP_LIST,
+        "is for, are for",
+        noun_phrase,
+        build=lambda nps, where: EnsureClause(
+            (State(nps, (Destination(Toward.INSIDE, (where,)),)),)
+        ),
+    ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(
         verbs.KEEP,

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     quiet,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -79,6 +80,7 @@ PICK = sequence(
     optional("up"),
     optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
     optional(sequence(OPTIONAL_COMMA, optional("but"), POSES), None),
+    silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),
     build=_pick,
 )
 HAND_OVER = quiet(
@@ -172,6 +174,7 @@ EMPTY = either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
             sequence("mak(e|ing)", ALL_THINGS),
+            sequence(verbs.WANT, ALL_THINGS, optional("to be")),
         ),
         optional(phrase("both, all"), ""),
         manner.EMPTIED,

@@ -45,6 +45,8 @@ _NOTHING_ELSE = re.compile(
 _ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
 """What goes where, in a table ("lemon: white bowl")."""
 _BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
+_ALSO_VESSELS = {"bin", "box", "file", "pack"}
+"""Words for doing that name a vessel at the end of a phrase."""
 _SMALL = {"the", "a", "my", "your", "its", "please", "kindly"}
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -56,6 +58,7 @@ _STATES = (
 )
 """What "the door's" is followed by where it is no possessive."""
 _CLITICS = (
+    (r"'s got\b", " has"),
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
@@ -92,6 +95,13 @@ def normalized(text: str) -> str:
         r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
     )
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
+    text = re.sub(r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1", text)
+    text = re.sub(
+        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*)\?",
+        r"look at \1,",
+        text,
+    )
     text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 only ", text)
     text = _NOTHING_ELSE.sub(r"\1 \2, and nothing else", text)
     text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
@@ -133,7 +143,9 @@ def _qualified(found: re.Match[str]) -> str:
 
 def _item(found: re.Match[str]) -> str:
     """A line of a table as what goes where; with words for doing or order it is none."""
-    said = {*found[0].replace(":", " ").split()} - _SMALL
+    (*_, name), (*_, place) = (half.split() for half in found.groups())
+    named = {name, place} & _ALSO_VESSELS
+    said = {*found[0].replace(":", " ").split()} - _SMALL - named
     return found[0] if said & OPENING_WORDS else f"{found[1]} to {found[2]}"
 
 

@@ -43,6 +43,14 @@ WIDEST_BELOW = """
 AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base, as (its|the|a) (base|bottom)"
 AT_MIDDLE = "in the (middle|centre|center), in between"
 AT_TOP = "at the top, on [the] top, uppermost, highest, as (its|the) top"
+LET_GO = "and (let [it] go|let go of it|release it)"
+"""Behind where something is brought."""
+KEPT_HELD = """
+    and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
+    [there|up|in (the|your) (hand|gripper)], and [then] wait [there], and do not let go [of it]
+"""
+"""Behind what is picked up, which is held anyway."""
+UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
     where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
     unmoved, in its place, like (that|this), that way, so

@@ -32,7 +32,7 @@ GENERAL_NOUNS = """
 """
 EXCEPT = """
     except [for], with the exception of, but not, other than, apart from, but, excluding,
-    aside from, save [for],
+    aside from, save [for], bar, barring,
     [in|of] any (color|colour) (except|but|other than|apart from)
 """
 CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, as opposed to"

@@ -17,6 +17,7 @@ WITHOUT_MEANING = """
     (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
     i (do not|don t) (care|mind) [which] [one], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
+    behind you, after you, one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
@@ -28,7 +29,10 @@ for, every plan does: things are set down, and no plan may harm anything."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
-TASK = "[your|the] (task|goal|job) ~comma"
+TASK = """
+    [your|the] (task|goal|job|target|aim|objective) ~comma,
+    [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
+"""
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um,
@@ -45,7 +49,7 @@ FRAMES = f"""
     i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
-    be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
+    mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and, {TIDY_UP},
     i would be (glad|happy|grateful) if you (would|could)
 """
@@ -57,6 +61,7 @@ REMARKS = """
     (is|are|stands|lies) in (my|the) way,
     (is|are) (fine|good|ok|okay|alright) [there|where (it is|they are)],
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
+    (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned)
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
@@ -89,7 +94,8 @@ LEADING_THEN = """
 TRAILING_FIRST = "first, before, beforehand, before that, before anything else"
 TRAILING_LAST = """
     last, at the end, in the end, finally, at last,
-    (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done
+    (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,
+    (by the time|when|once) you (finish|are (done|finished)|have finished)
 """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
 INSTEAD = "instead, instead of (it|them|that|those)"
@@ -109,7 +115,10 @@ EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
 AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
-GONE = "(has|have) (gone|been put|been placed|been moved|been brought|been set|landed)"
+GONE = """
+    (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
+    (is|are) (put|set|laid) down
+"""
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
 LOOK_FOR = """
     find, locate, look (for|at), search for, identify, approach, reach for,

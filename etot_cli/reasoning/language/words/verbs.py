@@ -14,7 +14,7 @@ TO_SOMEBODY = """
 """
 """They ask for more than picking up, which is all that is done."""
 HELD_UP = "it is held up, not handed over"
-SHIFT = "mov(e|ing), relocat(e|ing), shift[ing]"
+SHIFT = "mov(e|ing), relocat(e|ing), shift[ing], switch[ing] [over]"
 """Of what is not to be moved, "on the tray" tells which it is rather than where to."""
 SET = """
     put[ting] [away|down|back], plac(e|ing) [down], pick [up] and place, insert[ing],
@@ -117,6 +117,7 @@ TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
 KEEP = "keep[ing], leav(e|ing)"
+IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
 REORIENT = """
     re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
     re orientate
