@@ -1232,6 +1232,8 @@ def tea_table() -> SceneState:
              inside="caddy", z=0.16),
         item("fork_2", "pen", (0.60, 0.37), size=(0.16, 0.02, 0.01), label="fork", on="caddy",
              inside="caddy", z=0.16),
+        item("napkin", "box", (0.60, 0.35), size=(0.18, 0.10, 0.005), on="caddy", inside="caddy",
+             z=0.15),
         item("spoon", "pen", (0.25, -0.12), size=(0.16, 0.03, 0.02), color="gray"),
         item("rack", "box", (0.50, 0.02), size=(0.20, 0.20, 0.03), color="gray"),
         item("vial_a", "cylinder", (0.40, -0.15), size=(0.03, 0.03, 0.08), label="vial A"),

@@ -32,10 +32,11 @@ _JOINTS = word_set("and or then ,")
 _NEXT = "|".join(sorted(_BEFORE_THINGS))
 _AGAIN = f"i mean|i meant|scratch that|make that(?= (?:{_NEXT}) )"
 _MARK = re.compile(
-    r"[\s,.!?;]*(?:"
+    r"[\s,.!?;]{0,4}(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
     r"|\b(?:i mean|i meant|or rather|scratch that)\b"
     r"|(?<=[,.!?;\n] )(?:no|wait|oops|correction|my mistake)(?=\s*[,.!?;\n])"
+    r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
     # "Sorry, could you …" is but polite.
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{'|'.join(sorted(_BEFORE_PLACES))}) )"

@@ -22,9 +22,16 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax import (
+    Beside,
+    Destination,
+    Modifier,
+    NounPhrase,
+    Toward,
+)
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 TOP = "top"
@@ -125,6 +132,16 @@ ONTO = sequence(
     TARGETS,
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
+
+
+def _upon_what_is_in(outer: Destination, np: NounPhrase) -> Destination | None:
+    """On what lies in a vessel ("in the basket on top of the towel")."""
+    (around, *more) = outer.targets
+    if more or outer.word or around.pronoun or np.pronoun or np.modifiers:
+        return None
+    return Destination(Toward.ON, (np.told_by(Modifier(Prep.IN, (around,))),))
+
+
 _AT_END = sequence(
     one_of(places.AT_END), TARGETS, build=lambda end, targets: Destination(Toward.ON, targets, end)
 )
@@ -192,6 +209,7 @@ destination = Rule(
             BESIDES,
             build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
         ),
+        sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
         sequence(
             either(ONTO, _to, INTO),
             OPTIONAL_COMMA,

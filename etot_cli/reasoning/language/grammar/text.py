@@ -29,6 +29,7 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
+_FILLER = re.compile(r"(?:,\s*|\s+)(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+", re.IGNORECASE)
 _WELL = re.compile(
     r"(^|[.!?;\n]\s*)(?:"
     r"right(?: then| so)?,\s*"
@@ -79,6 +80,7 @@ _CLITICS = (
 
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
+    text = _FILLER.sub(" ", text)
     text = _WELL.sub(r"\1", _listed(_NEW_LINE.sub("\n ", text).casefold().strip()))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
