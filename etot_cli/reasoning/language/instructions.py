@@ -203,7 +203,9 @@ def _message(
         second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
         refused = Refused(instruction, phrase, word=error.word, candidates=error.candidates)
     lines = [head, second]
-    example = next(rewordings(refused, scene, partial(_reads, vocabulary=vocabulary)), None)
+    unclear = mark_in(normalized(instruction))  # nobody knows what of it is taken back
+    ways = rewordings(refused, scene, partial(_reads, vocabulary=vocabulary))
+    example = None if unclear else next(ways, None)
     if example is not None:
         lines.append(f"  what would be read: {plain(example)}")
     lines.append(

@@ -31,11 +31,12 @@ _SEQUEL = word_set("first before then after afterwards last finally also too ins
 _JOINTS = word_set("and or then ,")
 _NEXT = "|".join(sorted(_BEFORE_THINGS))
 _AGAIN = f"i mean|i meant|scratch that|make that(?= (?:{_NEXT}) )"
+_ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
 _MARK = re.compile(
     r"[\s,.!?;]{0,4}(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
-    r"|\b(?:i mean|i meant|or rather|scratch that)\b"
-    r"|(?<=[,.!?;\n] )(?:no|wait|oops|correction|my mistake)(?=\s*[,.!?;\n])"
+    r"|\b(?:i mean|i meant|or (?:rather|better|no)|scratch that|on second thoughts?)\b"
+    rf"|(?<=[,.!?;\n] )(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
     # "Sorry, could you …" is but polite.

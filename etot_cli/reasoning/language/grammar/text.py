@@ -29,7 +29,13 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
-_FILLER = re.compile(r"(?:,\s*|\s+)(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+", re.IGNORECASE)
+_UH = r"(?:,\s*|\s+)(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+"
+_FILLER = re.compile(
+    rf"(?:(?<=\bthe)|(?<=\bin)|(?<=\bon)|(?<=\bto)){_UH}"
+    rf"|{_UH}(?=(?:in|on|into|onto|to|and|from|inside|next|then)\b)",
+    re.IGNORECASE,
+)
+"""Where nothing may be put right by it ("the apple, er, banana")."""
 _WELL = re.compile(
     r"(^|[.!?;\n]\s*)(?:"
     r"right(?: then| so)?,\s*"
