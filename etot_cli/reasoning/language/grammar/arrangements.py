@@ -175,6 +175,7 @@ TOWER = either(
         either(
             sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
             sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
+            sequence(verbs.WANT, THINGS, "stacked [up]", optional(manner.UPON_EACH_OTHER)),
         ),
         optional(_UPWARD, None),
         optional(DESTINATIONS, ()),

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from operator import add
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import (
     EARLIER,
     LEAD,
@@ -21,8 +19,8 @@ from etot_cli.reasoning.language.grammar.clauses import (
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS, WORDS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -33,11 +31,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
-    silent,
     some,
-    spanned,
     valued,
-    word,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
@@ -46,7 +41,6 @@ from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
-    Clause,
     Destination,
     EnsureClause,
     Modifier,
@@ -54,17 +48,27 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     PutGroup,
     RemoveClause,
-    ReorientClause,
     State,
     Things,
     Toward,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
-from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
+from etot_cli.reasoning.language.grammar.topics import (
+    NAMED,
+    SAID,
+    STRANGE,
+    about,
+    all_put,
+    each_sorted,
+    for_a_reason,
+    one_of_them,
+    set_down,
+    shared_out,
+    sources,
+)
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import ALL_WORDS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive, singular
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -166,19 +170,9 @@ def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
     return None if articled else EnsureClause((State(nps, word=word),))
 
 
-def _topic(things: Things) -> ReorientClause | None:
-    """What is named; "milk out of the fridge" rather says what is to be done."""
-    return None if _sources(things) else ReorientClause(things, only_named=True)
-
-
-def _sources(things: Things) -> list[Modifier]:
-    """What says of a thing where it is taken from."""
-    return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
-
-
 def _taken_out(things: Things) -> RemoveClause | None:
     """What is taken from somewhere, without a verb."""
-    all_of_them = len(_sources(things)) == len(things.phrases)
+    all_of_them = len(sources(things)) == len(things.phrases)
     doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
     return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
 
@@ -188,109 +182,9 @@ _LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
 """How something is to be in the end, without a verb ("drawer shut")."""
 
 
-def is_unknown(given: Input, text: str) -> bool:
-    """Whether a word is neither the grammar's nor one of something in the scene."""
-    told = is_descriptive(text) or text in LEVELS or text in COMMON_NOUNS
-    return not (told or text in ALL_WORDS or text in given.nouns or not text.isalpha())
-
-
-_STATED = either(
-    sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
-    sequence("there is, there are, (i|you|we) [can] see, you have", ALL_THINGS),
-)
-"""How things are, said of them before something is asked of them."""
-_REMARK = either(
-    sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
-    sequence(small_words.DONE_WITH, ALL_THINGS),
-    sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
-    sequence(ALL_THINGS, "(is|are) (in|on|at) the wrong", silent(WORDS)),
-)
-_STRANGE = spanned(
-    sequence(
-        ALL_THINGS,
-        silent(optional("(is|are|has|have) [been|all|badly]")),
-        silent(some(word(is_unknown), least=1, most=4)),
-    ),
-    lambda said, things: ReorientClause(things, only_named=True, remark=said),
-)
-"""Before what is to be done with it ("the stopper is cracked, so bin it")."""
-_SAID = either(
-    sequence(_STATED, build=partial(ReorientClause, only_named=True)),
-    spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
-    sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
-)
-
-
-_NAMED = plain(either(sequence(THINGS, build=_topic), _SAID))
-
-
-def _about(topic: Reading, rest: Reading) -> Reading | None:
-    """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
-    remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
-    therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
-    spoken = remark or therein or any(pronouns(rest[0].clause))
-    return (*topic, *rest) if spoken else _one_of_them(topic, rest)
-
-
-def _for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
-    """What is done with one thing for what is said of it, in whatever words."""
-    return (*topic, *rest) if {"it", "that", "them"} & {*pronouns(rest[0].clause)} else None
-
-
-def _one_of_them(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are named before a clause speaks of one of them ("of the cups take the left
-    one").
-    """
-    one = _are_several(topic[0].clause) and any(
-        isinstance(item, NounPhrase)
-        and item.determiner in ("the", "only the")
-        and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
-        for item in nodes(rest[0].clause)
-    )
-    return (*topic, *rest) if one else None
-
-
-def _are_several(topic: Clause) -> bool:
-    """Whether several things are named."""
-    nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
-    return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
-
-
-def _sorted(topic: Reading, rest: Reading) -> Reading | None:
-    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
-    put = rest[0].clause
-    told = isinstance(put, PutClause) and all(
-        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
-        for group in put.groups
-        for np in group.things.phrases
-    )
-    return (*topic, *rest) if told else None
-
-
-def _shared_out(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are taken, and each of them goes somewhere of its own."""
-    return _sorted(topic, rest) if _are_several(topic[0].clause) else None
-
-
-def _all_put(topic: Reading, rest: Reading) -> Reading | None:
-    """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
-    put = rest[0].clause
-    told = isinstance(put, PutClause) and all(
-        np.pronoun == "them" for group in put.groups for np in group.things.phrases
-    )
-    return (*topic, *rest) if told else None
-
-
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
     """Where the robot goes to put something down is where that goes."""
     return put_to(things, (Destination(Toward.TO, (np,)),))
-
-
-def _set_down(topic: Reading, rest: Reading) -> Reading | None:
-    """What is brought over is put where the next clause says ("bring it over and set it …")."""
-    put = rest[0].clause
-    taken_up = isinstance(put, PutClause) and put.groups[0].things.phrases[0].pronoun
-    return (*topic, *rest) if taken_up else None
 
 
 _PAIRS = quiet(
@@ -315,13 +209,15 @@ UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 _WITH_MORE_BEFORE_IT = either(
     sequence(
         optional(small_words.LOOK_FOR),
-        _NAMED,
+        NAMED,
         either(COMMA, "[~comma] and, and then, then, [~comma] so"),
         CHAIN,
-        build=_about,
+        build=about,
     ),
-    sequence(plain(_STRANGE), "[~comma] [and] so, ~comma", CHAIN, build=_for_a_reason),
-    sequence("of, among, from among, out of", _NAMED, OPTIONAL_COMMA, CHAIN, build=_one_of_them),
+    sequence(
+        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason
+    ),
+    sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(
             "(go|move|drive) [over] (to|towards)",
@@ -334,23 +230,23 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence(
         verbs.FETCH,
-        _NAMED,
+        NAMED,
         "over [here], here",
         either(COMMA, "and, and then, then"),
         CHAIN,
-        build=_set_down,
+        build=set_down,
     ),
-    sequence("put[ting], stow[ing]", _NAMED, "away", COMMA, _PLACED, build=add),
-    sequence(verbs.TIDY, _NAMED, COMMA, _PLACED, build=_sorted),
+    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
+    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
     sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
-        _NAMED,
+        NAMED,
         "and, and then, ~comma and",
         CHAIN,
-        build=_shared_out,
+        build=shared_out,
     ),
-    sequence(verbs.TIDY_AWAY, _NAMED, "[away|up] (~comma|and)", CHAIN, build=_all_put),
+    sequence(verbs.TIDY_AWAY, NAMED, "[away|up] (~comma|and)", CHAIN, build=all_put),
     sequence(small_words.TASK, plain(sequence(states, build=EnsureClause))),
     plain(IF_NOT_SO),
     sequence(
@@ -383,7 +279,7 @@ _WITH_MORE_BEFORE_IT = either(
 SENTENCE = either(
     CHAIN,
     sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
-    plain(_SAID),
+    plain(SAID),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,

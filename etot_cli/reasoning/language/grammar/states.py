@@ -277,7 +277,10 @@ ENSURE = either(
         "(does|do|should|must) not",
         build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
     ),
-    valued(either(_STAYS, _contains(verbs.CONTAIN)), lambda state: EnsureClause((state,))),
+    valued(
+        either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),
+        lambda state: EnsureClause((state,)),
+    ),
     quiet(
         sequence(
             NP_LIST,

@@ -104,6 +104,9 @@ def normalized(text: str) -> str:
     )
     text = re.sub(r"\bnothing but\b", "only", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
+    text = re.sub(
+        r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the ", text
+    )
     text = re.sub(r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1", text)
     text = re.sub(
         r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*)\?",

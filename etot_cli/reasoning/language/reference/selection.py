@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import contents, is_closed, is_on, parts_of
+from etot_cli.reasoning.builtin.relations import contents, is_closed, is_inside, is_on, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import rows, space
@@ -140,6 +140,13 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
             if thing.board is not None or (not info.container and not parts):
                 filled = any(is_on(scene, name, places[0]) for name in scene.states)
             return filled == (STATES[word] == "full")
+        case "stacked":
+            upon = [Thing(name) for name, other in scene.infos.items() if other.movable]
+            return any(
+                space.rests_on(one, below, scene) and not is_inside(scene, one.name, below.name)
+                for other in upon
+                for one, below in ((thing, other), (other, thing))
+            )
         case _:
             return state.toppled
 

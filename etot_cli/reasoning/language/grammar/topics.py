@@ -1,0 +1,148 @@
+"""Rules for what is named before a clause speaks of it, and for what is only said of it."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from etot_cli.reasoning.language.grammar.asides import ASIDE
+from etot_cli.reasoning.language.grammar.clauses import Reading, plain
+from etot_cli.reasoning.language.grammar.input import Input
+from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    sequence,
+    silent,
+    some,
+    spanned,
+    word,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
+    Modifier,
+    NounPhrase,
+    PutClause,
+    ReorientClause,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
+from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words.known import ALL_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    is_descriptive,
+    singular,
+)
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def _topic(things: Things) -> ReorientClause | None:
+    """What is named; "milk out of the fridge" rather says what is to be done."""
+    return None if sources(things) else ReorientClause(things, only_named=True)
+
+
+def sources(things: Things) -> list[Modifier]:
+    """What says of a thing where it is taken from."""
+    return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
+
+
+def _is_unknown(given: Input, text: str) -> bool:
+    """Whether a word is neither the grammar's nor one of something in the scene."""
+    told = is_descriptive(text) or text in LEVELS or text in COMMON_NOUNS
+    return not (told or text in ALL_WORDS or text in given.nouns or not text.isalpha())
+
+
+_STATED = either(
+    sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
+    sequence("there is, there are, (i|you|we) [can] see, you have", ALL_THINGS),
+)
+"""How things are, said of them before something is asked of them."""
+_REMARK = either(
+    sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(small_words.DONE_WITH, ALL_THINGS),
+    sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
+)
+STRANGE = spanned(
+    sequence(
+        ALL_THINGS,
+        silent(optional("(is|are|has|have) [been|all|badly]")),
+        silent(some(word(_is_unknown), least=1, most=4)),
+    ),
+    lambda said, things: ReorientClause(things, only_named=True, remark=said),
+)
+"""Before what is to be done with it ("the stopper is cracked, so bin it")."""
+SAID = either(
+    sequence(_STATED, build=partial(ReorientClause, only_named=True)),
+    spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
+    sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
+)
+
+
+NAMED = plain(either(sequence(THINGS, build=_topic), SAID))
+
+
+def about(topic: Reading, rest: Reading) -> Reading | None:
+    """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
+    remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
+    therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
+    spoken = remark or therein or any(pronouns(rest[0].clause))
+    return (*topic, *rest) if spoken else one_of_them(topic, rest)
+
+
+def for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
+    """What is done with one thing for what is said of it, in whatever words."""
+    return (*topic, *rest) if {"it", "that", "them"} & {*pronouns(rest[0].clause)} else None
+
+
+def one_of_them(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things are named before a clause speaks of one of them ("of the cups take the left
+    one").
+    """
+    one = _are_several(topic[0].clause) and any(
+        isinstance(item, NounPhrase)
+        and item.determiner in ("the", "only the")
+        and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
+        for item in nodes(rest[0].clause)
+    )
+    return (*topic, *rest) if one else None
+
+
+def _are_several(topic: Clause) -> bool:
+    """Whether several things are named."""
+    nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
+    return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
+
+
+def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
+    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+    put = rest[0].clause
+    told = isinstance(put, PutClause) and all(
+        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
+        for group in put.groups
+        for np in group.things.phrases
+    )
+    return (*topic, *rest) if told else None
+
+
+def shared_out(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things are taken, and each of them goes somewhere of its own."""
+    return each_sorted(topic, rest) if _are_several(topic[0].clause) else None
+
+
+def all_put(topic: Reading, rest: Reading) -> Reading | None:
+    """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
+    put = rest[0].clause
+    told = isinstance(put, PutClause) and all(
+        np.pronoun == "them" for group in put.groups for np in group.things.phrases
+    )
+    return (*topic, *rest) if told else None
+
+
+def set_down(topic: Reading, rest: Reading) -> Reading | None:
+    """What is brought over is put where the next clause says ("bring it over and set it …")."""
+    put = rest[0].clause
+    taken_up = isinstance(put, PutClause) and put.groups[0].things.phrases[0].pronoun
+    return (*topic, *rest) if taken_up else None
