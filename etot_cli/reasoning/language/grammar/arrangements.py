@@ -118,6 +118,8 @@ _COLOR = sequence(
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
+_SO = either(COMMA, sequence(OPTIONAL_COMMA, "with, so that, such that"))
+"""Before what goes where in a tower."""
 _LAYER = sequence(
     noun_phrase,
     optional(verbs.BE),
@@ -151,7 +153,7 @@ _LAYERS = valued(
 """All of a tower from the bottom up."""
 _TOWER_ENDS = optional(
     either(
-        sequence(OPTIONAL_COMMA, optional("with"), _ENDS),
+        sequence(optional(_SO), _ENDS),
         sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
     ),
     None,
@@ -207,7 +209,7 @@ TOWER = either(
             verbs.BUILD,
             "a tower, a stack, a pile",
             optional(DESTINATIONS, ()),
-            either(COMMA, sequence(OPTIONAL_COMMA, "with")),
+            _SO,
             _ENDS,
             build=lambda base, ends: (base, ends),
         ),
@@ -217,13 +219,13 @@ TOWER = either(
         verbs.BUILD,
         "a tower, a stack, a pile",
         optional(DESTINATIONS, ()),
-        either(sequence(OPTIONAL_COMMA, "with"), OPTIONAL_COMMA),
+        optional(_SO),
         _LAYERS,
         build=lambda base, nps: TowerClause(Things(nps), upward=True, base=base),
     ),
     sequence(
         either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
-        optional(sequence(THINGS, either("with", sequence(COMMA, optional("with")))), None),
+        optional(sequence(THINGS, _SO), None),
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),

@@ -29,7 +29,7 @@ INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
 """
 BOTTOM_UP = """
-    (from the|from) bottom (up|to top|to the top), bottom (first|up),
+    [from [the]] bottom to [the] top, [from [the]] bottom up, bottom first,
     starting (with|at|from) the bottom,
     [in this order] from bottom to top
 """
@@ -42,9 +42,9 @@ WIDEST_BELOW = """
     [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
 """
 """As a stack is built anyway."""
-AT_BOTTOM = "at the bottom, on the bottom, lowest, at the base, as (its|the|a) (base|bottom)"
-AT_MIDDLE = "in the (middle|centre|center), in between"
-AT_TOP = "at the top, on [the] top, uppermost, highest, as (its|the) top"
+AT_BOTTOM = "[at|on] [the] bottom, lowest, at the base, as (its|the|a) (base|bottom)"
+AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
+AT_TOP = "[at|on] [the] top, uppermost, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go of it|release it)"
 """Behind where something is brought."""
 KEPT_HELD = """
