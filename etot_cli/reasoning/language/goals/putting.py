@@ -118,7 +118,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             put_back(context, themes, group, ruled_out)
             continue
         if not ruled_out and any(w.toward is Toward.WITH for w in group.destinations):
-            add_put(context, themes, where_is(context, clause, group, themes), clause.grouping)
+            context.discourse.last_places = where_is(context, clause, group, themes)
+            add_put(context, themes, context.discourse.last_places, clause.grouping)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
