@@ -43,6 +43,8 @@ _MARK = re.compile(
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{'|'.join(sorted(_BEFORE_PLACES))}) )"
     r")[\s,.!?;]*"
 )
+MOST_WAYS = 5
+"""Phrases that may be taken back at once; of more nobody knows which one is."""
 _TOKEN = re.compile(r"\d+\.\d+|[^\s,.!?;]+|[,.!?;\n]")
 _ENDS = frozenset(".!?;\n")
 
@@ -65,7 +67,9 @@ def mark_in(text: str) -> re.Match[str] | None:
 
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
-    """All ways to understand what is taken back."""
+    """All ways to understand what is taken back; none where more than one thing is."""
+    if _MARK.search(text, mark.end()):
+        return
     before, after = (
         tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
     )
@@ -73,7 +77,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
-    for first, last in _spans(tail, said, after[:stop]):
+    spans = [*_spans(tail, said, after[:stop])]
+    for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
         if kept and rest[:1] == (",",) and rest[1:2] not in (("and",), ("then",)):
             continue  # "the apple in the bowl, no, the banana, in the box"
