@@ -69,7 +69,7 @@ _FIXED = """
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
-    closer together, 's (top|surface), in any order, (no|any) longer,
+    closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour)
 """
 """Phrases in which such words say something else, or nothing of their own."""
@@ -171,8 +171,8 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause():
-            yield from (_ORDER, "top", "middle", "bottom", "biggest", "largest", "widest",
-                        "smallest")  # fmt: skip
+            yield from ("stacked", _ORDER, "top", "middle", "bottom", "biggest", "largest",
+                        "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
             yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
         case Turns() if node != Turns():

@@ -77,7 +77,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
-    spans = [*_spans(tail, said, after[:stop])]
+    spans = list(_spans(tail, said, after[:stop]))
+    if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
+        # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
+        told = [span for span in spans if any(map(is_descriptive, tail[slice(*span)]))]
+        spans = told or spans
     for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
         if kept and rest[:1] == (",",) and rest[1:2] not in (("and",), ("then",)):
@@ -97,6 +101,8 @@ def _spans(
     joints = [at for at, word in enumerate(tail) if word in _JOINTS]
     where = [at for at, word in enumerate(tail) if at and word in _BEFORE_PLACES]
     things = [at for at, word in enumerate(tail) if word in _BEFORE_THINGS]
+    if tail and is_descriptive(tail[0]):
+        things.insert(0, 0)  # "black pen in the tray"
     begin = said[0]
     if begin in VERB_WORDS:
         clauses = (0, *(at + 1 for at in joints))

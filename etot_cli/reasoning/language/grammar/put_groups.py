@@ -68,6 +68,7 @@ _PUT_GROUP = sequence(
     optional("somewhere, anywhere"),
     WHERE,
     silent(optional(manner.LET_GO, "")),
+    silent(optional(sequence(OPTIONAL_COMMA, "contents and all"), "")),
     build=_group,
 )
 PUT_GROUP = either(

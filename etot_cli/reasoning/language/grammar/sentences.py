@@ -153,6 +153,11 @@ def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     return None if str(asks).startswith("what") else _chained(first, more)
 
 
+def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+    """What comes first without a verb, and then more."""
+    return _verbless(first, more) if any(joint == "then" for joint, _ in more) else None
+
+
 _NOT_THIS = sequence(
     "instead of, rather than, not", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
 )
@@ -299,6 +304,14 @@ WHOLE = either(
         some(_JOINED, most=12),
         _END,
         build=_verbless,
+    ),
+    sequence(
+        # "First the ball into the box, then the cup"
+        EMPTY_WORDS,
+        either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
+        some(_JOINED, least=1, most=12),
+        _END,
+        build=_first_placed,
     ),
     sequence(
         EMPTY_WORDS,

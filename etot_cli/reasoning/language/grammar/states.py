@@ -144,6 +144,10 @@ def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -
 
 _PLAIN_MOVE = either(
     *(
+        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
+        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
+    ),
+    *(
         sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
         for verb, opens in (
             (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),

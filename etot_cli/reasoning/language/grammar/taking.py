@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, alternatives
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     sequence,
     silent,
+    some,
 )
 from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -170,6 +171,13 @@ EMPTY = either(
     ),
     sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
     sequence(
+        "clear[ing], clean[ing], empty[ing]",
+        ALL_THINGS,
+        "out",
+        optional(DESTINATIONS, None),
+        build=_emptied,
+    ),
+    sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
@@ -195,6 +203,12 @@ def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(toward, (np,), FILLED),))
 
 
+def _used(np: NounPhrase, toward: Toward, things: Things, more: Any) -> PutClause:
+    """Each of several vessels gets what it is used for."""
+    pairs = (_filled(toward, np, things), *(_filled(Toward.TO, *pair) for pair in more))
+    return PutClause(tuple(group for put in pairs for group in put.groups))
+
+
 FILL = quiet(
     either(
         sequence(
@@ -209,7 +223,8 @@ FILL = quiet(
             noun_phrase,
             one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),
             ALL_THINGS,
-            build=lambda np, toward, things: _filled(toward, np, things),
+            some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
+            build=_used,
         ),
     )
 )

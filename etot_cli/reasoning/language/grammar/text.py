@@ -52,6 +52,14 @@ _NOTHING_ELSE = re.compile(
 _ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
 """What goes where, in a table ("lemon: white bowl")."""
 _BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
+_ALL_NAMED = re.compile(
+    r"(^|[.;\n]\s*)([^:.;\n]+): "
+    r"(?:all(?: of (?:them|it|these))?|both(?: of them)?|everything|the lot)"
+    r" (?=(?:in|on|into|onto|to)\b)"
+)
+"""What a list before a colon names, all of it."""
+_MAY_GO = re.compile(r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?) go\b")
+"""A request in the words of a question."""
 _ALSO_VESSELS = {"bin", "box", "file", "pack"}
 """Words for doing that name a vessel at the end of a phrase."""
 _SMALL = {"the", "a", "my", "your", "its", "please", "kindly"}
@@ -103,6 +111,10 @@ def normalized(text: str) -> str:
         r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
     )
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = _ALL_NAMED.sub(r"\1\2 ", text)
+    text = _MAY_GO.sub(r"\1\2 should go", text)
+    text = re.sub(r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " ", text)
+    text = re.sub(r"(?<=\w) please(?=, )", "", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
     text = re.sub(
         r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the ", text

@@ -157,7 +157,8 @@ class Discourse:
         nouns = {mention.noun for mention in self.mentions if mention.referent == referent}
         again = any(same_noun(noun, resolved.noun) for noun in nouns)
         source = not nouns and any(place.where == referent for place in self.last_places)
-        return earlier < now and (again or source)
+        swept = any(matches_any(noun, THING_NOUNS) for noun in nouns)  # off the plate: "the roll"
+        return earlier < now and (again or source or swept)
 
     def as_it_stands(self, referent: int, so: Callable[[SceneState, PartInfo], bool]) -> None:
         """Of a chest of drawers that is spoken of, keeps the drawers that are so now; all, if none

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     HELPING_NOUNS,
     JOINT_NOUNS,
     KIND_GROUPS,
+    SORTS,
     TWINS,
     basic_color,
     is_plural_of,
@@ -261,6 +262,7 @@ def object_entry(info: ObjectInfo) -> Entry:
     whole = dict.fromkeys("_".join(words) for words in called if is_odd(words))
     twins = [twin for words in called for twin in _twins_of(words)]
     generic = (*_kind_nouns(info.kind, heads), *dict.fromkeys(words[-1] for words in twins))
+    generic = (*generic, *(SORTS[word] for word in map(singular, heads) if word in SORTS))
     if info.container or any(part.container for part in info.parts):
         generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
     return Entry(

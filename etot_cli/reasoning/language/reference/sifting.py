@@ -161,8 +161,8 @@ def _of_color(sifted: Sifted, word: str, color: str) -> list[tuple[Entry, int]]:
     if word in NAMED_COLORS and word not in (color, _BRITISH.get(color)):
         # What is only near a basic colour may be of this very one; what has that colour is not.
         near = [item for item in near if not item[0].is_plainly(color)] or near
-    # A thing of unknown colour may have any.
-    found = near or [item for item in graded if not item[0].is_colored()]
+    # A thing of unknown colour that is called so may have any.
+    found = near or [item for item in graded if not item[0].is_colored() and item[1] != GENERIC]
     if found:
         names = names_of([entry for entry, _ in found])
         sifted.notes.append(f"{TAKEN_FOR}{names} for {word!r}")

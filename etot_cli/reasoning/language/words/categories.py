@@ -148,7 +148,9 @@ _POURED = word_set("shampoo conditioner lotion toothpaste perfume honey soup sug
 _KEEPING = word_set("basket hamper crate box bin bag tray rack cooler caddy cart sink trash can")
 """Where packs are kept or carried as they are: nobody pours ketchup into a basket."""
 _OF_A_PIECE = word_set("bar leaf slice wedge fillet clove")
-PACKS = _OF_A_PIECE | word_set("can tin carton bottle jar packet pack bag box tube pouch")
+PACKS = _OF_A_PIECE | word_set(
+    "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder"
+)
 """Nouns for what food and drink come in, or come off in."""
 MASS_NOUNS = word_set(
     """

@@ -55,12 +55,25 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("fridge", "refrigerator"), ("closet", "wardrobe"), ("couch", "sofa", "settee"),
     ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),
     ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),
+    ("cutting board", "chopping board"), ("spanner", "wrench"), ("eraser", "rubber"),
+    ("pen holder", "pen pot", "pen cup", "pencil holder", "pencil pot", "pencil cup"),
+    ("tv cabinet", "telly cabinet", "television cabinet"), ("stove", "cooker", "hob"),
+    ("dish towel", "tea towel", "dishcloth"), ("candy", "sweet"), ("tape", "sellotape"),
     ("eggplant", "aubergine"), ("zucchini", "courgette"), ("diaper", "nappy"),
     ("trash can", "trash bin", "garbage can", "garbage bin", "rubbish bin", "waste bin",
      "waste container", "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash",
      "garbage"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
+SORTS: dict[str, str] = {
+    **dict.fromkeys(("teaspoon", "tablespoon", "soupspoon", "dessertspoon"), "spoon"),
+    **dict.fromkeys(("penknife", "pocketknife"), "knife"), "wineglass": "glass", "saucepan": "pan",
+    **dict.fromkeys(("teapot", "flowerpot"), "pot"), "handbag": "bag", "paperback": "book",
+    **dict.fromkeys(("toothbrush", "paintbrush", "hairbrush"), "brush"),
+    **dict.fromkeys(("lunchbox", "toolbox", "matchbox"), "box"),
+    **dict.fromkeys(("football", "basketball", "baseball", "softball", "volleyball"), "ball"),
+}  # fmt: skip
+"""Nouns in one word, and the noun of which they are a sort."""
 RUBBISH = word_set("trash rubbish garbage waste litter recycling")
 """What is put where it belongs, called by the same word."""
 REFUSE = ("trash", "garbage")

@@ -41,7 +41,7 @@ AS_YOU_LIKE = "[that|which] you (like|want|prefer|wish|please|choose)"
 """Behind what is left open anyway."""
 RELATIVE = """
     (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)
-    [currently|now|already|also],
+    [currently|now|already|also|still],
     (that|which) (is|are) (standing|lying|sitting|placed|located|resting|kept|positioned),
     that, which, whose (color|colour) is, standing, lying, sitting, placed, located, resting, kept,
     situated, positioned,

@@ -10,6 +10,8 @@ WITHOUT_MEANING = """
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
     pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
+    mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
+    (when|once) you have [got] (it|them),
     whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
@@ -80,7 +82,8 @@ LEADING_FIRST = """
 """
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = """
-    finally, lastly, last, last of all, at the end, in the end, last but not least,
+    finally, lastly, last, last of all, at the end [of (it all|this)], in the end,
+    by the end [of (it all|this)], last but not least,
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
@@ -105,6 +108,7 @@ OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
+    [and] when (that is|you have) done [that], [and] once that is done,
     [and|but] [only] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
     and last [of all], after which,
     and later

@@ -24,7 +24,7 @@ SET = """
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
-    slot[ting], fit[ting]
+    slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing)
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
@@ -45,7 +45,7 @@ PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
-BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing]"
+BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing], dig[ging]"
 REMOVE = """
     remov(e|ing), clear[ing] away, bring[ing] down, extract[ing], tak(e|ing) (out|off|away|down),
     get[ting] (out|down), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
@@ -76,7 +76,7 @@ _BROUGHT = """
 _BEING = "standing|lying|sitting|located|resting"
 MODAL = f"""
     (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to|wants to) (be|end up|go [back]),
+    (has to|have to|needs to|need to|ought to|is to|are to|wants to|want to) (be|end up|go [back]),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
     (is|are) supposed to be, go[es] [back], belong[s], live[s],
@@ -86,7 +86,7 @@ CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
-    [i would|i d] prefer, i prefer, we would like,
+    [i would|i d] prefer, i prefer, we would like, i would like to find,
     (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
     i want to (have|see), i would rather (have|see)
 """
@@ -124,7 +124,7 @@ REORIENT = """
 """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
-BUILD = "build[ing], mak(e|ing), creat(e|ing), form[ing]"
+BUILD = "build[ing] [me], mak(e|ing) [me], creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
