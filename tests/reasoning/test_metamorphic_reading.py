@@ -29,7 +29,7 @@ from tests.reasoning.test_corpus import CORPUS
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 READ = [(name, text) for name, found in CORPUS.items() for text in found["read"]]
 REMARK = re.compile(r"the [\w ]+ (is|are) [^,]*\bzorp\b[^,]*,.*\b(it|them)\b", re.IGNORECASE)
-"""What is told of a thing that a pronoun takes up afterwards: "The twine is frayed, into A with it"."""
+"""What is told of a thing that a pronoun takes up: "The twine is frayed, into A with it"."""
 
 LIMIT_S = 1.0
 """Reading any sentence takes less than this [s of processor time]."""
