@@ -64,7 +64,7 @@ def arrangement(state: SceneState) -> dict[str, object]:
         "Put the left ball into the red mug.",
         "Put the second ball from the left on the plate.",
         "Put the ball nearest to the plate into the red mug.",
-        "Put the largest mug on the plate.",
+        "Put one of the largest mugs on the plate.",
         "Pick up the right ball.",
         # Out of something that is closed or moved before it is put elsewhere.
         "Take the white mug out of the cupboard, close the cupboard and put the mug on the plate.",

@@ -112,6 +112,11 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
     for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
         phrase = rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)"
         yield re.sub(phrase, names.of(name), text, count=1)
+    if refused.candidates and refused.phrase.startswith("the "):
+        yield _any_of(refused.phrase, text)
+        told = re.findall(r"\bthe (\w+)", text)
+        if len({*told}) == len(told):  # no second one speaks of the first again
+            yield _any_of("the ", text)
     if re.search(rf"{_BOUND} {re.escape(refused.word)}(?!\w)", text) or _is_head(
         refused.word, text, names
     ):
@@ -124,6 +129,14 @@ def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[
         text.partition(refused.phrase.removesuffix(" …"))[0]
     ):
         yield kept
+
+
+def _any_of(phrase: str, text: str) -> str:
+    """A text that leaves open which thing is meant where it has a phrase that begins with "the"."""
+    behind = re.escape(phrase.removeprefix("the ")) or r"\w"
+    return re.sub(
+        rf"\bthe (?=({behind}))", lambda found: "an " if found[1][0] in "aeio" else "a ", text
+    )
 
 
 def _is_head(word: str, text: str, names: _Names) -> bool:
@@ -243,7 +256,8 @@ class _Names:
             return info.label if last.isdigit() or len(last) == 1 else f"the {info.label}"
         if info.color and sum(other.color == info.color for other in alike) == 1:
             return f"the {info.color} {info.label}"
-        return info.name.replace("_", " ")
+        called = info.name.replace("_", " ")
+        return called if called.split()[-1].isdigit() else f"the {called}"
 
     def _of_part(self, part: PartInfo) -> str:
         """A drawer or door; the whole thing where it has no other."""
@@ -256,4 +270,5 @@ class _Names:
 
 def _sentence(text: str) -> str:
     plain = " ".join(text.split()).strip(" ,.?!")
-    return f"{plain[:1].upper()}{plain[1:]}." if plain else plain
+    begun = re.sub(r"(?:^|\. )\w", lambda found: found[0].upper(), plain)
+    return f"{begun}." if plain else plain

@@ -92,7 +92,8 @@ def _all_of(context: Context, index: int) -> int:
         )
         for option in discourse.referents[index].options
     )
-    every = Resolved(options, definite=True, noun=noun)
+    known = len(options) == 1 or index in discourse.undecided
+    every = Resolved(options, definite=known, noun=noun)
     return discourse.add(every, discourse.referents[index].text, Role.PART)
 
 

@@ -79,6 +79,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_turns(state.timed, state.context.discourse)
     goal = settled(_without_places(state), scene, state.context.turned)
     check_held(state.timed, goal, scene)
+    _check_decided(goal, state.context.discourse)
     last = state.context.last
     named = isinstance(last, ReorientClause) and last.only_named
     wished = isinstance(last, ReorientClause) and " for " in last.remark  # to be put there?
@@ -89,16 +90,33 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     return goal
 
 
+def _used(goal: Goal) -> set[int]:
+    """The referents that the steps of a goal are about."""
+    puts = [step for step in goal.steps if isinstance(step, Put)]
+    used = {step.what for step in goal.steps if not isinstance(step, Put)}
+    used |= {index for step in puts for index in step.what}
+    return used | {index for step in puts for place in step.places for index in place.referents()}
+
+
+def _check_decided(goal: Goal, discourse: Discourse) -> None:
+    """Whether "the cup" means one thing.
+
+    Raises:
+        AmbiguousReference: several things fit, and neither words nor state tell them apart.
+    """
+    for index in sorted(_used(goal) & discourse.undecided):
+        referent = goal.referents[index]
+        if len(referent.options) > 1:
+            names = [thing.address for thing in things_in(referent.options)]
+            raise AmbiguousReference(referent.text, names)
+
+
 def _check_remarks(goal: Goal, discourse: Discourse) -> None:
     """Whether something was said of one of several things that may be meant ("the red bowl is
     broken; put the pear in a bowl").
     """
     told = {*discourse.things(*discourse.remarked)}
-    puts = [step for step in goal.steps if isinstance(step, Put)]
-    used = {step.what for step in goal.steps if not isinstance(step, Put)}
-    used |= {index for step in puts for index in step.what}
-    used |= {index for step in puts for place in step.places for index in place.referents()}
-    for index in sorted(used):
+    for index in sorted(_used(goal)):
         referent = goal.referents[index]
         if index in discourse.remarked and len(referent.options) > 1:  # "one of them is dirty"
             raise AmbiguousReference(referent.text, [t.name for t in things_in(referent.options)])
