@@ -22,6 +22,7 @@ from etot_cli.specs.reading import read_text
 
 MAX_DEPTH = 32
 """Deepest nesting of mappings and lists; aliases count at the place where they are used."""
+_TOO_DEEP = f"nested deeper than {MAX_DEPTH} levels"
 MAX_NODES = 20_000
 """Values in one document, aliases expanded. A scene of 64 objects has about a thousand."""
 MAX_DIGITS = 40
@@ -121,6 +122,8 @@ def parse_document(text: str, file: str) -> Node:
         mark = error.problem_mark or error.context_mark
         line = None if mark is None else mark.line + 1
         problem = " ".join(part for part in (error.context, error.problem) if part)
+        if "maximum nesting depth" in problem:  # libyaml of PyYAML 6.0.4 stops there on its own
+            raise SpecError(_TOO_DEEP, file=file, line=line) from None
         if line is not None and _indented_with_tab(text, line):
             problem += "; indent with spaces, not tabs"
         raise SpecError(f"not valid YAML: {problem}", file=file, line=line) from None
@@ -252,7 +255,7 @@ class _Builder:
 
     def _check_depth(self, depth: int, place: Place) -> None:
         if depth > MAX_DEPTH:
-            raise self._error(f"nested deeper than {MAX_DEPTH} levels", place.line, place.path[:1])
+            raise self._error(_TOO_DEEP, place.line, place.path[:1])
 
     def _error(self, message: str, line: int, path: DataPath) -> SpecError:
         return SpecError(message, file=self._file, line=line, path=path_text(path))
