@@ -27,7 +27,8 @@ def formal(goal: Goal) -> str:
             where = " or ".join(f"{relation.value} {place}" for relation, place in item.places)
             kept.append(f"never {where}: {names}")
         else:
-            kept.append(f"{item.keep.value}: {names}")
+            turned = item.keep in (Keep.OPEN, Keep.CLOSED)
+            kept.append(f"{'stays ' * turned}{item.keep.value}: {names}")
     said = dict.fromkeys(item for item in (*steps, *kept) if item)
     return "; ".join(said) or "nothing to do"
 

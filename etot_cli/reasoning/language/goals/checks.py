@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, things_in
-from etot_cli.reasoning.builtin.relations import carriers
+from etot_cli.reasoning.builtin.relations import carriers, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.turns import Timed
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -58,6 +58,20 @@ def check_kept(goal: Goal) -> None:
         for name in sorted(always & kept):
             why = f"{name} cannot both be put somewhere and be left as it is"
             raise ReferenceProblem(referent.text, why, 4)
+
+
+def check_shut(goal: Goal, scene: SceneState) -> None:
+    """Whether anything is to be put into what is closed and must not be opened."""
+    shut = {name for item in goal.constraints if item.keep is Keep.CLOSED for name in item.names}
+    for step in (step for step in goal.steps if isinstance(step, Put) and shut):
+        for place in step.places:
+            if place.where is None or place.relation is not Relation.INSIDE:
+                continue
+            referent = goal.referents[place.where]
+            parts = [p for t in things_in(referent.options) for p in parts_of(scene, t)]
+            if parts and all({f"{p.owner}.{p.name}", p.owner} & shut for p in parts):
+                why = "nothing can be put in there while it stays closed; say 'then close it'"
+                raise ReferenceProblem(referent.text, why, 4)
 
 
 def check_run(goal: Goal) -> None:

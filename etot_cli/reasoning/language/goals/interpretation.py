@@ -10,7 +10,9 @@ from itertools import pairwise
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import (
     Close,
+    Constraint,
     Goal,
+    Keep,
     Open,
     Pick,
     Put,
@@ -18,6 +20,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     things_in,
 )
+from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
@@ -26,6 +29,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_held,
     check_kept,
     check_run,
+    check_shut,
     check_turns,
 )
 from etot_cli.reasoning.language.goals.clauses import steps_of
@@ -73,6 +77,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     for sentence in sentences:
         state = _best_reading(state, sentence)
     check_kept(state.goal())
+    check_shut(state.goal(), scene)
     check_run(state.goal())
     check_circle(state.goal())
     _check_remarks(state.goal(), state.context.discourse)
@@ -211,6 +216,24 @@ class _State:
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
         return step == after or (whole and one == other != set())
 
+    def _constraints(self, steps: Sequence[Step]) -> list[Constraint]:
+        """Without what is to stay closed, but is to be opened and closed again: it is so after."""
+        opened, closed = (
+            {
+                f"{part.owner}.{part.name}"
+                for step in steps
+                if isinstance(step, kind)
+                for thing in self.context.discourse.things(step.what)
+                for part in parts_of(self._scene, thing)
+            }
+            for kind in (Open, Close)
+        )
+        return [
+            item
+            for item in self.context.constraints
+            if item.keep is not Keep.CLOSED or not {*item.names} <= opened & closed
+        ]
+
     def goal(self) -> Goal:
         """The goal so far."""
         discourse = self.context.discourse
@@ -222,7 +245,7 @@ class _State:
         return Goal(
             tuple(discourse.referents),
             tuple(steps),
-            tuple(dict.fromkeys(self.context.constraints)),
+            tuple(dict.fromkeys(self._constraints(steps))),
             tuple(discourse.notes),
         )
 
