@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.space import carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
-from etot_cli.reasoning.language.words.lexicon import SIZES
+from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
 
 AS_WIDE_M = 0.001
 """Widths that differ by no more are the same: sizes from noisy captures are off by 0.9 % in the
@@ -77,6 +77,8 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
     They are a choice as long as it makes no difference which of them lies below.
     """
     discourse, infos = context.discourse, context.scene.infos
+    for index in themes:
+        _no_vessel(context, index)
     said = [discourse.referents[index] for index in themes]
     first = next((referent for referent in said if len(referent.options) > 1), None)
     if first is None:
@@ -96,6 +98,19 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
         discourse.referents[one] = referent
         found.append(one)
     return found
+
+
+def _no_vessel(context: Context, index: int) -> None:
+    """Of what "blue" may mean in a tower, no vessel is one of its layers."""
+    referent = context.discourse.referents[index]
+    solid = [
+        option
+        for option in referent.options
+        if not any(can_be(thing, Role.CONTAINER, context.scene) for thing in option)
+    ]
+    if len(solid) == 1 < len(referent.options) and basic_color(referent.text):
+        context.discourse.referents[index] = replace(referent, options=(solid[0],))
+        context.discourse.notes.append(f"took {solid[0][0].name} for {referent.text!r}")
 
 
 def _upon(context: Context, thing: Thing, upper: Thing, index: int, *, inside: bool) -> Place:
@@ -163,6 +178,16 @@ def swap(context: Context, clause: SwapClause) -> None:
     if any(index in context.discourse.put for index in stay):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
+    for place in context.places.of(clause.where, themes[1:]) if clause.where else ():
+        named = place.where is not None and {*context.discourse.things(place.where)}
+        at = homes[0].where
+        if (
+            place.relation is not homes[0].relation
+            or at is None
+            or place.beside
+            or (named != {*context.discourse.things(at)})
+        ):
+            raise ReferenceProblem(text, "that is not where it was", 3)
     if carries(things[0], things[1], context.scene):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
     if clause.replaces:

@@ -41,7 +41,7 @@ from etot_cli.reasoning.language.goals.plausibility import (
     holds_roughly,
     plans_of,
 )
-from etot_cli.reasoning.language.goals.turns import Timed, in_order
+from etot_cli.reasoning.language.goals.turns import Timed, continued, in_order
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -194,8 +194,11 @@ class _State:
             self.context.last = spoken.clause
         check_opposites(self.context.discourse)
         for spoken in reading:
-            done = tuple(steps[id(spoken)])
-            self.timed.append(Timed(done, spoken.order, self.sentence))
+            item = Timed(tuple(steps[id(spoken)]), spoken.order, self.sentence)
+            if self.timed and (joined := continued(self.timed[-1], item)):
+                self.timed[-1] = joined
+            else:
+                self.timed.append(item)
 
     def _narrowed(self, step: Step, after: Step | None) -> bool:
         """Whether the next step says more closely where things go ("carry it over to the bag and

@@ -181,15 +181,15 @@ def where_is(
     denied = any(item.denied for np in group.things.phrases for item in np.modifiers)
     if more or clause.conditions or denied:
         raise ReferenceProblem(where.word, REASONS["where"], 3)
-    (phrase,) = where.targets
+    pronoun = any(np.pronoun for np in where.targets)
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
     moved = {index: step.places for step in steps for index in step.what}
-    said = range(len(context.discourse.referents)) if phrase.pronoun else ()
+    said = range(len(context.discourse.referents)) if pronoun else ()
     still = [index for index in said if index not in moved]
     was = where.word.split()[-1] in ("was", "were", "before")
 
     def at(index: int) -> tuple[Place, ...]:
-        if phrase.pronoun:
+        if pronoun:
             return moved.get(index, ())
         if was is not (index in context.discourse.put):
             return ()  # where something was is free only once it has gone
@@ -198,7 +198,9 @@ def where_is(
             return tuple(dict.fromkeys(map(context.home, things)))
         return context.source((index,))
 
-    (places, *others) = {*map(at, context.phrases.refer(phrase, Role.ANY, [*themes, *still]))}
+    away = [*themes, *still]
+    marks = [index for np in where.targets for index in context.phrases.refer(np, Role.ANY, away)]
+    (places, *others) = {*map(at, marks)}
     held = [place.where for place in places if place.where is not None]
     occupied = any(place.beside for place in places) or any(map(context.discourse.is_desk, held))
     if others or len(held) != 1 or (occupied and not was):

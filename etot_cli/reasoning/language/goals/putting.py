@@ -147,12 +147,15 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)
-        for condition in clause.conditions:
+        shut = [item for item in clause.conditions if item.word == "closed"]  # in the end
+        for condition in (item for item in clause.conditions if item not in shut):
             _condition(context, condition, themes, places_of)
         if abreast:
             put_side_by_side(context, places_of)
         else:
             add_puts(context, places_of, grouping)
+        for condition in shut:
+            ensure(context, condition)
         context.discourse.last_places = places
         where = [place.where for place in places if place.where is not None]
         last = group.things == clause.groups[-1].things

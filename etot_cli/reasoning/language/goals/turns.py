@@ -93,6 +93,15 @@ class Timed:
     sentence: int
 
 
+def continued(item: Timed, after: Timed) -> Timed | None:
+    """What is taken away and then put somewhere, as one ("first take the cup out and put it …")."""
+    taken, put = ([s for s in t.steps if isinstance(s, Put)] for t in (item, after))
+    one = [s.what for s in taken if s.removal] == [s.what for s in put] != []
+    further = after.order is Order.SAID and after.sentence == item.sentence
+    led = item.order in (Order.FIRST, Order.BEFORE_THAT)
+    return replace(item, steps=(*item.steps, *after.steps)) if one and further and led else None
+
+
 def in_order(said: Sequence[Timed]) -> list[Step]:
     """All steps in the order in which they are to be done.
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, INTO, ONTO
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -250,16 +250,20 @@ def _exchanged(
     return SwapClause(Things(there), back=back) if alike else None
 
 
-SWAP = either(
-    sequence(
-        verbs.SET_DOWN,
-        noun_phrase,
-        either(
-            sequence("in [the] place of", noun_phrase),
-            phrase("in its place", NounPhrase(pronoun="it", text="its")),
-        ),
-        build=lambda new, old: SwapClause(Things((old, new)), replaces=True),
+REPLACING = sequence(
+    noun_phrase,
+    optional(either(INTO, ONTO), None),
+    either(
+        sequence("in [the] place of", noun_phrase),
+        phrase("in its place", NounPhrase(pronoun="it", text="its")),
     ),
+    build=lambda new, there, old: SwapClause(
+        Things((old, new)), replaces=True, where=() if there is None else (there,)
+    ),
+)
+"""What goes where something else was."""
+SWAP = either(
+    sequence(verbs.SET_DOWN, REPLACING),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
         optional(f"have, let, make, {verbs.WANT}"), THINGS, verbs.CHANGE_PLACES, build=SwapClause

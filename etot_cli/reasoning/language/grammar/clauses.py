@@ -86,6 +86,7 @@ WANTED = either(
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
     sequence(THINGS, small_words.ALSO, build=lambda things: AgainClause(things, trailing=True)),
+    sequence("add[ing]", THINGS, optional(small_words.ALSO), build=AgainClause),
 )
 
 
@@ -134,7 +135,11 @@ def _excluding_some(said: tuple[Clause, Modifier]) -> list[Clause]:
 
 
 LEFT_OUT = either(
-    sequence(f"{nouns.EXCEPT}, without, any [one] but", exceptions, build=excepting),
+    sequence(
+        f"{nouns.EXCEPT}, without, any [one] but",
+        exceptions,
+        build=excepting,
+    ),
     sequence(optional("but"), ONLY_THOSE),
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",

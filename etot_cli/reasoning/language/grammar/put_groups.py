@@ -72,6 +72,16 @@ _PUT_GROUP = sequence(
     build=_group,
 )
 PUT_GROUP = either(
-    _PUT_GROUP, quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place))
+    _PUT_GROUP,
+    sequence(
+        # "Move it over the bowl and let go"
+        THINGS,
+        "over, above, [to] right above",
+        noun_phrase,
+        OPTIONAL_COMMA,
+        manner.LET_GO,
+        build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,)),)),
+    ),
+    quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))

@@ -53,12 +53,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
 from etot_cli.reasoning.language.grammar.turns import TURN
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
 _BROUGHT = either(
@@ -130,7 +131,10 @@ def _named_behind(
 ) -> PutClause | None:
     """Several things that are announced together; "the green one" is one of these."""
     noun = singular(whole.head)
-    if not nps[1:] or noun == whole.head or whole.determiner not in _ALL_THESE:
+    every = noun == whole.head and whole.words == ("everything",)
+    if not nps[1:] or not (every or whole.determiner in _ALL_THESE):
+        return None
+    if noun == whole.head and not every:
         return None
     named = (np.called(noun) if np.is_elliptic else np for np in nps)
     return put_to(Things(tuple(named), whole=whole), where)
@@ -139,10 +143,13 @@ def _named_behind(
 _ALL_THESE = ("the", "these", "those", "all", "all the")
 _NAMED_BEHIND = quiet(
     sequence(
-        f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}",
-        noun_phrase,
+        either(
+            sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
+            sequence(noun_phrase, verbs.MODAL),
+        ),
         DESTINATIONS,
         COMMA,
+        optional("that is, those are, namely, meaning, i mean"),
         NP_LIST,
         build=_named_behind,
     )
@@ -157,6 +164,7 @@ _ALONG_WITH = sequence(
     NP_LIST,
     build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )
+STACKS = frozenset(spellings(nouns.STACK))
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
 
@@ -189,6 +197,24 @@ _FIRST_THEN = sequence(
         most=4,
     ),
     build=_in_this_order,
+)
+_FROM_FIRST_TO_LAST = sequence(
+    "(start|begin) [off] with",
+    noun_phrase,
+    some(
+        either(
+            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(
+                OPTIONAL_COMMA,
+                f"{small_words.THEN_JOINTS}, [and] [then] (finish|end) [up|off] with",
+                noun_phrase,
+                build=lambda np: (True, np),
+            ),
+        ),
+        least=1,
+        most=4,
+    ),
+    build=lambda first, more: _in_this_order(True, first, more),
 )
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
@@ -237,11 +263,12 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
-def _beside_others(things: Things, said: str, np: NounPhrase) -> PutClause | None:
+def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
-    described = any(item.modifiers for item in (np, *things.phrases))
-    named = np.words and not described and np.determiner in THE_WORDS
-    where = Destination(Toward.WITH, (np,), f"{said} {np.text}")
+    things, said = found
+    described = any(item.modifiers for item in (*others, *things.phrases))
+    named = not described and all(np.words and np.determiner in THE_WORDS for np in others)
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
     return put_to(things, (where,)) if named else None
 
 
@@ -255,6 +282,14 @@ def _brought(things: Things, source: Any, where: tuple[Destination, ...]) -> Put
     return PutGroup(things.taken_from(lent[0] if lent else source), where)
 
 
+def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
+    """Down, or where it was; behind "carry it to the bowl" "and release it" asks for no more."""
+    again = any(np.pronoun for np in things.phrases)
+    return replace(put_to(things, where), far_fetched=int(again))
+
+
+_OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
+"""From one place to another ("out of the box and on the desk")."""
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(
@@ -265,11 +300,9 @@ PUT = either(
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
-        ALL_THINGS,
-        verbs.MODAL,
-        SOURCE,
-        DIRECTED,
-        build=lambda *said: PutClause((_brought(*said),)),
+        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANT, ALL_THINGS)),
+        _OUT_AND_INTO,
+        build=lambda things, moved: PutClause((_brought(things, *moved),)),
     ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
@@ -295,19 +328,39 @@ PUT = either(
         build=lambda things, np: _flanking(things, "each", np),
     ),
     sequence(
-        _FIRST_THEN,
-        either(verbs.MODAL, sequence(COMMA, verbs.PUT, "them [both|all]")),
+        either(_FIRST_THEN, _FROM_FIRST_TO_LAST),
+        either(
+            verbs.MODAL,
+            sequence(
+                COMMA,
+                either(
+                    sequence(verbs.PUT, "them [both|all], both [of them], all of them"),
+                    sequence("both [of them], all of them, they [both|all]", verbs.MODAL),
+                ),
+            ),
+        ),
         DESTINATIONS,
         build=put_to,
     ),
     quiet(
         sequence(
-            verbs.SET_DOWN,
-            THINGS,
-            phrase("with, together with, in with"),
-            noun_phrase,
+            either(
+                sequence(verbs.SET_DOWN, THINGS, phrase("with, together with, in with")),
+                sequence(verbs.THROW, THINGS, phrase("in with")),
+                sequence(ALL_THINGS, verbs.MODAL, phrase("with, together with, in with")),
+            ),
+            NP_LIST,
             build=_beside_others,
         )
+    ),
+    sequence(
+        "(finish|complete|top|crown|extend) [off|up]",
+        noun_phrase,
+        "with",
+        ALL_THINGS,
+        build=lambda np, things: (
+            put_to(things, (Destination(Toward.ON, (np,)),)) if np.head in STACKS else None
+        ),
     ),
     _SAID_AHEAD,
     _FRONTED,
@@ -353,7 +406,7 @@ PUT = either(
         build=put_of,
     ),
     *(
-        sequence(verb, THINGS, particle, build=partial(put_to, where=where))
+        sequence(verb, THINGS, particle, build=partial(_down_or_back, where=where))
         for verb, particle, where in (
             (verbs.PUT_DOWN, optional("down"), DOWN),
             (verbs.LAY, "down", DOWN),
@@ -368,6 +421,11 @@ VERBLESS = either(
         "with",
         ALL_THINGS,
         build=lambda where, things: put_to(things, (where,)),
+    ),
+    sequence(
+        ALL_THINGS,
+        sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
+        build=lambda things, moved: PutClause((_brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_of),
     sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),

@@ -6,6 +6,7 @@ from dataclasses import replace
 from operator import add
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import (
     EARLIER,
     LEAD,
@@ -55,6 +56,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
+    AS_IT_IS,
     NAMED,
     SAID,
     STRANGE,
@@ -84,13 +86,23 @@ def _joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+    return EnsureClause((State(nps, word=word),))
+
+
+_LEFT_SO = sequence(
+    plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
+    optional(small_words.TRAILING_LAST),
+)
+"""How something is to be in the end, without a verb ("drawer shut")."""
 _JOINED = either(
+    _joint("and", either(COMMA, LIST), _LEFT_SO),
     _joint("mere and", "and", LED_CLAUSE),
     _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     _joint("after", OPTIONAL_COMMA, EARLIER),
-    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
+    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     _joint(
@@ -169,10 +181,11 @@ def _without(out: Any, rest: Reading) -> Reading | None:
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
-def _state_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
+def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """Headlines have no articles; "the drawer shut" lacks a verb."""
-    articled = nps[0].determiner in ("the", "a", "an")
-    return None if articled else EnsureClause((State(nps, word=word),))
+    clause = first[0].clause
+    bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
+    return _chained(first, more) if bare else None
 
 
 def _taken_out(things: Things) -> RemoveClause | None:
@@ -183,8 +196,6 @@ def _taken_out(things: Things) -> RemoveClause | None:
 
 
 _PLACED = plain(either(VERBLESS, sequence(ALL_THINGS, build=_taken_out)))
-_LEFT_SO = plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_state_left))
-"""How something is to be in the end, without a verb ("drawer shut")."""
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -219,6 +230,7 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=about,
     ),
+    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence(
         plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason
     ),
@@ -252,7 +264,9 @@ _WITH_MORE_BEFORE_IT = either(
         build=shared_out,
     ),
     sequence(verbs.TIDY_AWAY, NAMED, "[away|up] (~comma|and)", CHAIN, build=all_put),
-    sequence(small_words.TASK, plain(sequence(states, build=EnsureClause))),
+    sequence(
+        f"{small_words.TASK}, {small_words.END_STATE}", plain(sequence(states, build=EnsureClause))
+    ),
     plain(IF_NOT_SO),
     sequence(
         "with",
@@ -315,10 +329,10 @@ WHOLE = either(
     ),
     sequence(
         EMPTY_WORDS,
-        optional(sequence(_PLACED, LIST), ()),
         _LEFT_SO,
+        some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
         _END,
-        build=add,
+        build=_headline,
     ),
 )
 

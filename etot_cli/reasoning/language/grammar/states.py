@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
@@ -98,6 +98,10 @@ def _contains(verb: str) -> Parser:
     )
 
 
+def _held(np: NounPhrase, held: NounPhrase) -> State:
+    return State((held,), (Destination(Toward.INSIDE, (np,)),))
+
+
 _QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
 
 
@@ -163,6 +167,12 @@ _PLAIN_MOVE = either(
             (verbs.PULL, manner.CLOSED_STATE, False),
             ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
             ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
+            (
+                "giv(e|ing)",
+                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
+                f" {manner.A_PUSH} to (close|shut) it",
+                False,
+            ),
         )
     ),
 )
@@ -224,6 +234,7 @@ IF_NOT_SO = quiet(
         f"{verbs.BE}, 's",
         OPEN_OR_CLOSED,
         either(COMMA, sequence(OPTIONAL_COMMA, "then")),
+        EMPTY_WORDS,
         _PLAIN_MOVE,
         build=_if_not_so,
     )
@@ -280,6 +291,12 @@ ENSURE = either(
         NP_LIST,
         "(does|do|should|must) not",
         build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
+    ),
+    sequence(
+        # "The tray should have the cup in it and the box the plate"
+        _contains(verbs.CONTAIN),
+        some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
+        build=lambda first, more: EnsureClause((first, *more)),
     ),
     valued(
         either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),

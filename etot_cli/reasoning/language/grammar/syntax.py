@@ -295,6 +295,8 @@ class SwapClause:
     replaces: bool = False
     back: tuple[NounPhrase, ...] = ()
     """The same things, where it is said again which one goes back where."""
+    where: tuple[Destination, ...] = ()
+    """Where what is replaced is, as it is said again ("put it on the tray in its place")."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,6 +68,7 @@ _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
     r"(?:on|in|too|not|now|still|already)\b"
+    r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
     r"|(?:open|closed|shut|empty|full|dirty|clean|ready|broken|fine)"
     r"(?: (?:and|so|but|where)\b|[,.;:]|$)"
 )
@@ -78,7 +79,7 @@ _CLITICS = (
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),
-    (r"\b(is|are)n't\b", r"\1 not"),
+    (r"\b(is|are|should|must|would|could)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"\b(i|it)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
@@ -115,6 +116,7 @@ def normalized(text: str) -> str:
     text = _MAY_GO.sub(r"\1\2 should go", text)
     text = re.sub(r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " ", text)
     text = re.sub(r"(?<=\w) please(?=, )", "", text)
+    text = re.sub(r", (?:all|everything) (?:but|except(?: for)?) ", ", except ", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
     text = re.sub(
         r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the ", text

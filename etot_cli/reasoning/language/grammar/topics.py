@@ -74,6 +74,14 @@ STRANGE = spanned(
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )
 """Before what is to be done with it ("the stopper is cracked, so bin it")."""
+_ALREADY = sequence(
+    noun_phrase,
+    "is already, are already, 's already",
+    DESCRIBED,
+    build=lambda np, said: Things((np.told_by(said),)),
+)
+AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
+"""How things are by now, before what is asked for in that case."""
 SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),

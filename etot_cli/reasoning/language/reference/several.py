@@ -41,7 +41,7 @@ class Phrases(Referents):
         if not things.either:
             found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
             self._check_apart(things, found)
-            self._check_whole(things, role, found)
+            self._of_the_whole(things, role, found)
             return list(dict.fromkeys(index for indices in found for index in indices))
         said = self.one_of(things.phrases, role)
         phrases = [
@@ -81,12 +81,22 @@ class Phrases(Referents):
         of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
         return replace(things, phrases=named) if of_them else things
 
-    def _check_whole(self, things: Things, role: Role, found: Sequence[Sequence[int]]) -> None:
-        """Whether things are named that are not all of what they were announced as."""
+    def _of_the_whole(self, things: Things, role: Role, found: Sequence[Sequence[int]]) -> None:
+        """Of what is announced together "the pen" is one of that.
+
+        Raises:
+            ReferenceProblem: what is named is not all of what was announced.
+        """
         if things.whole is None:
             return
         every = things_in(self.meaning(things.whole, role).options)
-        named = {*self.discourse.things(*(index for indices in found for index in indices))}
+        indices = [index for several in found for index in several]
+        for index in indices:
+            referent = self.discourse.referents[index]
+            own = tuple(option for option in referent.options if {*option} <= {*every})
+            if len(own) == 1:
+                self.discourse.referents[index] = replace(referent, options=own)
+        named = {*self.discourse.things(*indices)}
         if named != {*every}:
             rest = ", ".join(thing.name for thing in every if thing not in named)
             why = f"{rest} would be meant as well" if rest else "not all that is named is called so"

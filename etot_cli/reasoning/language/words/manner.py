@@ -4,6 +4,7 @@ from __future__ import annotations
 
 OPEN_STATE = "[wide|all the way|fully|completely] open, opened"
 CLOSED_STATE = "[fully|completely|properly|all the way] (closed|shut)"
+A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
@@ -45,7 +46,7 @@ WIDEST_BELOW = """
 AT_BOTTOM = "[at|on] [the] bottom, lowest, at the base, as (its|the|a) (base|bottom)"
 AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
 AT_TOP = "[at|on] [the] top, uppermost, up top, highest, as (its|the) top"
-LET_GO = "and (let [it] go|let go of it|release it)"
+LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)

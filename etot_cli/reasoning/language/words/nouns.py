@@ -53,7 +53,7 @@ RELATIVE_NOT = """
     (that|which) (is|are) neither, whose (color|colour) is not
 """
 FREE_RELATIVE = """
-    (what|whatever) [else] (is|lies|stands|sits|rests) [currently|now|left],
+    (what|whatever) [else] (is|was|lies|stands|sits|rests) [currently|now|left],
     (that|all) which (is|lies|stands|sits)
 """
 """Before a place: everything that is there."""
@@ -65,7 +65,8 @@ MATCHING = """
     of (the same|its|their|its own|their own|the matching|a matching|matching) (color|colour),
     (with|in) (the|a) (same|matching) (color|colour), (with|in) (matching|its|their) (color|colour),
     (that|which) (matches|match) [it|them] in (color|colour), (that|which) (matches|match) them,
-    (that|which) (matches|match) (its|their|the) (color|colour), (that|which) (matches|match) it,
+    (that|which) (matches|match) (its|their|the) (color|colour|colors|colours),
+    (that|which) (matches|match) it,
     (that|which) (has|have|is of|are of) the same (color|colour),
     (that|which) (has|have) (its|their) (color|colour), matching (its|their) (color|colour),
     in (its own|their own) (color|colour)

@@ -40,7 +40,8 @@ FRAMES = f"""
     great, um,
     alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
-    (would|will) you be able to, you (should|must|have to|need to|can|may), could you possibly,
+    (would|will) you be able to, could you possibly,
+    you (should|must|[will] have to|[will] need to|can|may),
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, let us, try to, please to, {TASK},
     the robot (should|must|has to|needs to), make sure to,
@@ -55,6 +56,11 @@ FRAMES = f"""
     do me a favour and, {TIDY_UP},
     i would be (glad|happy|grateful) if you (would|could)
 """
+END_STATE = """
+    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))] [~comma],
+    in the end [~comma], (when|once) you are [all] (done|finished) [~comma]
+"""
+"""Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer"
 REMARKS = """
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
@@ -82,8 +88,8 @@ LEADING_FIRST = """
 """
 LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
 LEADING_LAST = """
-    finally, lastly, last, last of all, at the end [of (it all|this)], in the end,
-    by the end [of (it all|this)], last but not least,
+    finally, lastly, last, last of all, in the end, last but not least,
+    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))],
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
@@ -92,7 +98,8 @@ LEADING_THEN = """
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
-    once (that is done|done|you are done), when done, and then, subsequently, later
+    once (that is done|done), (when|once) you are [all] (done|finished), when (done|finished),
+    and then, subsequently, later
 """
 TRAILING_FIRST = "first, before, beforehand, before that, before anything else"
 TRAILING_LAST = """

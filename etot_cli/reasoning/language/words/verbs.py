@@ -101,7 +101,7 @@ NOT_BE = """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
 """Between a vessel and what is to be in it."""
 STAY = """
-    (stay|stays|remain|remains),
+    [can|may] (stay|remain), (stays|remains),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
 """
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
