@@ -191,7 +191,8 @@ def ensure(context: Context, state: State) -> None:
         out, where = Things(state.subjects), state.destinations
         avoid(context, AvoidClause(Avoid.PUT, out, where, not_left=True))
         return
-    before, done = context.discourse.put, len(context.steps)
+    away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
+    before, done = context.discourse.put - away, len(context.steps)
     put(context, put_to(Things(state.subjects), state.destinations), wherever=True)
     for step in (step for step in context.steps[done:] if isinstance(step, Put)):
         again = before.intersection(step.what)
@@ -244,9 +245,13 @@ def again(context: Context, clause: AgainClause) -> None:
 
 def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:
     """Adds a step that brings what was put somewhere on to another place."""
-    text = " or ".join(np.text for item in clause.destinations for np in item.targets)
+    named = [np.text for item in clause.destinations for np in item.targets]
+    named += [near.text for item in clause.destinations for near in item.beside]
+    text = " or ".join(named)
     if not (len(before) == 1 and isinstance(before[0], Put)):
         raise ReferenceProblem(text, "say what goes there", 2)
+    if clause.trailing and not before[0].removal:
+        raise ReferenceProblem(text, "another place was said before", 2)
     themes = before[0].what
     places = context.places.of(clause.destinations, themes)
     add_put(context, themes, places, Grouping.ANY)

@@ -266,7 +266,10 @@ SWAP = either(
     sequence(verbs.SET_DOWN, REPLACING),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
-        optional(f"have, let, make, {verbs.WANT}"), THINGS, verbs.CHANGE_PLACES, build=SwapClause
+        optional(f"have, let, make, can, could, may, {verbs.WANT}"),
+        THINGS,
+        verbs.CHANGE_PLACES,
+        build=SwapClause,
     ),
     sequence(verbs.SET_DOWN, _IN_ITS_PLACE, "and", _IN_ITS_PLACE, build=_exchanged),
     sequence(

@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import PUT
+from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -150,7 +150,7 @@ LEFT_OUT = either(
 )
 
 
-def _of_the_things(clause: Clause, said: Modifier) -> Clause | None:
+def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
     """What stands behind a place is said of what goes there only if it cannot be of the place."""
     found = excluding(clause, said)
     return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
@@ -189,7 +189,7 @@ CLAUSE = located(
                 either(PUT, ENSURE, AGAIN),
                 OPTIONAL_COMMA,
                 either(CONTRASTED, APPOSED),
-                build=_of_the_things,
+                build=of_the_things,
             ),
             sequence(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
@@ -326,6 +326,12 @@ SO = sequence(
 )
 _SO_BY_THEN = either(
     sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        verbs.BE,
+        OUT_AND_INTO,
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
     sequence(
         ALL_THINGS,
         f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",

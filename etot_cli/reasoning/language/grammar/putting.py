@@ -276,7 +276,7 @@ def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
 
-def _brought(things: Things, source: Any, where: tuple[Destination, ...]) -> PutGroup:
+def brought(things: Things, source: Any, where: tuple[Destination, ...]) -> PutGroup:
     """Things from one place to another; "from the lower to the upper board" speaks of boards."""
     lent = source and where[0].targets and coordinated(source, where[0].targets[:1])
     return PutGroup(things.taken_from(lent[0] if lent else source), where)
@@ -288,7 +288,7 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
-_OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
+OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
@@ -301,8 +301,8 @@ PUT = either(
     ),
     sequence(
         either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANT, ALL_THINGS)),
-        _OUT_AND_INTO,
-        build=lambda things, moved: PutClause((_brought(things, *moved),)),
+        OUT_AND_INTO,
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
@@ -354,6 +354,16 @@ PUT = either(
         )
     ),
     sequence(
+        # "The spoon's home is the drawer"
+        ALL_THINGS,
+        "'s (home|place|spot) is",
+        either(
+            DESTINATIONS,
+            sequence(noun_phrase, build=lambda np: (Destination(Toward.TO, (np,)),)),
+        ),
+        build=put_to,
+    ),
+    sequence(
         "(finish|complete|top|crown|extend) [off|up]",
         noun_phrase,
         "with",
@@ -397,7 +407,7 @@ PUT = either(
                 # "Off the tray and onto the shelf"
                 optional(sequence(SOURCE, optional(LIST)), None),
                 DIRECTED,
-                build=_brought,
+                build=brought,
             ),
             LIST,
             most=5,
@@ -425,7 +435,7 @@ VERBLESS = either(
     sequence(
         ALL_THINGS,
         sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
-        build=lambda things, moved: PutClause((_brought(things, *moved),)),
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_of),
     sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),

@@ -28,9 +28,9 @@ from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import TIDYING, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import ANY_ONE, TIDYING, WITHOUT_MEANING
 
-_POLITE = frozenset(spellings(f"{WITHOUT_MEANING}, {TIDYING}"))
+_POLITE = frozenset(spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}"))
 """Sentences that ask for nothing."""
 SHOWN_WORDS = 4
 MAX_READINGS = 200

@@ -15,12 +15,13 @@ from etot_cli.reasoning.language.grammar.clauses import (
     SO,
     Reading,
     excluding,
+    of_the_things,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -38,7 +39,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, states
+from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -97,6 +98,7 @@ _LEFT_SO = sequence(
 """How something is to be in the end, without a verb ("drawer shut")."""
 _JOINED = either(
     _joint("and", either(COMMA, LIST), _LEFT_SO),
+    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
     _joint("mere and", "and", LED_CLAUSE),
     _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
@@ -195,7 +197,13 @@ def _taken_out(things: Things) -> RemoveClause | None:
     return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
 
 
-_PLACED = plain(either(VERBLESS, sequence(ALL_THINGS, build=_taken_out)))
+_PLACED = plain(
+    either(
+        VERBLESS,
+        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
+        sequence(ALL_THINGS, build=_taken_out),
+    )
+)
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -299,6 +307,15 @@ SENTENCE = either(
     CHAIN,
     sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
     plain(SAID),
+    plain(
+        sequence(
+            # "Somewhere next to the plate will do"
+            optional("somewhere, anywhere"),
+            DESTINATIONS,
+            "will do, is fine, would be fine, is ok, is okay, is good, works",
+            build=lambda where: AgainClause(None, trailing=True, destinations=where),
+        )
+    ),
     sequence(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,

@@ -38,7 +38,8 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, m
 
 _NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
 """Denials before a noun, and of which things what is denied is said."""
-OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), phrase(manner.CLOSED_STATE, "closed"))
+SHUT = phrase(manner.CLOSED_STATE, "closed")
+OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
 _NOT_SO = sequence(
     "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
 )

@@ -316,7 +316,9 @@ class AgainClause:
     things: Things | None
     trailing: bool = False
     destinations: tuple[Destination, ...] = ()
-    """Where the same things go next ("…, then on the tray"); there are no ``things`` then."""
+    """Where the same things go next ("…, then on the tray"); there are no ``things`` then, and
+    ``trailing`` tells where to of what was only to be taken away ("… on the tray will do").
+    """
 
 
 class Avoid(StrEnum):

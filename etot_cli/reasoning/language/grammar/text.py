@@ -67,12 +67,14 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
-    r"(?:on|in|too|not|now|still|already)\b"
+    r"(?:going|on|in|too|not|now|still|already)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
     r"|(?:open|closed|shut|empty|full|dirty|clean|ready|broken|fine)"
     r"(?: (?:and|so|but|where)\b|[,.;:]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
+_SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
+_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)"
 _CLITICS = (
     (r"'s got\b", " has"),
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
@@ -116,6 +118,17 @@ def normalized(text: str) -> str:
     text = _MAY_GO.sub(r"\1\2 should go", text)
     text = re.sub(r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " ", text)
     text = re.sub(r"(?<=\w) please(?=, )", "", text)
+    text = re.sub(rf"\bwhichever ([\w ]+?) is (?={_SO_NOW})", r"the only \1 that is ", text)
+    text = re.sub(rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are ", text)
+    text = re.sub(
+        r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it", text
+    )
+    text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
+    text = re.sub(r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", "", text)
+    text = re.sub(
+        rf"\b((?:that|which) (?:is|are) ){_ABOUT}(?! (?:the|my|your|of))", r"\1loose", text
+    )
+    text = re.sub(rf"(?<!is )(?<!are )\b{_ABOUT}(?! (?:the|my|your|of))", "that are loose", text)
     text = re.sub(r", (?:all|everything) (?:but|except(?: for)?) ", ", except ", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
     text = re.sub(

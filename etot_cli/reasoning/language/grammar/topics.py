@@ -70,6 +70,7 @@ STRANGE = spanned(
         ALL_THINGS,
         silent(optional("(is|are|has|have) [been|all|badly]")),
         silent(some(word(_is_unknown), least=1, most=4)),
+        silent(optional("today, tonight, tomorrow, now, this (morning|afternoon|evening|week)")),
     ),
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )

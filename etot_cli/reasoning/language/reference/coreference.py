@@ -254,6 +254,8 @@ def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
     plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
     if single and not plural and not any(item.several or item.whatever for item in said):
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
+    if not found and role is Role.PART and len(drawers := openable(discourse)) > 1:
+        return drawers  # "a pen in each of two drawers, and close them"
     return found or _several_named(discourse, role)
 
 

@@ -119,7 +119,11 @@ def select(
 
 
 def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
-    """Whether an adjective of state ("open", "empty", …) is true of a thing."""
+    """Whether an adjective of state ("open", "empty", …) is true of a thing.
+
+    Raises:
+        ReferenceProblem: of what lies on something else it is open whether it is "loose".
+    """
     if thing.name == DESK:
         return False
     info, state = scene.infos[thing.name], scene.states[thing.name]
@@ -147,6 +151,11 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
                 for other in upon
                 for one, below in ((thing, other), (other, thing))
             )
+        case "loose":
+            if state.inside is None and state.on and DESK not in state.on and info.movable:
+                why = f"say whether {thing.name} is meant, too: it lies on {state.on[0]}"
+                raise ReferenceProblem(word, why, 3)
+            return state.inside is None and DESK in state.on
         case _:
             return state.toppled
 

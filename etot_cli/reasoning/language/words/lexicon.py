@@ -222,7 +222,7 @@ STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
     **dict.fromkeys(("empty", "free", "vacant", "unoccupied"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
-    "stacked": "stacked",
+    "stacked": "stacked", "loose": "loose",
 }  # fmt: skip
 """Adjectives for what the scene's state says about an object."""
 

@@ -15,10 +15,11 @@ _UNLESS = """
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
 UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
-EMPTIED = "empty, emptied [out], cleared [out]"
-STATES = (
-    "open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over"
-)
+EMPTIED = "empty, emptied [out], cleared [out], clear"
+STATES = """
+    open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
+    loose
+"""
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),

@@ -28,6 +28,8 @@ WITHOUT_MEANING = """
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
+ANY_ONE = "(either|any) [one] [of (them|these|those)]"
+"""A sentence alone, after one that left it open anyway."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
@@ -38,7 +40,8 @@ TASK = """
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um,
-    alright, all right, so, and, but, go, go and, go ahead and,
+    (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
+    (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
     you (should|must|[will] have to|[will] need to|can|may),

@@ -45,10 +45,11 @@ PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
-BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing], dig[ging]"
+BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing], dig[ging], fish[ing]"
 REMOVE = """
     remov(e|ing), clear[ing] away, bring[ing] down, extract[ing], tak(e|ing) (out|off|away|down),
-    get[ting] (out|down), pull[ing] out, clear[ing] out, mov(e|ing) away, lift[ing] (out|off)
+    get[ting] (out|down), (pull|fish) out, (pulling|fishing) out, clear[ing] out, mov(e|ing) away,
+    lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
 TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]"
@@ -76,9 +77,10 @@ _BROUGHT = """
 _BEING = "standing|lying|sitting|located|resting"
 MODAL = f"""
     (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to|wants to|want to) (be|end up|go [back]),
+    (has to|have to|needs to|need to|ought to|is to|are to) (be|end up|go [back]),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
+    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
     (is|are) supposed to be, go[es] [back], belong[s], live[s],
     (can|could|may|might|will) (go [back]|be put|be placed)
 """
@@ -95,7 +97,8 @@ BE = """
 """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand) [left|kept|put],
+    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
+    [left|kept|put],
     (does|do) not (belong|go)
 """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
