@@ -74,6 +74,18 @@ def check_shut(goal: Goal, scene: SceneState) -> None:
                 raise ReferenceProblem(referent.text, why, 4)
 
 
+def check_everything(goal: Goal) -> None:
+    """Whether "everything" goes where things that were named went before: it may be these only."""
+    filled: set[tuple[Relation, int]] = set()
+    for step in (step for step in goal.steps if isinstance(step, Put)):
+        there = {(p.relation, p.where) for p in step.places if p.where is not None and not p.beside}
+        said = [goal.referents[index].text for index in step.what]
+        if "everything" in said and there & filled:
+            why = "say whether all things are meant, or those that were named before"
+            raise ReferenceProblem("everything", why, 3)
+        filled |= there
+
+
 def check_run(goal: Goal) -> None:
     """Whether puts of one sentence that no word puts in an order send something to two places."""
     gone: set[tuple[int, object]] = set()

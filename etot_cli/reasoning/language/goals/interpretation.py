@@ -26,6 +26,7 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.checks import (
     check_circle,
+    check_everything,
     check_held,
     check_kept,
     check_run,
@@ -34,6 +35,7 @@ from etot_cli.reasoning.language.goals.checks import (
 )
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.left_out import without_places, without_ruled_out
 from etot_cli.reasoning.language.goals.plausibility import (
     Moves,
     does_as_well,
@@ -58,7 +60,6 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
@@ -78,11 +79,13 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         state = _best_reading(state, sentence)
     check_kept(state.goal())
     check_shut(state.goal(), scene)
+    check_everything(state.goal())
     check_run(state.goal())
     check_circle(state.goal())
     _check_remarks(state.goal(), state.context.discourse)
     check_turns(state.timed, state.context.discourse)
-    goal = settled(_without_places(state), scene, state.context.turned)
+    goal = without_ruled_out(without_places(state.goal(), state.context.discourse), scene)
+    goal = settled(goal, scene, state.context.turned)
     check_held(state.timed, goal, scene)
     _check_decided(goal, state.context.discourse)
     last = state.context.last
@@ -129,24 +132,6 @@ def _check_remarks(goal: Goal, discourse: Discourse) -> None:
         if 0 < len(free) < len(referent.options):
             names = [thing.name for thing in things_in((*free, *referent.options))]
             raise AmbiguousReference(referent.text, names, "something was said of one of them:")
-
-
-def _without_places(state: _State) -> Goal:
-    """The goal, where "the red ones" are none of the places that it brings things to."""
-    goal, discourse = state.goal(), state.context.discourse
-    puts = [step for step in goal.steps if isinstance(step, Put)]
-    where = {place.where for step in puts for place in step.places} - {None}
-    places = {t.name for i in where if i is not None for t in discourse.things(i)}
-    sweeping = {m.referent for m in discourse.mentions if matches_any(m.noun, THING_NOUNS)}
-    referents, notes = list(goal.referents), list(goal.notes)
-    for index in sorted(sweeping & {index for step in puts for index in step.what}):
-        for option in referents[index].options if len(referents[index].options) == 1 else ():
-            kept = tuple(thing for thing in option if thing.name not in places)
-            out = ", ".join(thing.name for thing in option if thing not in kept)
-            if out and kept:
-                referents[index] = replace(referents[index], options=(kept,))
-                notes.append(f"{referents[index].text!r}: without {out}, where things go")
-    return replace(goal, referents=tuple(referents), notes=tuple(notes))
 
 
 def _check_instead(spoken: Spoken, before: Clause | None) -> None:

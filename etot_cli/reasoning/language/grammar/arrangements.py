@@ -168,10 +168,11 @@ TOWER = either(
     ),
     sequence(
         verbs.STACK,
+        optional(sequence(THINGS, COMMA), None),
         _COLOR,
         places.ONTO,
         _COLOR,
-        build=lambda top, below: TowerClause(Things((top, below)), upward=False),
+        build=lambda whole, top, below: TowerClause(Things((below, top)), upward=True, whole=whole),
     ),
     sequence(
         either(

@@ -262,6 +262,8 @@ _WITH_MORE_BEFORE_IT = either(
         build=set_down,
     ),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
+    sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
+    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
     sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
     sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
     sequence(

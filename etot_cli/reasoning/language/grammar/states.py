@@ -299,6 +299,14 @@ ENSURE = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
         build=lambda first, more: EnsureClause((first, *more)),
     ),
+    sequence(
+        verbs.WANT,
+        noun_phrase,
+        "to (contain|hold|have)",
+        NP_LIST,
+        optional("in it"),
+        build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
+    ),
     valued(
         either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),
         lambda state: EnsureClause((state,)),

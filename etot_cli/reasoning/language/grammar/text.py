@@ -67,13 +67,18 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
-    r"(?:going|on|in|too|not|now|still|already)\b"
+    r"(?:going|on|in|inside|too|not|now|still|already)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
     r"|(?:open|closed|shut|empty|full|dirty|clean|ready|broken|fine)"
     r"(?: (?:and|so|but|where)\b|[,.;:]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
+_ALL_DONE = re.compile(
+    r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
+    r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
+)
+"""After what is asked for, "once everything is in" is about that."""
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)"
 _CLITICS = (
     (r"'s got\b", " has"),
@@ -129,6 +134,7 @@ def normalized(text: str) -> str:
         rf"\b((?:that|which) (?:is|are) ){_ABOUT}(?! (?:the|my|your|of))", r"\1loose", text
     )
     text = re.sub(rf"(?<!is )(?<!are )\b{_ABOUT}(?! (?:the|my|your|of))", "that are loose", text)
+    text = _ALL_DONE.sub(r"\1 all of that \2 \3", text)
     text = re.sub(r", (?:all|everything) (?:but|except(?: for)?) ", ", except ", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)
     text = re.sub(

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
+    EnsureClause,
     Modifier,
     NounPhrase,
     PutClause,
@@ -127,12 +128,14 @@ def _are_several(topic: Clause) -> bool:
 
 def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
-    put = rest[0].clause
-    told = isinstance(put, PutClause) and all(
-        np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"])
-        for group in put.groups
-        for np in group.things.phrases
-    )
+    match rest[0].clause:
+        case PutClause(groups=groups):
+            named = [np for group in groups for np in group.things.phrases]
+        case EnsureClause(states=states):
+            named = [np for state in states for np in state.subjects]
+        case _:
+            return None
+    told = all(np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"]) for np in named)
     return (*topic, *rest) if told else None
 
 

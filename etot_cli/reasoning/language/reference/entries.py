@@ -138,6 +138,17 @@ class Entry:
         named = (said == [word] and not before) or said[-2:] == [before, word]
         return solid and named and pack in PACKS and word in PACKED
 
+    def is_sort_named(self, noun: str) -> bool:
+        """Whether its one word is for a sort of what a noun names ("textbook")."""
+        return any(SORTS.get(singular(head)) == singular(noun) for head in self.heads)
+
+    def is_plainly_called(self, noun: str) -> bool:
+        """Whether its name is a noun alone, but for colours and numbers."""
+        return any(
+            [singular(w) for w in words if not (w.isdigit() or basic_color(w))] == [singular(noun)]
+            for words in self.called
+        )
+
     def is_sort_of(self, word: str) -> bool:
         """Whether its label is a name and what it tastes of ("crispo vanilla")."""
         named = self.called[0][0] == word and word not in COMMON_NOUNS and word not in PACKED

@@ -265,6 +265,10 @@ def _match_in(
         sifted.graded = plain or sifted.graded
     # Where some are called parcels a crate is none, whatever colour is said.
     called_so = [item for item in sifted.graded if item[1] in (EXACT, HEAD)]
+    if not any(entry.is_plainly_called(head) for entry, _ in called_so):
+        # Beside an exercise book "the book" may be a textbook.
+        sorts = [item[0] for item in sifted.graded if item[0].is_sort_named(head)]
+        called_so += [(entry, HEAD) for entry in sorts if called_so]
     sifted.graded = called_so or sifted.graded
     for word in adjectives:
         sift(sifted, word, vocabulary)

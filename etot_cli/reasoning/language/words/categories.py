@@ -149,7 +149,7 @@ _KEEPING = word_set("basket hamper crate box bin bag tray rack cooler caddy cart
 """Where packs are kept or carried as they are: nobody pours ketchup into a basket."""
 _OF_A_PIECE = word_set("bar leaf slice wedge fillet clove")
 PACKS = _OF_A_PIECE | word_set(
-    "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder"
+    "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder stick"
 )
 """Nouns for what food and drink come in, or come off in."""
 MASS_NOUNS = word_set(

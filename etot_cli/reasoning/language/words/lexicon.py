@@ -66,6 +66,7 @@ TWINS: tuple[tuple[str, ...], ...] = (
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
 SORTS: dict[str, str] = {
+    **dict.fromkeys(("textbook", "schoolbook", "storybook", "cookbook", "paperback"), "book"),
     **dict.fromkeys(("teaspoon", "tablespoon", "soupspoon", "dessertspoon"), "spoon"),
     **dict.fromkeys(("penknife", "pocketknife"), "knife"), "wineglass": "glass", "saucepan": "pan",
     **dict.fromkeys(("teapot", "flowerpot"), "pot"), "handbag": "bag", "paperback": "book",

@@ -57,7 +57,8 @@ FRAMES = f"""
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and, {TIDY_UP},
-    i would be (glad|happy|grateful) if you (would|could)
+    i would be (glad|happy|grateful) if you (would|could),
+    be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
 END_STATE = """
     (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))] [~comma],
@@ -85,7 +86,7 @@ SAME_AGAIN = """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
-    first, before anything else, firstly, first of all, to begin with, to start with,
+    first, before (anything|everything) else, firstly, first of all, to begin with, to start with,
     (start|begin) [off] by,
     [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
@@ -104,11 +105,13 @@ LEADING_THEN = """
     once (that is done|done), (when|once) you are [all] (done|finished), when (done|finished),
     and then, subsequently, later
 """
-TRAILING_FIRST = "first, before, beforehand, before that, before anything else"
+TRAILING_FIRST = "first, before, beforehand, before that, before (anything|everything) else"
 TRAILING_LAST = """
     last, at the end, in the end, finally, at last,
     (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,
-    (by the time|when|once) you (finish|are (done|finished)|have finished)
+    (by the time|when|once) you (finish|are (done|finished)|have finished),
+    (when|once|after) (everything|all) is (done|finished|in place|put away|sorted|set),
+    (when|once) you have (put everything (in|away)|everything (in|away))
 """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
 INSTEAD = "instead, instead of (it|them|that|those)"

@@ -98,10 +98,10 @@ BE = """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
-    [left|kept|put],
+    [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
-CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have)"
+CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
 STAY = """
     [can|may] (stay|remain), (stays|remains),
