@@ -141,7 +141,7 @@ class ActionModel(Model):
     safe: bool
     """It looks for a place that stays clear of everything that moves, see keepout."""
     keepout: list[KeepoutModel]
-    """Discs that the safe place avoids."""
+    """Discs that the place avoids."""
 
 
 class TaskModel(Model):

@@ -54,7 +54,8 @@ class Action:
         target: object, surface, container or articulated object; ``object`` or ``object.part``.
         pose: grasp pose asked for, None when any will do.
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
-        keepout: the discs that such a place avoids, from the failed rollout; base frame.
+        keepout: the discs that such a place, or one that is to leave room for another thing,
+            avoids, from the failed rollout; base frame.
         where: of a PUT ON, where on that surface; of a PUT, that it is to stand upright there. All
             of it must hold afterwards.
     """

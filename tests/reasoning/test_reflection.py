@@ -118,6 +118,28 @@ def test_no_room_beside_what_the_branch_put_there() -> None:
     assert revision(failed(start, plan, 3, reason, before)) is None
 
 
+def test_what_the_branch_put_there_leaves_room_for_more() -> None:
+    start = scenes.ball_before_drawer()
+    before = held(changed(start, apple={"inside": "holder", "on": ("holder",)}), "tennis_ball")
+    plan = "[PICK UP, apple] [PUT INTO, holder] [PICK UP, tennis_ball] [PUT INTO, holder]"
+    first = failed(start, plan, 3, cause(CauseKind.NO_ROOM, "apple"), before)
+    (found, *_) = BuiltinReasoner().reflect(first)
+    assert format_plan(found.actions) == plan
+    (disc,) = found.actions[1].keepout
+    x, y, _ = before.states["apple"].position
+    assert (disc.x, disc.y) == (pytest.approx(x, abs=1e-3), pytest.approx(y, abs=1e-3))
+
+
+def test_what_was_filled_before_it_could_not_be_picked_up_is_moved_first() -> None:
+    start = scenes.apple_and_holder()
+    before = changed(start, apple={"inside": "holder", "on": ("holder",)})
+    plan = "[PICK UP, apple] [PUT INTO, holder] [PICK UP, holder] [PUT ON, drawer]"
+    step = failed(start, plan, 2, cause(CauseKind.SLIP, "holder"), before)
+    assert revision(step) == (
+        "[PICK UP, holder] [PUT ON, drawer] [PICK UP, apple] [PUT INTO, holder]"
+    )
+
+
 def test_the_order_changes_where_an_earlier_step_is_in_the_way() -> None:
     start = scenes.apple_and_holder()
     before = changed(start, apple={"inside": "holder", "on": ("holder",)})

@@ -186,6 +186,14 @@ def test_safe_place_keeps_clear_of_the_discs(seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("height", [0.26, 0.28, 0.30])
+def test_a_high_top_is_used_as_far_as_the_hand_gets_away_again(height: float) -> None:
+    platform = BOX | {"at": [0.5, 0.0], "size": [0.2, 0.4, height], "mass": 3.0}
+    run = episode(0, platform=platform, thing=BOX | {"at": [0.3, 0.3]})
+    after = run.must("[PICK UP, thing]", "[PUT ON, platform]").states["thing"]
+    assert after.on == ("platform",)
+
+
 def test_full_surface_has_no_room() -> None:
     unit = UNIT | {"at": [0.44, 0.0], "yaw_deg": -90, "drawers": drawers()}
     lid = {"kind": "box", "on": "unit", "size": [0.17, 0.21, 0.02], "mass": 0.3}

@@ -37,6 +37,12 @@ def keepouts_of(failed: FailedStep, name: str, room: float = 0.0) -> tuple[Keepo
     return tuple(sorted(set(discs)))
 
 
+def room_for(scene: SceneState, name: str, held: str) -> Keepout:
+    """Where an object is, as room for one that is held."""
+    x, y, _ = scene.states[name].position
+    return _disc(x, y, radius(scene.infos[held]))
+
+
 def _around(scene: SceneState, name: str, clearance: float = 0.0) -> Keepout:
     x, y, _ = scene.states[name].position
     return _disc(x, y, radius(scene.infos[name]) + clearance)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.keepouts import room_for
 from etot_cli.reasoning.builtin.regrasping import regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -213,6 +214,16 @@ class _Case:
             return [name for name in self.scene.states if is_on(self.scene, name, target)]
         return []
 
+    def _elsewhere_there(self, put: int, name: str) -> Iterator[Correction]:
+        """The branch with what was put into the same place before leaving its spot there free."""
+        action, held = self.actions[put], self.acted
+        if held is None or action.where:
+            return
+        room = room_for(self.scene, name, held)
+        other = replace(action, keepout=tuple(sorted({*action.keepout, room})))
+        actions = (*self.actions[:put], other, *self.actions[put + 1 :])
+        yield Correction(actions, f"{name} leaves room for {held} in {action.target}")
+
     # -- by verb -----------------------------------------------------------------------------------
 
     def _brought_out(self, furniture: str, vessels: Iterable[str]) -> Iterator[Correction]:
@@ -244,6 +255,11 @@ class _Case:
                 part = self.start.part(self.actions[opening].target)
                 if part is not None and self._is_near(part):
                     yield from self._taken_before_opening(part.owner)
+        for name in contents(self.scene, self.action.target):
+            # Full it is held otherwise than empty.
+            placed = placed_by(self.actions, name, self.index)
+            if placed is not None and name not in self.cause.objects:
+                yield from self._earlier(placed, name)
         yield from regrasped(self.failed, self.index, self.cause.kind)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
@@ -310,6 +326,8 @@ class _Case:
             if placed is not None:
                 if self.actions[placed + 1].target != self.action.target:
                     yield from self._earlier(placed, name)
+                elif self.is_full:
+                    yield from self._elsewhere_there(placed + 1, name)
             elif self.scene.infos[name].movable:
                 yield from self._out_of_the_way(name)
             else:

@@ -250,9 +250,11 @@ class _Way:
         """
         arm = self._belief.arm
         approach = tool.rotation[:, 2]
+        self.reached = False  # unless the hand gets away from there, too
         for direction in (-approach, UP):
             path, count = arm.line(straight(tool, tool.moved(RETREAT * direction)), joints)
             if count >= 2:
+                self.reached = True
                 release = self._widest_release([joints, path[count // 2], path[-1]], 0.0)
                 if release is not None:
                     return path, release

@@ -39,7 +39,7 @@ def put_places(
     request = Request(
         belief.attach(name),
         support,
-        action.keepout if on else (),
+        action.keepout,
         absent=belief.riders(name),
         strict=on and action.safe,
         preference=_preference(belief, action, name) if on else None,
