@@ -163,8 +163,9 @@ class _Way:
             self._bearers = {self._support.address, *place.bearers}
         elif place.quality >= Quality.PILED:
             self._bearers = set(place.bearers)
+        self._gets_away = False
         self.reached = False
-        """Whether the arm gets there at all."""
+        """Whether the arm gets there at all, and away again."""
 
     def from_above(self) -> Placement | None:
         """Straight down to the place, or to as little above it as the hand needs to open."""
@@ -172,10 +173,11 @@ class _Way:
         hover = support.room + MOUTH_CLEARANCE if support.is_container else HOVER
         for raised in RAISES:
             if not support.is_container and raised and not self._may_be_raised(raised):
-                return None
+                break
             placement = self._down(raised, max(hover - self._place.drop, HOVER))
             if placement is not None or not self.reached:
                 return placement
+        self.reached = self._gets_away or bool(self._met)
         return None
 
     def _may_be_raised(self, raised: float) -> bool:
@@ -250,11 +252,10 @@ class _Way:
         """
         arm = self._belief.arm
         approach = tool.rotation[:, 2]
-        self.reached = False  # unless the hand gets away from there, too
         for direction in (-approach, UP):
             path, count = arm.line(straight(tool, tool.moved(RETREAT * direction)), joints)
             if count >= 2:
-                self.reached = True
+                self._gets_away = True
                 release = self._widest_release([joints, path[count // 2], path[-1]], 0.0)
                 if release is not None:
                     return path, release
