@@ -22,7 +22,7 @@ DETERMINERS = f"""
     ({_COUNT}) of (the|these|those) ({_COUNT}),
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     any of (the|these|those|),
-    exactly one, exactly two, just one, half of the, none of the, no, neither [of the],
+    (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your)], half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
     whichever, any
 """
@@ -88,5 +88,6 @@ CONTAINING = """
 
 
 def is_only(determiner: str) -> bool:
-    """Whether nothing else is meant ("only the")."""
-    return determiner.split()[:1] in (["only"], ["just"])
+    """Whether nothing else is meant ("only the"); "only one" says how many."""
+    words = determiner.split()
+    return words[:1] in (["only"], ["just"]) and words[1:2] != ["one"]
