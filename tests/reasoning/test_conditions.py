@@ -57,6 +57,18 @@ ON_DRAWER = "[PICK UP, apple] [PUT ON, drawer]"
             [{"inside": ["apple", "drawer"]}, {"closed": "drawer"}],
             ["[OPEN, drawer] [PICK UP, apple] [PUT INTO, drawer] [CLOSE, drawer]"],
         ),
+        ([{"inside": ["apple", "holder"]}, {"on": ["apple", "holder"]}], [INTO_HOLDER]),
+        (
+            [
+                {"inside": ["holder", "drawer"]},
+                {"inside": ["apple", "holder"]},
+                {"inside": ["apple", "drawer"]},
+            ],
+            [
+                "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] [CLOSE, drawer]"
+                " [OPEN, drawer] [PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
+            ],
+        ),
     ],
 )
 def test_branches(conditions: list[dict[str, Any]], wanted: list[str]) -> None:
@@ -120,6 +132,12 @@ def test_what_lies_is_stood_up_before_it_takes_something_in() -> None:
 def test_refusals(condition: dict[str, Any], named: str) -> None:
     with pytest.raises(InstructionError, match=named):
         plans(scenes.apple_and_holder(), condition)
+
+
+def test_an_object_cannot_be_at_two_places() -> None:
+    conditions = {"on": ["apple", "drawer"]}, {"inside": ["apple", "holder"]}
+    with pytest.raises(InstructionError, match="apple: it cannot be both at drawer and at holder"):
+        plans(scenes.apple_and_holder(), *conditions)
 
 
 def test_two_objects_cannot_be_in_the_hand() -> None:

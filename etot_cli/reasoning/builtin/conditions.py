@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice, product
 
@@ -26,7 +26,7 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, SceneState, owner_of
 
 BESIDE = "beside"
 """Stands for all keys on where an object is with respect to others."""
@@ -73,7 +73,8 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
         draft = _Draft(scene)
         try:
             # What says where on a surface, and how it stands there, comes after what says on which.
-            for atom in sorted(atoms, key=lambda item: _LAST.get(item.key, 0)):
+            said = _without_implied(atoms, scene)
+            for atom in sorted(said, key=lambda item: _LAST.get(item.key, 0)):
                 draft.add(atom)
             goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps)), scene))
         except ReferenceProblem as error:
@@ -81,6 +82,50 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     if not goals:
         raise objection or InstructionError("goal: no condition is given")
     return tuple(goals)
+
+
+def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
+    """Statements without those on where an object is that follow from others: what stands on a
+    plate in a cupboard is in the cupboard.
+
+    Raises:
+        ReferenceProblem: one object is to be at two places.
+    """
+    wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
+    places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
+    implied: list[_Atom] = []
+    for name, own in places.items():
+        for atom in dict.fromkeys(own) if len({*own}) > 1 else ():
+            others = [a for a in own if a != atom and a not in implied]
+            if atom.key == "inside" and any(
+                atom.names[1] in _around(owner_of(a.names[1]), places, scene) for a in others
+            ):
+                implied.append(atom)
+        kept = {a for a in own if a not in implied}
+        targets = {atom.names[1] for atom in kept}
+        if len(targets) > 1:
+            one, other = sorted(targets)[:2]
+            raise ReferenceProblem(name, f"it cannot be both at {one} and at {other}")
+        # In a vessel it is on its floor.
+        implied += [a for a in kept if len(kept) > 1 and a.key == "on"]
+    return [atom for atom in atoms if atom not in implied]
+
+
+def _around(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState) -> frozenset[str]:
+    """All that an object is to be on or in, directly or not."""
+    found: dict[str, None] = {}
+    waiting = [name]
+    while waiting:
+        thing = waiting.pop()
+        state = scene.states.get(thing)
+        if thing in places:
+            at = [atom.names[1] for atom in places[thing]]
+        else:
+            at = [] if state is None else [*state.on, *filter(None, [state.inside])]
+        fresh = [place for place in at if place not in found]
+        found.update(dict.fromkeys(fresh))
+        waiting += map(owner_of, fresh)
+    return frozenset(found)
 
 
 def _alternatives(

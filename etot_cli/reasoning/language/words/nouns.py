@@ -22,7 +22,8 @@ DETERMINERS = f"""
     ({_COUNT}) of (the|these|those) ({_COUNT}),
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     any of (the|these|those|),
-    (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your)], half of the, none of the, no, neither [of the],
+    (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your)],
+    half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
     whichever, any
 """
