@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.goals.pairing import (
     distributed,
     elsewhere,
     is_different,
+    is_matching,
 )
 from etot_cli.reasoning.language.goals.placing import (
     add_put,
@@ -63,6 +64,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
     AvoidClause,
+    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -74,6 +76,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.selection import state_holds
@@ -225,6 +228,15 @@ def again(context: Context, clause: AgainClause) -> None:
     if not before:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]
+    last = context.last
+    if isinstance(last, PutClause | EnsureClause) and any(
+        isinstance(item, NounPhrase) and is_matching(item) for item in nodes(last)
+    ):
+        # A cup of its own colour is another one for something else.
+        if not isinstance(last, PutClause) or len(last.groups) > 1:
+            raise ReferenceProblem(text, "say where it goes", 3)
+        put(context, replace(last, groups=(replace(last.groups[0], things=clause.things),)))
+        return
     if isinstance(step, Put):
         if any(not isinstance(item, Put) or item.places != step.places for item in before):
             raise ReferenceProblem(text, "say again what is to be done", 2)

@@ -424,6 +424,16 @@ PUT = either(
         )
     ),
 )
+
+
+def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Each thing to its place; "cup off the tray, tray in the box" does not send both there."""
+    for np in (np for group in groups for np in group.things.phrases[:-1]):
+        if {"off", "out"} & {*np.text.split()[1:]}:
+            return None
+    return put_of(groups, extras)
+
+
 VERBLESS = either(
     sequence(
         # "Into the bin with it"
@@ -437,7 +447,7 @@ VERBLESS = either(
         sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
-    sequence(PUT_GROUPS, EXTRAS, build=put_of),
+    sequence(PUT_GROUPS, EXTRAS, build=_put_down),
     sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
 )
 """Places for things without a word for doing; only whole sentences are so."""

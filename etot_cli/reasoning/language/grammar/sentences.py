@@ -187,7 +187,7 @@ def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     """Headlines have no articles; "the drawer shut" lacks a verb."""
     clause = first[0].clause
     bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return _chained(first, more) if bare else None
+    return _chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
 
 
 def _taken_out(things: Things) -> RemoveClause | None:
@@ -263,6 +263,10 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
+    sequence(
+        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, _PLACED, build=each_sorted
+    ),
+    sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
     sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
     sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
@@ -348,7 +352,7 @@ WHOLE = either(
     ),
     sequence(
         EMPTY_WORDS,
-        _LEFT_SO,
+        either(_LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
         some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
         _END,
         build=_headline,

@@ -316,7 +316,7 @@ ENSURE = either(
             NP_LIST,
             either(
                 sequence(
-                    "should, must, shall",
+                    "should, must, shall, can, could, may",
                     _EACH,
                     "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
                 ),

@@ -119,6 +119,7 @@ def normalized(text: str) -> str:
         r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top", text
     )
     text = re.sub(r"\bnothing but\b", "only", text)
+    text = re.sub(r"\bnothing (?:more|besides)\b", "nothing else", text)
     text = _ALL_NAMED.sub(r"\1\2 ", text)
     text = _MAY_GO.sub(r"\1\2 should go", text)
     text = re.sub(r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " ", text)

@@ -74,7 +74,8 @@ REMARKS = """
     (is|are) (fine|good|ok|okay|alright) [there|where (it is|they are)],
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
-    (has|have) been (used|washed|cleaned)
+    (has|have) been (used|washed|cleaned),
+    (is|are) (a mess|all over the place|everywhere|all over the (table|desk|floor|counter))
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
@@ -138,7 +139,7 @@ GONE = """
 """
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
 LOOK_FOR = """
-    find, locate, look (for|at), search for, identify, approach, reach for,
+    find, locate, look (for|at), search for, identify, choose, select, approach, reach for,
     (go|move|drive|walk|navigate) [over] (to|towards)
 """
 SO_THAT = "so that, such that, so, in such a way that"

@@ -139,7 +139,8 @@ CHANGE_PLACES = """
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
 DO_NOT = """
-    do not, don t, never, you must not, you may not, you should not, must not, avoid,
+    do not, don t, never, [there is] no need to, you (need not|do not (need|have) to),
+    you must not, you may not, you should not, must not, avoid,
     but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
     [but|and] take care not to
 """
