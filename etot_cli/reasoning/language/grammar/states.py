@@ -111,6 +111,8 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     (first, *more) = nps
     if said and not more and first.determiner in nouns.THE_WORDS:
         return (replace(first, determiner=_QUANTITIES[said]),)
+    if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
+        return (replace(first, determiner=said),)
     return nps
 
 
