@@ -24,7 +24,8 @@ def formal(goal: Goal) -> str:
     for item in goal.constraints:
         names = ", ".join(item.names)
         if item.keep is Keep.AWAY:
-            where = " or ".join(f"{relation.value} {place}" for relation, place in item.places)
+            places = (f"{relation.value} {place}" for relation, place in item.places)
+            where = " or ".join(dict.fromkeys(places))
             kept.append(f"never {where}: {names}")
         else:
             turned = item.keep in (Keep.OPEN, Keep.CLOSED)
