@@ -78,7 +78,7 @@ NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
     Nearby.FRONT: "in front of, (on|at|to) the near side of",
-    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of",
+    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the rear of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: "[far] away from, far from",

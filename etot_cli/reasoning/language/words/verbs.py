@@ -7,7 +7,7 @@ PICK = """
     fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
     pass[ing] me, retriev(e|ing), gather[ing], (fetch|fetching|get|getting|grab|find|take) me,
-    hand[ing] over, let me have
+    hand[ing] over, let me have, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
 TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing) me, hand[ing] over
@@ -24,7 +24,9 @@ SET = """
     stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
-    slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing)
+    slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
+    prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
+    restor(e|ing)
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
@@ -45,9 +47,12 @@ PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
-BRING = f"{TAKE}, get[ting], grab[bing], fetch[ing], dig[ging], fish[ing]"
+BRING = f"""
+    {TAKE}, get[ting], grab[bing], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
+"""
 REMOVE = """
-    remov(e|ing), clear[ing] away, bring[ing] down, extract[ing], tak(e|ing) (out|off|away|down),
+    remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] down, extract[ing],
+    tak(e|ing) (out|off|away|down),
     get[ting] (out|down), (pull|fish) out, (pulling|fishing) out, clear[ing] out, mov(e|ing) away,
     lift[ing] (out|off)
 """
