@@ -164,3 +164,21 @@ def test_several_pieces_of_furniture_are_told_apart_as_wholes(text: str) -> None
     apart = [owners for owners in places if len(set(owners)) == 2]
     assert apart
     assert (len(places) > len(apart)) == ("drawer" in text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Pick up the first block in the middle.",
+        "Put the thing farthest from you into the bowl.",
+        "Clear the hand in front of the gripper.",
+        "Stack the cup on top of the robot.",
+        "Empty the desk onto the robot farthest from you.",
+        "Keep the desk in the gripper.",
+        "Clear the robot in the desk.",
+    ],
+)
+def test_desk_robot_and_sides_are_no_objects(text: str) -> None:
+    for scene in SCENES.values():
+        with suppress(InstructionError):
+            goal_of(text, scene)

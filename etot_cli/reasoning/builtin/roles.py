@@ -53,6 +53,8 @@ def can_be(thing: Thing, role: Role, scene: SceneState) -> bool:
     """Whether a thing can be used so at all."""
     if thing.name == DESK:
         return role in (Role.SURFACE, Role.PLACE, Role.ANY)
+    if thing.name not in scene.infos:
+        return False  # the robot
     info = scene.infos[thing.name]
     match role:
         case Role.THEME:

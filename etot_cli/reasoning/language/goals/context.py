@@ -97,7 +97,9 @@ class Context:
 
     def home(self, thing: Thing) -> Place:
         """Where a thing is at the start; on the desk the very spot."""
-        state = self.scene.states[thing.name]
+        state = self.scene.states.get(thing.name)
+        if state is None:
+            raise ReferenceProblem(thing.name, "it has no place where it could be put", 2)
         if state.inside is not None:
             owner, _, part = state.inside.partition(".")
             return Place(Relation.INSIDE, self._referent(Thing(owner, part or None)))

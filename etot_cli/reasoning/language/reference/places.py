@@ -224,7 +224,8 @@ class Places:
         laid = discourse.things(*themes)
         put_there = (i for i, around in discourse.put_into.items() if around == index)
         inner = [i for i in put_there if i not in themes]
-        closed = all(self._scene.infos[t.name].parts for t in discourse.things(index))
+        around = [self._scene.infos.get(thing.name) for thing in discourse.things(index)]
+        closed = all(info is not None and info.parts for info in around)
         upon = [i for i in inner if closed and bears(discourse.things(i), laid, self._scene)]
         if len(upon) == 1:
             return upon[0]

@@ -217,7 +217,11 @@ def _nth(
         if origin is None and rows.is_deep(things, scene):
             why = "they stand one behind the other; say 'front', 'middle' or 'back'"
             raise ReferenceProblem(phrase, why, 2, word=ordinal)
-        ordered = rows.by_side(SIDES[origin or "left"], things, scene)
+        side = SIDES[origin or "left"]
+        if side == "middle":
+            why = f"in the {origin} none is the {ordinal}"
+            raise ReferenceProblem(phrase, why, 2, word=ordinal)
+        ordered = rows.by_side(side, things, scene)
     index = ORDINALS[ordinal]
     if index >= len(ordered) or many > len(ordered):
         raise too_few(things, phrase)

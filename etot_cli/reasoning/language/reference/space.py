@@ -51,8 +51,8 @@ def is_support(thing: Thing, scene: SceneState) -> bool:
     """
     if thing.name == DESK or thing.board is not None:
         return True
-    info = scene.infos[thing.name]
-    return info.surface and (not info.movable or is_flat(info))
+    info = scene.infos.get(thing.name)
+    return info is not None and info.surface and (not info.movable or is_flat(info))
 
 
 def position(thing: Thing, scene: SceneState) -> tuple[float, float, float]:
@@ -88,15 +88,16 @@ def addresses(thing: Thing, scene: SceneState) -> tuple[str, ...]:
 
 
 def rests_on(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
-    """Whether a thing stands on a landmark."""
-    if thing.name == DESK:
+    """Whether a thing stands on a landmark; the desk and the robot stand on none."""
+    if thing.name not in scene.states:
         return False
     return any(is_on(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
 def top_of(thing: Thing, scene: SceneState, *, bottom: bool = False) -> Thing:
     """What is meant by the top of a thing: of what has boards the uppermost, else the thing."""
-    boards = () if thing.name == DESK else scene.infos[thing.name].boards
+    info = scene.infos.get(thing.name)  # desk and robot have none
+    boards = () if info is None else info.boards
     end = 0 if bottom else -1
     return Thing(thing.name, board=boards[end]) if boards and not thing.board else thing
 
