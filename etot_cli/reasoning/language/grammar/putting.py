@@ -8,11 +8,8 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
-    BY_COLOR,
-    CONDITION,
     EXTRA,
     EXTRAS,
-    GROUPING,
     left,
     put_of,
 )
@@ -36,10 +33,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import all_of
+from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIRST_TO_LAST
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -52,170 +49,27 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
-from etot_cli.reasoning.language.grammar.turns import TURN
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.grammar.word_order import (
+    ALONG_WITH,
+    BROUGHT,
+    FOLLOWING,
+    FRONTED,
+    NAMED_BEHIND,
+    SAID_AHEAD,
+)
+from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
-    is_descriptive,
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.spatial import Nearby
 
-_BROUGHT = either(
-    sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
-    sequence(verbs.WANT, ALL_THINGS),
-    sequence(ALL_THINGS, verbs.MODAL),
-)
-"""What is to go somewhere, in any mood."""
-_SAID_AHEAD = sequence(
-    _BROUGHT,
-    either(
-        sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
-        sequence(COMMA, either(TURN, CONDITION), COMMA),
-        valued(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER, OPTIONAL_COMMA), lambda _: ()),
-    ),
-    DESTINATIONS,
-    build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
-)
-"""What may follow the place stands before it."""
-
-
-def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause | None:
-    """A place and what goes there; "next to the tape" is no "next, to the tape", and "to the big
-    bowl" no bowl to the big one.
-    """
-    last = [*where[-1].targets, *(np for item in where[-1].beside for np in item.phrases)][-1:]
-    if not nps[0].determiner and any(
-        not (np.words or np.pronoun) or is_descriptive(np.head) for np in last
-    ):
-        return None
-    vague = any(item.toward is Toward.TO for item in where)
-    return replace(put_to(Things(nps), where), far_fetched=int(vague))
-
-
-_FRONTED = quiet(
-    sequence(
-        either(
-            sequence(verbs.PUT, DESTINATIONS),
-            sequence(DESTINATIONS, OPTIONAL_COMMA, either(verbs.PUT, "go[es], belong[s]")),
-        ),
-        NP_LIST,
-        build=_fronted,
-    )
-)
-"""The place before the thing."""
-PLACE_AHEAD = quiet(
-    sequence(
-        DESTINATIONS,
-        OPTIONAL_COMMA,
-        NP_LIST,
-        build=lambda where, nps: (
-            _fronted(where, nps) if all(item.targets or item.beside for item in where) else None
-        ),
-    )
-)
-"""The same, where the verb was said before ("…, and beside it, the spoon")."""
-_FOLLOWING = sequence(
-    verbs.PUT,
-    "(these|the following) [things|objects|items]",
-    DESTINATIONS,
-    COMMA,
-    NP_LIST,
-    build=lambda where, nps: put_to(Things(nps), where),
-)
-
-
-def _named_behind(
-    whole: NounPhrase, where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]
-) -> PutClause | None:
-    """Several things that are announced together; "the green one" is one of these."""
-    noun = singular(whole.head)
-    every = noun == whole.head and whole.words == ("everything",)
-    if not nps[1:] or not (every or whole.determiner in _ALL_THESE):
-        return None
-    if noun == whole.head and not every:
-        return None
-    named = (np.called(noun) if np.is_elliptic else np for np in nps)
-    return put_to(Things(tuple(named), whole=whole), where)
-
-
-_ALL_THESE = ("the", "these", "those", "all", "all the")
-_NAMED_BEHIND = quiet(
-    sequence(
-        either(
-            sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
-            sequence(noun_phrase, verbs.MODAL),
-        ),
-        DESTINATIONS,
-        COMMA,
-        optional("that is, those are, namely, meaning, i mean"),
-        NP_LIST,
-        build=_named_behind,
-    )
-)
-"""What goes somewhere is named one by one at the end."""
-_ALONG_WITH = sequence(
-    verbs.PUT,
-    NP_LIST,
-    DESTINATIONS,
-    OPTIONAL_COMMA,
-    "together with, along with, as well as",
-    NP_LIST,
-    build=lambda things, where, more: put_to(Things((*things, *more)), where),
-)
-STACKS = frozenset(spellings(nouns.STACK))
+_STACKS = frozenset(spellings(nouns.STACK))
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
 
 
-def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
-    """Things one after the other; what stands before "then" with a place was rather put there, and
-    "the cup, the left one" is one thing.
-    """
-    before = (first, *(np for _, np in more[:-1]))
-    placed = any(item.phrases for np in before for item in np.modifiers)
-    apposed = any(not then and np.head == "one" for then, np in more)
-    if (placed and not first_said) or apposed or not any(then for then, _ in more):
-        return None
-    nps = coordinated(first, tuple(np for _, np in more))
-    return None if nps is None else Things(nps)
-
-
-_FIRST_THEN = sequence(
-    optional(phrase("first", True), False),
-    noun_phrase,
-    optional("first"),
-    some(
-        either(
-            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
-            sequence(
-                OPTIONAL_COMMA, small_words.THEN_JOINTS, noun_phrase, build=lambda np: (True, np)
-            ),
-        ),
-        least=1,
-        most=4,
-    ),
-    build=_in_this_order,
-)
-_FROM_FIRST_TO_LAST = sequence(
-    "(start|begin) [off] with",
-    noun_phrase,
-    some(
-        either(
-            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
-            sequence(
-                OPTIONAL_COMMA,
-                f"{small_words.THEN_JOINTS}, [and] [then] (finish|end) [up|off] with",
-                noun_phrase,
-                build=lambda np: (True, np),
-            ),
-        ),
-        least=1,
-        most=4,
-    ),
-    build=lambda first, more: _in_this_order(True, first, more),
-)
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
     small_words.SO_THAT,
@@ -318,9 +172,9 @@ PUT = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
-    sequence(_BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
+    sequence(BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
     sequence(
-        _BROUGHT,
+        BROUGHT,
         places.NEARBY[Nearby.NEXT_TO],
         noun_phrase,
         OPTIONAL_COMMA,
@@ -328,7 +182,7 @@ PUT = either(
         build=lambda things, np: _flanking(things, "each", np),
     ),
     sequence(
-        either(_FIRST_THEN, _FROM_FIRST_TO_LAST),
+        either(FIRST_THEN, FROM_FIRST_TO_LAST),
         either(
             verbs.MODAL,
             sequence(
@@ -369,21 +223,21 @@ PUT = either(
         "with",
         ALL_THINGS,
         build=lambda np, things: (
-            put_to(things, (Destination(Toward.ON, (np,)),)) if np.head in STACKS else None
+            put_to(things, (Destination(Toward.ON, (np,)),)) if np.head in _STACKS else None
         ),
     ),
-    _SAID_AHEAD,
-    _FRONTED,
-    _FOLLOWING,
-    _NAMED_BEHIND,
-    _ALONG_WITH,
+    SAID_AHEAD,
+    FRONTED,
+    FOLLOWING,
+    NAMED_BEHIND,
+    ALONG_WITH,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
         either(INTO, ONTO),
         build=lambda where: put_to(Things((NounPhrase(pronoun="it", text="it"),)), (where,)),
     ),
-    sequence(verbs.PUT, _FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
@@ -448,6 +302,6 @@ VERBLESS = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=_put_down),
-    sequence(_FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
 )
 """Places for things without a word for doing; only whole sentences are so."""

@@ -37,7 +37,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
-from etot_cli.reasoning.language.grammar.putting import PLACE_AHEAD, VERBLESS
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -70,6 +70,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     shared_out,
     sources,
 )
+from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of

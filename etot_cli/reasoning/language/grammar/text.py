@@ -79,7 +79,7 @@ _ALL_DONE = re.compile(
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
 """After what is asked for, "once everything is in" is about that."""
-_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)"
+_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _CLITICS = (
     (r"'s got\b", " has"),
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
@@ -131,10 +131,8 @@ def normalized(text: str) -> str:
     )
     text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
     text = re.sub(r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", "", text)
-    text = re.sub(
-        rf"\b((?:that|which) (?:is|are) ){_ABOUT}(?! (?:the|my|your|of))", r"\1loose", text
-    )
-    text = re.sub(rf"(?<!is )(?<!are )\b{_ABOUT}(?! (?:the|my|your|of))", "that are loose", text)
+    text = re.sub(rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose", text)
+    text = re.sub(rf"(?<!is )(?<!are )\b{_ABOUT}", "that are loose", text)
     text = _ALL_DONE.sub(r"\1 all of that \2 \3", text)
     text = re.sub(r", (?:all|everything) (?:but|except(?: for)?) ", ", except ", text)
     text = re.sub(r"\b(out of|from|off) there\b", r"\1 it", text)

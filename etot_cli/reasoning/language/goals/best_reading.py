@@ -1,0 +1,149 @@
+"""Which of a sentence's readings is meant."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Open,
+    Pick,
+    Put,
+    Referent,
+)
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.wording import formal
+from etot_cli.reasoning.language.goals.plausibility import (
+    Moves,
+    does_as_well,
+    guesses,
+    holds_roughly,
+    plans_of,
+)
+from etot_cli.reasoning.language.goals.understanding import Understanding
+from etot_cli.reasoning.language.grammar.reader import Sentence
+from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.trees import reading_cost
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
+from etot_cli.reasoning.protocol import ReasonerStopped
+
+MAX_COMPARED = 6
+"""Different goals of one sentence that are compared; more are too many to name."""
+
+
+def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
+    """The simplest reading that fits the scene; of several, the one that asks for something.
+
+    Raises:
+        ReferenceProblem: none fits, or equally simple ones ask for different things.
+    """
+    problem: ReferenceProblem | None = None
+    blame = 0
+    found: dict[Goal, Understanding] = {}
+    cost, undecided = -1, 0
+    unclear: AmbiguousReference | None = None
+    for reading in sentence.readings:
+        simplicity = reading_cost(reading)
+        if found and simplicity > cost and not undecided:
+            break
+        attempt = state.copy()
+        try:
+            attempt.read(reading)
+            goal = attempt.goal()
+        except ReferenceProblem as error:
+            strict = not isinstance(error, UnclearLandmark)
+            if isinstance(error, AmbiguousReference) and (
+                unclear is None or (strict and isinstance(unclear, UnclearLandmark))
+            ):
+                unclear = error
+            # Of a far-fetched reading it says little that some of its phrases are understood.
+            if problem is None or error.weight - simplicity > blame:
+                problem, blame = error, error.weight - simplicity
+            continue
+        meaning = _meaning(goal)
+        if found and simplicity > cost:
+            if len(attempt.context.discourse.undecided) < undecided and meaning not in found:
+                # What would tell "the cup" from others may be said of it.
+                _only_one_that_asks(state, sentence, {**found, meaning: attempt})
+            continue
+        cost = simplicity
+        found.setdefault(meaning, attempt)
+        undecided = min(len(item.context.discourse.undecided) for item in found.values())
+        if len(found) > MAX_COMPARED:
+            raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
+    settled_here = isinstance(unclear, UnclearLandmark) and found and not undecided
+    if unclear is not None and not settled_here:
+        # What is no simpler than a reading that leaves the choice open settles nothing.
+        raise unclear
+    if not found:
+        assert problem is not None  # a sentence has at least one reading
+        raise problem
+    odd = {meaning: guesses(attempt.context, attempt.timed) for meaning, attempt in found.items()}
+    least = min(odd.values())
+    found = {meaning: attempt for meaning, attempt in found.items() if odd[meaning] == least}
+    if len(found) == 1:
+        return next(iter(found.values()))
+    return _only_one_that_asks(state, sentence, found)
+
+
+def _only_one_that_asks(
+    state: Understanding, sentence: Sentence, found: dict[Goal, Understanding]
+) -> Understanding:
+    plans: dict[tuple[Moves, ...], Understanding] = {}
+    scene = state.context.discourse.scene
+    for attempt in found.values():
+        with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
+            ordered = any(item.order is not Order.SAID for item in attempt.timed)
+            plan = plans_of(attempt.goal(), scene, ordered=ordered)
+            if plan or holds_roughly(attempt.goal()):
+                plans.setdefault(plan, attempt)
+    alike = {formal(attempt.goal()): key for key, attempt in reversed(plans.items())}
+    plans = {key: attempt for key, attempt in plans.items() if key in alike.values()}
+    for key in [*plans]:
+        if any(does_as_well(other, key) for other in plans if other != key):
+            del plans[key]
+    if len(plans) > 1:
+        goals = (formal(attempt.goal()) for attempt in plans.values())
+        ways = [f"{number}) {goal}" for number, goal in enumerate(goals, 1)]
+        raise ReferenceProblem(
+            sentence.text, f"it can be read in {len(plans)} ways: {'; '.join(ways)}", 4
+        )
+    return next(iter((plans or found).values()))
+
+
+def _meaning(goal: Goal) -> Goal:
+    """A goal without the words that it was put in and the referents that no step is about."""
+    used: dict[int, int] = {}
+    referents: list[Referent] = []
+
+    def renumbered(index: int) -> int:
+        if index not in used:
+            used[index] = len(referents)
+            referents.append(replace(goal.referents[index], text="", distinct_from=()))
+        return used[index]
+
+    steps: list[Pick | Put | Open | Close] = []
+    for step in goal.steps:
+        if isinstance(step, Put):
+            places = tuple(
+                replace(
+                    place,
+                    where=None if place.where is None else renumbered(place.where),
+                    beside=tuple(
+                        replace(near, landmarks=tuple(map(renumbered, near.landmarks)))
+                        for near in place.beside
+                    ),
+                )
+                for place in step.places
+            )
+            steps.append(replace(step, what=tuple(map(renumbered, step.what)), places=places))
+        else:
+            steps.append(replace(step, what=renumbered(step.what)))
+    for index, number in used.items():
+        apart = goal.referents[index].distinct_from
+        distinct = tuple(sorted(used[other] for other in apart if other in used))
+        referents[number] = replace(referents[number], distinct_from=distinct)
+    return Goal(tuple(referents), tuple(steps), goal.constraints)

@@ -1,0 +1,140 @@
+"""What has been understood of an instruction up to some sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Constraint,
+    Goal,
+    Keep,
+    Open,
+    Put,
+    Step,
+)
+from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.clauses import steps_of
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.turns import Timed, continued, in_order
+from etot_cli.reasoning.language.grammar.spoken import Spoken
+from etot_cli.reasoning.language.grammar.syntax import (
+    AvoidClause,
+    Clause,
+    EnsureClause,
+    PutClause,
+    RemoveClause,
+    ReorientClause,
+)
+from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.opposites import check_opposites
+from etot_cli.world.state import SceneState
+
+
+def _check_instead(spoken: Spoken, before: Clause | None) -> None:
+    """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
+    room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+    room |= isinstance(before, ReorientClause) and before.only_named  # how things are
+    denied = (isinstance(before, AvoidClause) and before.negated) or (
+        isinstance(before, EnsureClause) and all(state.denied for state in before.states)
+    )
+    if spoken.instead and before is not None and not (room or denied):
+        raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
+
+
+class Understanding:
+    """What has been understood up to some point of an instruction."""
+
+    def __init__(self, scene: SceneState, discourse: Discourse, resolver: Resolver) -> None:
+        self._scene, self._resolver = scene, resolver
+        self.context = Context(scene, resolver, discourse)
+        self.timed: list[Timed] = []
+        self.sentence = 0
+
+    @property
+    def asked(self) -> bool:
+        """Whether anything has been asked for, even if it holds already."""
+        return any(item.steps for item in self.timed)
+
+    def copy(self) -> Understanding:
+        """An independent copy, for trying a reading."""
+        other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
+        other.context.turned = list(self.context.turned)
+        other.context.done = self.context.done
+        other.context.constraints = list(self.context.constraints)
+        other.timed = list(self.timed)
+        other.sentence, other.context.last = self.sentence, self.context.last
+        return other
+
+    def read(self, reading: Sequence[Spoken]) -> None:
+        """Reads the clauses in the order they are said, and notes when each is to be done."""
+        self.sentence += 1
+        steps = {}
+        for spoken in sorted(reading, key=lambda item: item.position):
+            _check_instead(spoken, self.context.last)
+            steps[id(spoken)] = steps_of(spoken.clause, self.context)
+            self.context.last = spoken.clause
+        check_opposites(self.context.discourse)
+        for spoken in reading:
+            item = Timed(tuple(steps[id(spoken)]), spoken.order, self.sentence)
+            if self.timed and (joined := continued(self.timed[-1], item)):
+                self.timed[-1] = joined
+            else:
+                self.timed.append(item)
+
+    def _narrowed(self, step: Step, after: Step | None) -> bool:
+        """Whether the next step says more closely where things go ("carry it over to the bag and
+        drop it in", "take it to the stand and set it on the lowest shelf").
+        """
+        if not (isinstance(step, Put) and isinstance(after, Put)) or step.what != after.what:
+            return False
+        where, closer = (
+            {
+                (place.relation, thing)
+                for place in put.places
+                if place.where is not None and not place.beside
+                for thing in self.context.discourse.things(place.where)
+            }
+            for put in (step, after)
+        )
+        whole = step.run == after.run and not any(t.part or t.board for _, t in where)
+        one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
+        return step == after or (whole and one == other != set())
+
+    def _constraints(self, steps: Sequence[Step]) -> list[Constraint]:
+        """Without what is to stay closed, but is to be opened and closed again: it is so after."""
+        if all(item.keep is not Keep.CLOSED for item in self.context.constraints):
+            return self.context.constraints
+        opened, closed = (
+            {
+                f"{part.owner}.{part.name}"
+                for step in steps
+                if isinstance(step, kind)
+                for thing in self.context.discourse.things(step.what)
+                for part in parts_of(self._scene, thing)
+            }
+            for kind in (Open, Close)
+        )
+        return [
+            item
+            for item in self.context.constraints
+            if item.keep is not Keep.CLOSED or not {*item.names} <= opened & closed
+        ]
+
+    def goal(self) -> Goal:
+        """The goal so far."""
+        discourse = self.context.discourse
+        steps = [
+            step
+            for step, after in pairwise((*in_order(self.timed), None))
+            if step is not None and not self._narrowed(step, after)
+        ]
+        return Goal(
+            tuple(discourse.referents),
+            tuple(steps),
+            tuple(dict.fromkeys(self._constraints(steps))),
+            tuple(discourse.notes),
+        )

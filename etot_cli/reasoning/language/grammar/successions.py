@@ -1,0 +1,70 @@
+"""Rules for things that are named one after the other ("the cup, then the plate")."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    NounPhrase,
+    Things,
+)
+from etot_cli.reasoning.language.words import small_words
+
+
+def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
+    """Things one after the other; what stands before "then" with a place was rather put there, and
+    "the cup, the left one" is one thing.
+    """
+    before = (first, *(np for _, np in more[:-1]))
+    placed = any(item.phrases for np in before for item in np.modifiers)
+    apposed = any(not then and np.head == "one" for then, np in more)
+    if (placed and not first_said) or apposed or not any(then for then, _ in more):
+        return None
+    nps = coordinated(first, tuple(np for _, np in more))
+    return None if nps is None else Things(nps)
+
+
+FIRST_THEN = sequence(
+    optional(phrase("first", True), False),
+    noun_phrase,
+    optional("first"),
+    some(
+        either(
+            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(
+                OPTIONAL_COMMA, small_words.THEN_JOINTS, noun_phrase, build=lambda np: (True, np)
+            ),
+        ),
+        least=1,
+        most=4,
+    ),
+    build=_in_this_order,
+)
+FROM_FIRST_TO_LAST = sequence(
+    "(start|begin) [off] with",
+    noun_phrase,
+    some(
+        either(
+            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(
+                OPTIONAL_COMMA,
+                f"{small_words.THEN_JOINTS}, [and] [then] (finish|end) [up|off] with",
+                noun_phrase,
+                build=lambda np: (True, np),
+            ),
+        ),
+        least=1,
+        most=4,
+    ),
+    build=lambda first, more: _in_this_order(True, first, more),
+)

@@ -1,0 +1,144 @@
+"""Rules for clauses that put things somewhere and name the place before the thing, or the things
+last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.additions import (
+    BY_COLOR,
+    CONDITION,
+    GROUPING,
+    put_of,
+)
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+)
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    quiet,
+    sequence,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    NounPhrase,
+    PutClause,
+    Things,
+    Toward,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.turns import TURN
+from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.lexicon import (
+    is_descriptive,
+    singular,
+)
+
+BROUGHT = either(
+    sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
+    sequence(verbs.WANT, ALL_THINGS),
+    sequence(ALL_THINGS, verbs.MODAL),
+)
+"""What is to go somewhere, in any mood."""
+SAID_AHEAD = sequence(
+    BROUGHT,
+    either(
+        sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
+        sequence(COMMA, either(TURN, CONDITION), COMMA),
+        valued(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER, OPTIONAL_COMMA), lambda _: ()),
+    ),
+    DESTINATIONS,
+    build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
+)
+"""What may follow the place stands before it."""
+
+
+def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause | None:
+    """A place and what goes there; "next to the tape" is no "next, to the tape", and "to the big
+    bowl" no bowl to the big one.
+    """
+    last = [*where[-1].targets, *(np for item in where[-1].beside for np in item.phrases)][-1:]
+    if not nps[0].determiner and any(
+        not (np.words or np.pronoun) or is_descriptive(np.head) for np in last
+    ):
+        return None
+    vague = any(item.toward is Toward.TO for item in where)
+    return replace(put_to(Things(nps), where), far_fetched=int(vague))
+
+
+FRONTED = quiet(
+    sequence(
+        either(
+            sequence(verbs.PUT, DESTINATIONS),
+            sequence(DESTINATIONS, OPTIONAL_COMMA, either(verbs.PUT, "go[es], belong[s]")),
+        ),
+        NP_LIST,
+        build=_fronted,
+    )
+)
+"""The place before the thing."""
+PLACE_AHEAD = quiet(
+    sequence(
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        NP_LIST,
+        build=lambda where, nps: (
+            _fronted(where, nps) if all(item.targets or item.beside for item in where) else None
+        ),
+    )
+)
+"""The same, where the verb was said before ("…, and beside it, the spoon")."""
+FOLLOWING = sequence(
+    verbs.PUT,
+    "(these|the following) [things|objects|items]",
+    DESTINATIONS,
+    COMMA,
+    NP_LIST,
+    build=lambda where, nps: put_to(Things(nps), where),
+)
+
+
+def _named_behind(
+    whole: NounPhrase, where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]
+) -> PutClause | None:
+    """Several things that are announced together; "the green one" is one of these."""
+    noun = singular(whole.head)
+    every = noun == whole.head and whole.words == ("everything",)
+    if not nps[1:] or not (every or whole.determiner in _ALL_THESE):
+        return None
+    if noun == whole.head and not every:
+        return None
+    named = (np.called(noun) if np.is_elliptic else np for np in nps)
+    return put_to(Things(tuple(named), whole=whole), where)
+
+
+_ALL_THESE = ("the", "these", "those", "all", "all the")
+NAMED_BEHIND = quiet(
+    sequence(
+        either(
+            sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
+            sequence(noun_phrase, verbs.MODAL),
+        ),
+        DESTINATIONS,
+        COMMA,
+        optional("that is, those are, namely, meaning, i mean"),
+        NP_LIST,
+        build=_named_behind,
+    )
+)
+"""What goes somewhere is named one by one at the end."""
+ALONG_WITH = sequence(
+    verbs.PUT,
+    NP_LIST,
+    DESTINATIONS,
+    OPTIONAL_COMMA,
+    "together with, along with, as well as",
+    NP_LIST,
+    build=lambda things, where, more: put_to(Things((*things, *more)), where),
+)
