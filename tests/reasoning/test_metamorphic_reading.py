@@ -244,9 +244,46 @@ VERBS = {
 }  # fmt: skip
 JOINTS = [" and ", ". ", ", then ", ", but first ", " after ", ", without touching the vase. "]
 EXTRAS = ["", " please", " first", " last", " together", " in this order", ", but not in the bowl"]
+DETERMINERS = """
+    the|a|every|all the|both|the two|the other|any|some|one of the|each|no|which|only the|the same
+    another|either|the first|the last|the biggest|my|this
+"""
+OTHERS = """
+    thing|object|one|things|ones|rest|desk|table|robot|gripper|hand|drawer|door|shelf|top|bottom
+    left|side|stack|lid|contents|handle
+"""
+MODIFIERS = """
+    closest to you|farthest from you|nearest to {}|next to {}|on your left|in front of you|loose
+    between you and {}|behind {}|under {}|on {}|in {}|not in {}|that isn't near {}|with {} on it
+    with something in it|without anything on it|to the left of the desk|on the robot|in your hand
+    of {}|that is open|that is empty|touching {}|of the same colour as {}|in the middle|at the back|on top
+    with nothing to its left|whose colour is red|except {}|but not {}|and {}|or {}|at the bottom
+"""
+MOVES = """
+    in {}|on {}|next to {}|away from {}|from {}|out of {}|over {}|with {}|instead of {}|where {} is
+    at the back of {}|to the right of {}|into {}, then open it|back|in its place|by colour|upright
+"""
+DETERMINED, HEADS, DESCRIBED, MOVED = (
+    [item.strip() for line in text.split("\n") for item in line.split("|") if item.strip()]
+    for text in (DETERMINERS, OTHERS, MODIFIERS, MOVES)
+)
 
 
 KNOWN_WORDS = sorted(known.ALL_WORDS)
+
+
+def described(pick: random.Random, labels: list[str], depth: int = 2) -> str:
+    """Some determiner, some noun and perhaps some modifier, whether or not they agree."""
+    head = pick.choice((pick.choice(HEADS), pick.choice(labels), pick.choice(labels).split()[-1]))
+    modifier = " " + pick.choice(DESCRIBED) if depth and pick.random() < 0.5 else ""
+    inner = described(pick, labels, depth - 1) if "{}" in modifier else ""
+    return f"{pick.choice(DETERMINED)} {head}{modifier}".replace("{}", inner)
+
+
+def composed(pick: random.Random, labels: list[str]) -> str:
+    verb = pick.choice(pick.choice([*VERBS.values()]))
+    where = pick.choice(MOVED).replace("{}", described(pick, labels))
+    return f"{verb} {described(pick, labels)} {where}{pick.choice(EXTRAS)}"
 
 
 def clause(pick: random.Random) -> str:
@@ -301,10 +338,21 @@ def test_grown_and_broken_sentences_are_read_or_refused_in_time(seeds: list[int]
         assert took_s < LIMIT_S, text
 
 
-def reading_s(text: str, vocabulary: Vocabulary) -> float:
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(SCENES))
+def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> None:
+    scene = SCENES[name]
+    vocabulary, pick = Vocabulary(scene), random.Random(name)
+    labels = [info.label for info in scene.infos.values()]
+    for number in range(60):
+        text = pick.choice(JOINTS).join(composed(pick, labels) for _ in range(1 + number % 2))
+        assert reading_s(text, vocabulary, scene) < LIMIT_S, text
+
+
+def reading_s(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> float:
     """How long reading takes [s of processor time]."""
     start = time.process_time()
-    meaning(text, BREAKFAST, vocabulary)
+    meaning(text, scene, vocabulary)
     return time.process_time() - start
 
 

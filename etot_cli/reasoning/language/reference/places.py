@@ -89,8 +89,8 @@ class Places:
         """Alternative places."""
         places: dict[Place, None] = {}
         for destination in destinations:
-            if destination.toward is Toward.WITH:
-                raise ReferenceProblem(destination.word, REASONS["where"], 3)
+            if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
+                raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.toward is Toward.HERE:
                 found = list(self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE:
