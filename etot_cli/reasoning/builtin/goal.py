@@ -163,11 +163,13 @@ class Constraint:
     """What must not happen on the way.
 
     ``names``: objects or addresses of parts. ``places``: relation and address, for ``Keep.AWAY``.
+    ``needless``: it was only said that it need not happen, which tells what else is meant.
     """
 
     keep: Keep
     names: tuple[str, ...]
     places: tuple[tuple[Relation, str], ...] = ()
+    needless: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,11 @@ from etot_cli.reasoning.language.goals.checks import (
     check_shut,
     check_turns,
 )
-from etot_cli.reasoning.language.goals.left_out import without_places, without_ruled_out
+from etot_cli.reasoning.language.goals.left_out import (
+    without_needless,
+    without_places,
+    without_ruled_out,
+)
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -63,7 +67,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         said = "how things are" if named else "what not to do"
         text = sentences[-1 if wished else 0].text
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
-    return goal
+    return without_needless(goal)
 
 
 def _used(goal: Goal) -> set[int]:

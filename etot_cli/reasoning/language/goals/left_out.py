@@ -31,6 +31,14 @@ def without_places(goal: Goal, discourse: Discourse) -> Goal:
     return replace(goal, referents=tuple(referents), notes=tuple(notes))
 
 
+def without_needless(goal: Goal) -> Goal:
+    """The goal without what was only said to be needless: "no need to close it" forbids nothing."""
+    kept = tuple(item for item in goal.constraints if not item.needless)
+    out = {name: None for item in goal.constraints if item.needless for name in item.names}
+    note = [f"nothing is asked or forbidden of {', '.join(out)}"] if out else []
+    return replace(goal, constraints=kept, notes=(*goal.notes, *note))
+
+
 def without_ruled_out(goal: Goal, scene: SceneState) -> Goal:
     """The goal without what must not go where it brings several things ("all of them into the
     box, but keep the cup out of it").

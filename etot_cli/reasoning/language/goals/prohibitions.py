@@ -48,7 +48,15 @@ _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 
 
 def avoid(context: Context, clause: AvoidClause) -> None:
-    """Adds what a clause forbids to the constraints."""
+    """Adds what a clause forbids, or calls needless, to the constraints."""
+    before = len(context.constraints)
+    _forbid(context, clause)
+    if clause.needless:
+        new = context.constraints[before:]
+        context.constraints[before:] = [replace(item, needless=True) for item in new]
+
+
+def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.goes_on:
         last = clause.things.phrases[-1].text if clause.things else "anything else"
         why = "'not' may be said of what follows by 'and', too; say that in a sentence of its own"

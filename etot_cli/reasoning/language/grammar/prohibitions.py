@@ -62,6 +62,11 @@ _FORBIDDEN = either(
 )
 AVOID = either(
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
+    sequence(
+        verbs.NEED_NOT,
+        _FORBIDDEN,
+        build=lambda clause: replace(clause, negated=True, needless=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
 )
 WITHOUT = sequence(

@@ -345,6 +345,8 @@ class AvoidClause:
     """They must not be left there, either."""
     goes_on: bool = False
     """Another clause follows by a mere "and", of which "do not" may be said as well."""
+    needless: bool = False
+    """It need not be done, but may be."""
 
 
 Clause = (

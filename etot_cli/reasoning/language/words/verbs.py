@@ -144,10 +144,13 @@ CHANGE_PLACES = """
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
 DO_NOT = """
-    do not, don t, never, [there is] no need to, you (need not|do not (need|have) to),
-    you must not, you may not, you should not, must not, avoid,
+    do not, don t, never, you must not, you may not, you should not, must not, avoid,
     but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
     [but|and] take care not to
+"""
+NEED_NOT = """
+    [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
+    [but] do not bother (to|with|), [but|and] (it is|it 's|it s) not necessary to
 """
 WITHOUT = """
     without, [while] (making|being) sure not to, [while] being careful not to,
