@@ -51,7 +51,7 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
                 steps.append(Put((step.what,), (place,), poses=step.poses, removal=True))
             continue
         if isinstance(step, Put) and step.removal:
-            last = [i for i in step.what if not any(_moves(other, i) for other in later)]
+            last = [i for i in step.what if not _is_moved(goal, i, later)]
             before = goal.steps[:index]
             there = [i for i in last if not any(_moves(other, i) for other in before)]
             _check_removal(goal, there, scene)

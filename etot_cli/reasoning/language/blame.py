@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.reader import (
     is_known,
     shown,
 )
-from etot_cli.reasoning.language.grammar.text import COMMA, QUESTION, spaced
+from etot_cli.reasoning.language.grammar.text import COLON, COMMA, QUESTION, spaced
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon
@@ -34,7 +34,8 @@ _PLACED = {text.split()[0] for text in spellings(f"{INTO}, {ONTO}, {OVER}, {TO}"
     text.split()[0] for texts in NEARBY.values() for text in spellings(texts)
 }
 """What a place begins with."""
-_JOINTS = {COMMA, "and", "then", "or", "but"}
+_PAUSES = (COMMA, COLON)
+_JOINTS = {*_PAUSES, "and", "then", "or", "but"}
 _BEFORE_VERBS = _JOINTS | {"to", "not", "you", "please", "while", "by"}
 """What a verb may stand behind; elsewhere a word that is one, too, is a noun ("water bottle")."""
 _MISSING = "something is missing, such as into or onto what"
@@ -57,8 +58,13 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
             return UnreadableError(shown(words), before, known.REASONS["what"])
     for start, end, place in _ways(words, unread):
         mended = (*words[:start], *place, *words[end:])
-        if fits(_joined(before, " ".join(mended).replace(f" {COMMA}", ",").strip(" ,"))):
-            without = "" if place else spaced(mended).strip(" ,")
+        if fits(
+            _joined(
+                before,
+                " ".join(mended).replace(f" {COMMA}", ",").replace(f" {COLON}", ":").strip(" ,:"),
+            )
+        ):
+            without = "" if place else spaced(mended).strip(" ,:")
             text, why = _reason(unread, words, start, end, replaced=bool(place))
             return UnreadableError(text, _joined(before, spaced(words[:start])), why, without)
     return _unmended(unread, words, before)
@@ -92,7 +98,7 @@ def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tup
 def _joins(word: str) -> bool:
     """Whether a phrase may begin with a word: "of" it goes on, at "the" it has begun."""
     inner = word in THE_WORDS or word in ("a", "an", "of", "it", "them")
-    return word in (COMMA, "one") or (word in known.GRAMMAR_WORDS and not inner)
+    return word in (*_PAUSES, "one") or (word in known.GRAMMAR_WORDS and not inner)
 
 
 def _ends_phrase(word: str) -> bool:
@@ -108,12 +114,12 @@ def _is_whole(words: tuple[str, ...], start: int, end: int) -> bool:
     led = start == 0 and following in ("and", "but", "or")
     alone = end - start == 1 and last in ("on", "off")  # of the verb
     return not (led or alone) and (
-        start == 0 if last == COMMA else last not in known.LINKS or following == COMMA
+        start == 0 if last in _PAUSES else last not in known.LINKS or following in _PAUSES
     )
 
 
 def _count(words: tuple[str, ...]) -> int:
-    return sum(word != COMMA for word in words)
+    return sum(word not in _PAUSES for word in words)
 
 
 def _reason(

@@ -82,7 +82,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    if said is None or not words or _DEPENDING & {*words}:
+    if said is None or not words or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)

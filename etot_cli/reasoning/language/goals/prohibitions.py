@@ -21,6 +21,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -80,6 +81,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         context.discourse.mentions[before:] = kept
         return
     indices = context.phrases.things(clause.things, role)
+    one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
+    if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
+        leave_among(context, indices)
     if all(_is_not_chosen(context, index) for index in indices) and role is not Role.PART:
         return  # no step moves it
     if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in clause.things.phrases):
@@ -141,9 +145,11 @@ def check_alone(
     places: Sequence[Place],
     *,
     chosen: bool = False,
+    in_the_end: bool = False,
 ) -> None:
     """Whether "only the cup" is where only it is to be: all else would have to go from there.
     Of several cups "only the red one" says which: what else is there stays, which is told.
+    ``in_the_end``: it is said how it is to be, so that all else goes to the desk.
     """
     own = {thing.name for thing in context.discourse.things(*themes)}
     where = [place.where for place in places if place.where is not None]
@@ -163,15 +169,36 @@ def check_alone(
             if chosen and alike - own and not alike & {*there}:
                 context.discourse.notes.append(f"{phrase.text!r}: {others} stays there")
                 continue
+            if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):
+                alone = [name for name in there if not _goes(context, name)]
+                rest = tuple(context.single(Thing(name), name) for name in alone)
+                desk = (context.places.on_the_desk(),)
+                for index in rest:
+                    add_put(context, (index,), desk, Grouping.ANY, removal=True)
+                if alone:
+                    names = ", ".join(alone)
+                    context.discourse.notes.append(f"{phrase.text!r}: {names} goes to the desk")
+                return
             why = f"say where to put {others} that would be there, too"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+
+
+def _goes(context: Context, name: str) -> bool:
+    """Whether something else that is asked for takes a thing away."""
+    gone = (i for step in context.done if isinstance(step, Put) for i in step.what)
+    return any(thing.name == name for thing in context.discourse.things(*gone))
 
 
 def _moves_anyway(context: Context, things: Things) -> bool:
     """Whether "the right one" cannot be one of the things that are put somewhere: it is moved."""
     if any(quantity_of(np.determiner).other for np in things.phrases):
         return False
-    moved = context.discourse.things(*context.discourse.put)
+    surely = [
+        index
+        for index in context.discourse.put
+        if max(map(len, context.discourse.referents[index].options)) < 2  # else it is left out
+    ]
+    moved = context.discourse.things(*surely)
     with suppress(ReferenceProblem):
         found = [context.phrases.meaning(np, Role.THEME).options for np in things.phrases]
         return all({*option} <= {*moved} for options in found for option in options)
@@ -196,7 +223,15 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:
-    """Nothing but what was spoken of may be touched or moved."""
+    """Nothing but what was spoken of may be touched or moved; how things are to be with "nothing
+    else" says what is to be there.
+    """
+    if isinstance(context.last, EnsureClause):
+        only = (NounPhrase("only", text="nothing else"),)
+        for step in context.done:
+            if isinstance(step, Put):
+                check_alone(context, only, step.what, step.places, in_the_end=True)
+        return
     spoken = {
         thing.name
         for referent in context.discourse.referents
@@ -206,9 +241,6 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
     others = tuple(
         name for name, info in context.scene.infos.items() if name not in spoken and info.movable
     )
-    for step in context.done if isinstance(context.last, EnsureClause) else ():
-        if isinstance(step, Put):
-            check_alone(context, (NounPhrase("only", text="nothing else"),), step.what, step.places)
     if others:
         context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
 

@@ -135,7 +135,14 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
         chosen_from = not (clause.stays or wherever)
-        check_alone(context, group.things.phrases, themes, places, chosen=chosen_from)
+        check_alone(
+            context,
+            group.things.phrases,
+            themes,
+            places,
+            chosen=chosen_from,
+            in_the_end=not chosen_from,
+        )
         check_taken(context, group, themes, places)
         note_described(context, group, places)
         check_poured(context, group, themes, places)
@@ -196,7 +203,8 @@ def ensure(context: Context, state: State) -> None:
         return
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)
-    put(context, put_to(Things(state.subjects), state.destinations), wherever=True)
+    said = replace(put_to(Things(state.subjects), state.destinations), stays=state.kept)
+    put(context, said, wherever=True)
     for step in (step for step in context.steps[done:] if isinstance(step, Put)):
         again = before.intersection(step.what)
         if again and any(place.beside for place in step.places):

@@ -45,7 +45,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.reasoning.language.words.small_words import FRAMES, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import FRAMES, SOMEBODY_LEFT, WITHOUT_MEANING
 from etot_cli.world.spatial import Nearby
 
 _DENIAL, _ORDER = "a denial", "an order"
@@ -70,10 +70,10 @@ _FIXED = """
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
-    only (then|once|after|when), any [one] but, any (color|colour)
+    only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left
 """
 """Phrases in which such words say something else, or nothing of their own."""
-_SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {_FIXED}")
+_SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 

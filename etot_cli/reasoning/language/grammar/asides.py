@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.grammar.text import COMMA, sentences_of, spaced, words_in
+from etot_cli.reasoning.language.grammar.text import COLON, COMMA, sentences_of, spaced, words_in
 from etot_cli.reasoning.language.words.known import (
     ALL_WORDS,
     BEFORE_NOUNS,
@@ -100,7 +100,7 @@ def without_asides(
     kept: list[str] = []
     asides: list[str] = []
     for sentence in sentences_of(text):
-        before, rest, after = _parted(" ".join(words_in(sentence)), is_name)
+        before, rest, after = _parted(" ".join(words_in(sentence)).replace(COLON, COMMA), is_name)
         # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
         outside = after.startswith("for ") or not (rest or _PERSON.match(sentence))
         if is_sentence(sentence) and not outside:

@@ -78,7 +78,7 @@ WANTED = either(
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
-    sequence(verbs.WANT, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}", SOURCE, build=RemoveClause),
     sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
     sequence(verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=PickClause),

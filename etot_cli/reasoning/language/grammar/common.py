@@ -21,8 +21,11 @@ from etot_cli.reasoning.language.words import known, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 
 COMMA = text.COMMA
+COLON = text.COLON
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
-LIST = either(small_words.AND, sequence(COMMA, optional(small_words.AND)))
+LIST_COMMA = silent(word(lambda _, text: text == COMMA))
+"""No colon stands between things of one list."""
+LIST = either(small_words.AND, sequence(LIST_COMMA, optional(small_words.AND)))
 
 
 def _is_noun(given: Input, said: str) -> bool:

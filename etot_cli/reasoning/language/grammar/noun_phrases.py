@@ -9,6 +9,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
     LIST,
+    LIST_COMMA,
     NOUN_WORD,
     OPTIONAL_COMMA,
     alternatives,
@@ -337,7 +338,7 @@ _COORDINATION = sequence(
     noun_phrase,
     some(
         either(
-            sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
+            sequence(LIST_COMMA, noun_phrase, build=lambda np: (False, np)),
             sequence(OPTIONAL_COMMA, small_words.AND, noun_phrase, build=lambda np: (True, np)),
         ),
         most=9,

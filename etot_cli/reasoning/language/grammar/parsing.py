@@ -13,6 +13,7 @@ from functools import cache, cached_property
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.input import NO_WORD, Find, Input, Result
+from etot_cli.reasoning.language.grammar.text import COLON, COMMA
 from etot_cli.reasoning.language.words.patterns import Begun
 
 First = frozenset[str] | None
@@ -99,7 +100,7 @@ def _parser(part: Part) -> Parser:
 def one_of(table: Mapping[Any, str]) -> Parser:
     """One of several phrases with the value that they stand behind, the phrase itself for None.
 
-    The longest is found last.
+    The longest is found last. A colon may stand where a comma may.
     """
 
     @cache
@@ -111,6 +112,8 @@ def one_of(table: Mapping[Any, str]) -> Parser:
         found: list[Result] = []
         while at < len(words):
             further = node.following.get(words[at])
+            if further is None and words[at] == COLON:
+                further = node.following.get(COMMA)
             if further is None:
                 return found
             at, node = at + 1, further
@@ -121,7 +124,11 @@ def one_of(table: Mapping[Any, str]) -> Parser:
             given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
 
-    return Parser(parse, lambda: frozenset(root().following))
+    def first() -> First:
+        words = frozenset(root().following)
+        return words | {COLON} if COMMA in words else words
+
+    return Parser(parse, first)
 
 
 def word(test: Callable[[Input, str], bool]) -> Parser:
@@ -282,7 +289,9 @@ def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     """With a value that knows the words that it covers."""
 
     def said(words: Sequence[str]) -> str:
-        return " ".join(words).replace(" ~comma", ",").replace(" 's", "'s")
+        return (
+            " ".join(words).replace(f" {COMMA}", ",").replace(f" {COLON}", ":").replace(" 's", "'s")
+        )
 
     return _alike(
         parser,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
@@ -81,6 +81,14 @@ PUT_GROUP = either(
         OPTIONAL_COMMA,
         manner.LET_GO,
         build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,)),)),
+    ),
+    quiet(
+        sequence(
+            THINGS,
+            COLON,
+            noun_phrase,
+            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,)),)),
+        )
     ),
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),
 )

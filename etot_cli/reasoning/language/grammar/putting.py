@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     left,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COLON, COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
@@ -154,7 +154,7 @@ PUT = either(
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
-        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANT, ALL_THINGS)),
+        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
@@ -288,7 +288,13 @@ def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     return put_of(groups, extras)
 
 
+def _listed(place: NounPhrase, things: Things) -> PutClause:
+    """What a table says of a place; "teapot: tray" rather says where the teapot goes."""
+    return replace(put_to(things, (Destination(Toward.TO, (place,)),)), far_fetched=1)
+
+
 VERBLESS = either(
+    sequence(noun_phrase, COLON, ALL_THINGS, build=_listed),
     sequence(
         # "Into the bin with it"
         either(INTO, ONTO),

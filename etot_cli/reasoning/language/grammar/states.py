@@ -302,7 +302,7 @@ ENSURE = either(
         build=lambda first, more: EnsureClause((first, *more)),
     ),
     sequence(
-        verbs.WANT,
+        verbs.WANTED,
         noun_phrase,
         "to (contain|hold|have)",
         NP_LIST,
@@ -338,7 +338,7 @@ ENSURE = either(
         )
         for said in (
             (NP_LIST, verbs.MODAL),
-            (verbs.WANT, NP_LIST, _TO_BE),
+            (verbs.WANTED, NP_LIST, _TO_BE),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
             ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
         )

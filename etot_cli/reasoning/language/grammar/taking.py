@@ -182,7 +182,7 @@ EMPTY = either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
             sequence("mak(e|ing)", ALL_THINGS),
-            sequence(verbs.WANT, ALL_THINGS, optional("to be")),
+            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
         ),
         optional(phrase("both, all"), ""),
         manner.EMPTIED,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.known import OPENING_WORDS, VERB_WORDS
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, SIDES, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.patterns import spellings
 
@@ -16,6 +16,8 @@ MAX_WORDS = 80
 """Longer sentences are refused: the number of readings grows steeply with length."""
 MAX_SENTENCES = 24
 COMMA = "~comma"
+COLON = "~colon"
+"""Between what goes where, in a table, in either order."""
 QUESTION = "~question"
 """Behind a question: it may be a request, but not one without a verb."""
 
@@ -49,8 +51,6 @@ _NOTHING_ELSE = re.compile(
     rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
-_ITEM = re.compile(r"(?:(?<=[.;,\n])|^)([\w ]+): ?([\w ]+)(?=$|[.;,\n])")
-"""What goes where, in a table ("lemon: white bowl")."""
 _BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
@@ -60,17 +60,14 @@ _ALL_NAMED = re.compile(
 """What a list before a colon names, all of it."""
 _MAY_GO = re.compile(r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?) go\b")
 """A request in the words of a question."""
-_ALSO_VESSELS = {"bin", "box", "file", "pack"}
-"""Words for doing that name a vessel at the end of a phrase."""
-_SMALL = {"the", "a", "my", "your", "its", "please", "kindly"}
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
     r"(?:going|on|in|inside|too|not|now|still|already)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
-    r"|(?:open|closed|shut|empty|full|dirty|clean|ready|broken|fine)"
-    r"(?: (?:and|so|but|where)\b|[,.;:]|$)"
+    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine)"
+    r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
@@ -79,9 +76,11 @@ _ALL_DONE = re.compile(
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
 """After what is asked for, "once everything is in" is about that."""
+_LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _CLITICS = (
     (r"'s got\b", " has"),
+    (r"(?<=\w)'s(?= been\b)", " has"),
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
@@ -130,6 +129,8 @@ def normalized(text: str) -> str:
         r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it", text
     )
     text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
+    text = re.sub(r"\bback down (?=(?:on|onto)\b)", "down ", text)
+    text = re.sub(rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1", text)
     text = re.sub(r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", "", text)
     text = re.sub(rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose", text)
     text = re.sub(rf"(?<!is )(?<!are )\b{_ABOUT}", "that are loose", text)
@@ -155,11 +156,10 @@ def normalized(text: str) -> str:
     text = re.sub(rf"\b([a-z])[{_HYPHENS}](?=[a-z]{{3}})", r"\1", text)  # "t-shirt", "x-ray"
     text = re.sub(rf"(?<=\w)[{_HYPHENS}](?=\w)|/(?=\w)", " ", text)
     text = re.sub(r"&", " and ", text)
-    table = _ITEM.sub(_item, text)
-    text = text if ":" in table else table  # all of its lines, or none
     text = re.sub(r"[-=]+>|\N{RIGHTWARDS ARROW}", " to ", text)
     text = _BRACKETED.sub(_qualified, text)
-    text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[:()\[\]]", " , ", text)
+    text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[()\[\]]", " , ", text)
+    text = text.replace(":", " : ")
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
 
@@ -182,14 +182,6 @@ def _qualified(found: re.Match[str]) -> str:
     if word in SIDES:
         return f"{noun} {'on' if word in ('left', 'right') else 'at'} the {word}"
     return f"{noun} that is {word}" if is_descriptive(word) else found[0]
-
-
-def _item(found: re.Match[str]) -> str:
-    """A line of a table as what goes where; with words for doing or order it is none."""
-    (*_, name), (*_, place) = (half.split() for half in found.groups())
-    named = {name, place} & _ALSO_VESSELS
-    said = {*found[0].replace(":", " ").split()} - _SMALL - named
-    return found[0] if said & OPENING_WORDS else f"{found[1]} to {found[2]}"
 
 
 def _listed(text: str) -> str:
@@ -227,7 +219,7 @@ def sentences_of(text: str) -> list[str]:
     for part in parts:
         if found and _LOOKED_FOR.match(found[-1]):
             found[-1] += f", {part}"  # what is looked for, and what is to be done with it
-        elif part.removesuffix(QUESTION).strip(" ,"):
+        elif part.removesuffix(QUESTION).strip(" ,:"):
             found.append(part)
     return found
 
@@ -235,11 +227,12 @@ def sentences_of(text: str) -> list[str]:
 def words_in(sentence: str) -> tuple[str, ...]:
     """Words and commas of a normalized sentence."""
     found: list[str] = []
-    for item in sentence.replace(",", f" {COMMA} ").split():
-        if item == COMMA and found[-1:] in ([COMMA], []):
+    marked = sentence.replace(",", f" {COMMA} ").replace(":", f" {COLON} ")
+    for item in marked.split():
+        if item in (COMMA, COLON) and found[-1:] in ([COMMA], [COLON], []):
             continue
         found.append(item)
-    while found[-1:] == [COMMA]:
+    while found[-1:] in ([COMMA], [COLON]):
         found.pop()
     return tuple(found)
 
@@ -249,6 +242,7 @@ def spaced(words: Sequence[str]) -> str:
     return (
         " ".join(words)
         .replace(f" {COMMA}", ",")
+        .replace(f" {COLON}", ":")
         .removeprefix(f"{COMMA} ")
         .replace(f" {QUESTION}", "")
         .replace(" 's", "'s")

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
@@ -57,8 +57,21 @@ def _is_unknown(given: Input, text: str) -> bool:
 
 
 _STATED = either(
-    sequence(noun_phrase, "is, are", DESCRIBED, build=lambda np, said: Things((np.told_by(said),))),
-    sequence("there is, there are, (i|you|we) [can] see, you have", ALL_THINGS),
+    sequence(
+        noun_phrase,
+        small_words.FOUND,
+        DESCRIBED,
+        build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        small_words.SOMEBODY_LEFT,
+        noun_phrase,
+        DESCRIBED,
+        build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS
+    ),
 )
 """How things are, said of them before something is asked of them."""
 _REMARK = either(
@@ -71,6 +84,7 @@ STRANGE = spanned(
         ALL_THINGS,
         silent(optional("(is|are|has|have) [been|all|badly]")),
         silent(some(word(_is_unknown), least=1, most=4)),
+        silent(optional("over, off, down, up, out, apart")),
         silent(optional("today, tonight, tomorrow, now, this (morning|afternoon|evening|week)")),
     ),
     lambda said, things: ReorientClause(things, only_named=True, remark=said),

@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 
 BROUGHT = either(
     sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
-    sequence(verbs.WANT, ALL_THINGS),
+    sequence(verbs.WANTED, ALL_THINGS),
     sequence(ALL_THINGS, verbs.MODAL),
 )
 """What is to go somewhere, in any mood."""

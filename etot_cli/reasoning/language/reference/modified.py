@@ -122,7 +122,11 @@ def _check_cleared(
 ) -> None:
     """Whether "tidy up the blocks" is said of what holds things, not of things to be put away."""
     for thing in (thing for way in landmarks for several in way for thing in several):
-        if not (can_be(thing, Role.CONTAINER, scene) or space.is_support(thing, scene)):
+        holds = can_be(thing, Role.CONTAINER, scene) or space.is_support(thing, scene)
+        bears = thing.name in scene.infos and any(
+            space.rests_on(Thing(name), thing, scene) for name in scene.states
+        )
+        if not (holds or bears):
             raise ReferenceProblem(modifier.phrases[0].text, "say where it is to go", 3)
 
 

@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.instances import usable_ones
 from etot_cli.reasoning.language.reference.matching import Match, match_words
-from etot_cli.reasoning.language.reference.selection import select, state_holds
+from etot_cli.reasoning.language.reference.selection import in_state, select
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     STATES,
     basic_color,
     is_descriptive,
+    singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
@@ -144,7 +145,8 @@ def with_quality(
         ReferenceProblem: the word is no adjective that is known.
     """
     if word in STATES:
-        return {thing for thing in things if state_holds(word, thing, scene)}
+        plural = singular(phrase.head) != phrase.head
+        return {*in_state(word, things, scene, every=plural)}
     color = basic_color(word)
     entries = vocabulary.entries()
     if color is not None:
@@ -175,7 +177,7 @@ def all_among(
     """
     for word in match.selectors:
         if word in STATES:
-            things = [thing for thing in things if state_holds(word, thing, scene)]
+            things = in_state(word, things, scene, every=True)
     if phrase.among == len(things) or len(phrase.words) < 2:
         return things
     alone = replace(phrase, words=phrase.words[-1:], modifiers=())

@@ -81,7 +81,7 @@ def select(
         raise ReferenceProblem(phrase, f"{word!r} tells no desk from another", 2, word=word)
     for word in words:
         if word in STATES:
-            things = [thing for thing in things if state_holds(word, thing, scene)]
+            things = in_state(word, things, scene, every=count != 1)
     if not things:
         raise ReferenceProblem(phrase, "nothing is in that state", 1)
     by_size = [word for word in words if word in SIZES]
@@ -118,6 +118,21 @@ def select(
     return ways[0]
 
 
+def in_state(
+    word: str, things: Sequence[Thing], scene: SceneState, *, every: bool = False
+) -> list[Thing]:
+    """The things that an adjective of state is true of; one that is "open" is rather one that is
+    fully so.
+    """
+    found = [thing for thing in things if state_holds(word, thing, scene)]
+    wide = [
+        thing
+        for thing in found
+        if any(scene.openness(part) >= OPEN_AT for part in parts_of(scene, thing))
+    ]
+    return wide if wide and STATES[word] == "open" and not every else found
+
+
 def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
     """Whether an adjective of state ("open", "empty", …) is true of a thing.
 
@@ -130,7 +145,7 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
     parts = parts_of(scene, thing)
     match STATES[word]:
         case "open":
-            return any(scene.openness(part) >= OPEN_AT for part in parts)
+            return any(scene.openness(part) > CLOSED_AT for part in parts)
         case "ajar":
             return any(CLOSED_AT < scene.openness(part) < OPEN_AT for part in parts)
         case "closed":

@@ -16,7 +16,9 @@ WITHOUT_MEANING = """
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|any one|each|both) (is|are|would be) (fine|ok|okay|good),
+    (either|any|any one|each|both) [of (them|these|those)]
+    ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
+    ~comma (any|either) [one] [of (them|these|those)],
     i (do not|don t) (care|mind) [which] [one], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
     behind you, after you, one (by|after) (one|another|the other),
@@ -78,6 +80,12 @@ REMARKS = """
     (is|are) (a mess|all over the place|everywhere|all over the (table|desk|floor|counter))
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
+FOUND = """
+    (is|are|was|were|has been|have been|got|seem[s] to be)
+    [still|just|now|currently|again|all] [left|standing|lying|sitting|resting|wide]
+"""
+"""Between a thing and how it is, before something is asked of it."""
+SOMEBODY_LEFT = "(i|we|you|they|he|she|someone|somebody) [have|has|had] [just] left"
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
 SAME_AGAIN = """

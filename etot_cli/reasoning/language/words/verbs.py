@@ -6,11 +6,11 @@ PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
     fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
-    pass[ing] me, retriev(e|ing), gather[ing], (fetch|fetching|get|getting|grab|find|take) me,
-    hand[ing] over, let me have, snatch[ing], pluck[ing], hoist[ing], nab[bing]
+    pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
+    hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
 TO_SOMEBODY = """
-    (hand|handing|bring|bringing|give|giving|pass|passing) me, hand[ing] over
+    (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering) me, hand[ing] over
 """
 """They ask for more than picking up, which is all that is done."""
 HELD_UP = "it is held up, not handed over"
@@ -26,7 +26,7 @@ SET = """
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
     slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
-    restor(e|ing)
+    restor(e|ing), nest[ing], serv(e|ing)
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
@@ -35,7 +35,7 @@ PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting
 LAY = f"{PLACE}, lay[ing], stand[ing], sit[ting], rest[ing]"
 """What is brought or carried down, on the other hand, is fetched from where it is."""
 THROW_AWAY = "throw[ing] (away|out), bin[ning], discard[ing], (dispos(e|ing)|get[ting] rid) of"
-GATHER = "gather[ing], collect[ing], assembl(e|ing)"
+GATHER = "gather[ing] [up|together], collect[ing] [up], assembl(e|ing)"
 """With a place it is bringing things there, rather than picking up what is there."""
 THROW = "throw[ing], toss[ing], chuck[ing]"
 """Into or onto a thing it is putting; what is thrown elsewhere is to fly."""
@@ -91,12 +91,25 @@ MODAL = f"""
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
+_RELATIONS = """
+    guest|customer|client|patient|boss|wife|husband|mother|father|sister|brother|son|daughter|
+    colleague|teacher|student|neighbor|neighbour
+"""
 WANT = """
     i want, i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like, i would like to find,
     (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
     i want to (have|see), i would rather (have|see)
 """
+OTHERS_WANT = f"""
+    (the|my|our) ({_RELATIONS}) (wants|needs|would like [to have]),
+    (the|my|our) (guests|customers|clients|patients|parents|colleagues|students|visitors)
+    (want|need|would like [to have]),
+    (grandma|grandpa|granny|mum|mom|dad|he|she|somebody|someone) (wants|needs|would like [to have]),
+    they (want|need|would like [to have])
+"""
+"""Said of other people, who are not there to be handed anything."""
+WANTED = f"{WANT}, {OTHERS_WANT}"
 BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s]
 """
