@@ -120,7 +120,9 @@ SIDED = [
     for name, text in READ
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
-    and not re.search(r"(?i)right (next|away|behind|then)|^right,|(is|be) left\b", text)
+    and not re.search(
+        r"(?i)right (next|away|behind|then)|^right,|(is|be|been|were|someone|i) left\b", text
+    )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
 ]
 
@@ -256,8 +258,9 @@ MODIFIERS = """
     closest to you|farthest from you|nearest to {}|next to {}|on your left|in front of you|loose
     between you and {}|behind {}|under {}|on {}|in {}|not in {}|that isn't near {}|with {} on it
     with something in it|without anything on it|to the left of the desk|on the robot|in your hand
-    of {}|that is open|that is empty|touching {}|of the same colour as {}|in the middle|at the back|on top
-    with nothing to its left|whose colour is red|except {}|but not {}|and {}|or {}|at the bottom
+    of {}|that is open|that is empty|touching {}|of the same colour as {}|in the middle|at the back
+    on top|with nothing to its left|whose colour is red|except {}|but not {}|and {}|or {}
+    at the bottom
 """
 MOVES = """
     in {}|on {}|next to {}|away from {}|from {}|out of {}|over {}|with {}|instead of {}|where {} is

@@ -65,6 +65,13 @@ from etot_cli.reasoning.language.grammar.taking import (
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
+
+def _wanted_in_hand(things: Things) -> PickClause | None:
+    """Who wants something off the tray does not say that it is to be held."""
+    away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
+    return None if away else PickClause(things)
+
+
 WANTED = either(
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
@@ -79,9 +86,18 @@ WANTED = either(
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
     sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
-    sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}", SOURCE, build=RemoveClause),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.MODAL}, {verbs.COME_AWAY}",
+        optional("gone"),
+        SOURCE,
+        build=RemoveClause,
+    ),
     sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
-    sequence(verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=PickClause),
+    sequence(
+        verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
+    ),
 )
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),

@@ -37,6 +37,8 @@ from etot_cli.world.spatial import Nearby
 TOP = "top"
 """The word of a destination on top of something: of a shelf, its top board. What is "at the top"
 or the bottom has boards."""
+ONWARD = "onward"
+"""The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")

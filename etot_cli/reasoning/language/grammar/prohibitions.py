@@ -91,7 +91,7 @@ _EVERYTHING_ELSE = "everything else, all else, the (rest|others) [of it|of them]
 _STAYS = sequence(
     "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left), "
     "stay[s], remain[s]",
-    optional(f"{manner.AS_IT_IS}, put, there"),
+    optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
 KEEP_STILL = either(
     sequence(THINGS, _STAYS, build=partial(AvoidClause, Avoid.MOVE)),

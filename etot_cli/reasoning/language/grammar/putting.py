@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
     INSTEAD,
     INTO,
     ONTO,
+    ONWARD,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
@@ -55,6 +56,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     FOLLOWING,
     FRONTED,
     NAMED_BEHIND,
+    ONLY_ONE_THERE,
     SAID_AHEAD,
 )
 from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
@@ -133,6 +135,8 @@ def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
 def brought(things: Things, source: Any, where: tuple[Destination, ...]) -> PutGroup:
     """Things from one place to another; "from the lower to the upper board" speaks of boards."""
     lent = source and where[0].targets and coordinated(source, where[0].targets[:1])
+    if source and all(item.toward is Toward.TO and not item.word for item in where):
+        where = tuple(replace(item, word=ONWARD) for item in where)
     return PutGroup(things.taken_from(lent[0] if lent else source), where)
 
 
@@ -231,6 +235,7 @@ PUT = either(
     FOLLOWING,
     NAMED_BEHIND,
     ALONG_WITH,
+    ONLY_ONE_THERE,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,

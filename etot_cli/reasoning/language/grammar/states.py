@@ -94,8 +94,8 @@ def _contains(verb: str) -> Parser:
         noun_phrase,
         verb,
         NP_LIST,
-        optional("in it, inside"),
-        build=lambda np, held: State(held, (Destination(Toward.INSIDE, (np,)),)),
+        optional(either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON)), None),
+        build=lambda np, held, toward: State(held, (Destination(toward or Toward.INSIDE, (np,)),)),
     )
 
 

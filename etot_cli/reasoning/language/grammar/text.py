@@ -244,6 +244,7 @@ def spaced(words: Sequence[str]) -> str:
         .replace(f" {COMMA}", ",")
         .replace(f" {COLON}", ":")
         .removeprefix(f"{COMMA} ")
+        .removeprefix(f"{COLON} ")
         .replace(f" {QUESTION}", "")
         .replace(" 's", "'s")
         .replace("_", " ")

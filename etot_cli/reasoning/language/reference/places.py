@@ -9,7 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.destinations import FILLED, TOP
+from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
@@ -148,7 +148,10 @@ class Places:
             drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
                 self.discourse.as_it_stands(index, is_open)
-            found += self._on_first(phrase, self.relations_to(toward, index, themes))
+            ways = self.relations_to(toward, index, themes)
+            if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
+                ways = self.relations_to(Toward.ON, index, themes)
+            found += self._on_first(phrase, ways)
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found

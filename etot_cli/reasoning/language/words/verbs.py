@@ -137,6 +137,8 @@ COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|a
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
+GONE = "[to be] [(out|gone|away)] (out of|off [of]|gone from|out from)"
+"""Where something is wanted no longer."""
 KEEP = "keep[ing], leav(e|ing)"
 IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
 REORIENT = """
