@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.asides import without_asides
 from etot_cli.reasoning.language.grammar.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
-from etot_cli.reasoning.language.grammar.text import sentences_of, words_in
+from etot_cli.reasoning.language.grammar.text import words_in
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
@@ -67,8 +67,6 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         with suppress(UnreadableError, ReferenceProblem):
             return _below_heading(instruction, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
-            return _after_remarks(text, scene, vocabulary)
-        with suppress(UnreadableError, ReferenceProblem):
             return _beside_asides(instruction, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
 
@@ -95,21 +93,6 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     return replace(goal, notes=(note, *goal.notes))
 
 
-def _after_remarks(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
-    """What is done with what a sentence before remarks on in words that nothing is known of ("the
-    jar is cracked. Into the bin with it").
-
-    Raises:
-        UnreadableError, ReferenceProblem: there is no such sentence, or the rest is not read.
-    """
-    (*before, last) = sentences_of(text) or [""]
-    odd = [not _is_sentence(sentence, vocabulary) for sentence in before]
-    if not any(odd):
-        raise UnreadableError(text, "")
-    joined = (f"{s}, so " if strange else f"{s}. " for s, strange in zip(before, odd, strict=True))
-    return _read("".join((*joined, last)), scene, vocabulary)
-
-
 def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
     """What is asked for beside reasons and remarks, which are noted.
 
@@ -124,12 +107,18 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     if plain is None:
         raise UnreadableError(instruction, "")
     goal = _read(plain.text, scene, vocabulary)
-    written = (re.search(re.escape(aside), instruction, re.IGNORECASE) for aside in plain.asides)
-    said = (
-        found[0] if found else aside for found, aside in zip(written, plain.asides, strict=True)
-    )
+    said = (_as_written(aside, instruction) for aside in plain.asides)
     notes = (f"{text!r} is not asked for: the rest is done" for text in said)
     return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _as_written(aside: str, instruction: str) -> str:
+    """An aside in the instruction's own words, so far as these are found in it."""
+    begun = " ".join(aside.split()[:2])
+    for wanted in (re.escape(aside), rf"{re.escape(begun)}\b[^.,:;!?\n]*"):
+        if found := re.search(wanted, instruction, re.IGNORECASE):
+            return found[0].strip()
+    return aside
 
 
 def _is_sentence(text: str, vocabulary: Vocabulary) -> bool:

@@ -1,82 +1,65 @@
-"""What is said beside a request and asks for nothing: reasons, and remarks about people and times.
+"""Reasons, purposes and remarks beside a request, which ask for nothing.
 
-Where an instruction is not read as it stands they are cut off; what they name is spoken of before
-the rest.
+Where an instruction is not read as it stands, its sentences are cut into clauses, and those that
+only tell something are left out; what they name is spoken of before the rest.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.grammar.text import COLON, COMMA, sentences_of, spaced, words_in
-from etot_cli.reasoning.language.words.known import (
-    ALL_WORDS,
-    BEFORE_NOUNS,
-    OTHER_VERBS,
-    VERB_WORDS,
+from etot_cli.reasoning.language.grammar.remarks import (
+    BEFORE_NAMES,
+    PEOPLE,
+    IsName,
+    asks_besides,
+    is_comment,
+    is_doing,
+    is_of_people,
+    is_purpose,
+    is_reason,
+    is_remark,
+    is_warning,
+    told_of_thing,
 )
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, word_set
+from etot_cli.reasoning.language.grammar.text import COLON, COMMA, sentences_of, spaced, words_in
+from etot_cli.reasoning.language.words.known import ALL_WORDS
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.small_words import ANY_ONE, TIDYING, WITHOUT_MEANING
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
-MOST = 3
+MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
-_BECAUSE = r"because|since|as(?! (?:soon|long|far|well|much|if)\b)|now that"
-_LEADING = re.compile(
-    rf"^(?:{_BECAUSE}|while(?= (?:i|we|my|our)\b)) (?P<said>[^~]+) {COMMA} (?:so )?(?P<rest>.+)$"
+_WITHIN = re.compile(
+    r"(?P<reason>because|since|now that|although|even though|in case"
+    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
+    rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
+    rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
+    r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
+    r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
+    r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
+    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time))\b"
 )
-_TRAILING = re.compile(
-    rf"^(?P<rest>.+?) (?:{COMMA} )?(?P<said>(?:because|since|now that|in case|before) [^~]+"
-    r"|so (?:that )?(?:i|we) (?:can|could|may) [^~]+"
-    r"|so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
-    r"|so (?:that )?nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
-    r"|for (?:later|(?!\w*thing)\w+ing|(?:lunch|dinner|tea|play|bed)\w* ?time))$"
+"""Words that a clause begins with wherever they stand."""
+_AHEAD = re.compile(
+    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are)\b)|though)\b"
+    r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
+    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
 )
-_THEREFORE = re.compile(
-    rf"^(?P<said>[^~]+?) (?:(?:{COMMA} )?(?:and |that is )?(?:so|therefore|hence|why)|{COMMA}) "
-    r"(?P<rest>.+)$"
+"""Words that one begins with behind a comma, or as the first of a sentence."""
+_PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
+_LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
+SAYS_NOTHING = frozenset(
+    said.removeprefix(f"{COMMA} ") for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}")
 )
-_PEOPLE = (
-    r"(?:i|we|you|he|she|somebody|someone|everybody|everyone"
-    r"|(?:(?:my|our|your|his|her|the) )(?:kids?|children|guests?|visitors?|boss|sister|brother|"
-    r"mother|mom|mum|father|dad|wife|husband|friends?|colleagues?|students?|neighbou?rs?|team|cat|"
-    r"dog|baby|family))"
-)
-_PERSON = re.compile(
-    rf"^(?:but |and )?{_PEOPLE} (?:just |already |also |really |always )*(?P<did>.+)$"
-)
-_HAPPENED = re.compile(
-    r"^(?:can not (?:reach|see|find|get at|get to)|do not need)\b"
-    r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
-    r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
-    r"found|got|did|went|came|ate|drank|saw|spilt|felt|will (?:be|need)|hope|think|know|"
-    r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
-)
-"""What somebody did, is or is about to do."""
-_ASKING = word_set(
-    "want wants need needs wanted needed wish like prefer should must shall would could may let "
-    "go goes belong belongs hoping wondering please not never no none nothing without if "
-    "unless when until instead except only"
-)
-_DOING = {
-    verb
-    for verb in VERB_WORDS
-    if VERB_WORDS & {f"{verb}ing", f"{verb[:-1]}ing", f"{verb}{verb[-1]}ing"}
-} | {"open", "shut", "empty"}
-"""What the robot could be asked to do."""
-_ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
-_OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
-_TOO = re.compile(r"^(?:the|my|your|our) [^~]+ (?:is|are) (?:far |much )?too \w+")
-_IN_GENERAL = re.compile(
-    r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
-)
-_REFERRING = word_set(
-    "it they them this that these those one ones two three other others another rest everything "
-    "anything all both each every any same here there first last which"
-)
-"""They may speak of what was asked for ("one of them is enough")."""
+"""Sentences and clauses that ask for nothing."""
+IsSentence = Callable[[str], bool]
+"""Whether the grammar reads a sentence."""
+_PRONOUNS = word_set("it they them that this those these")
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,81 +70,215 @@ class Plain:
     asides: tuple[str, ...]
 
 
-def without_asides(
-    text: str, is_name: Callable[[str], bool], is_sentence: Callable[[str], bool]
-) -> Plain | None:
-    """An instruction with every aside replaced by what it names; None where there is none.
+@dataclass(frozen=True, slots=True)
+class _Clause:
+    """A piece of a sentence.
+
+    ``comma``: one stands before it. ``joint``: what it begins with, of some ``kind``.
+    """
+
+    comma: bool
+    kind: str
+    joint: str
+    said: str
+
+    @property
+    def text(self) -> str:
+        """As it stands."""
+        return " ".join(filter(None, (COMMA * self.comma, self.joint, self.said)))
+
+    @property
+    def is_polite(self) -> bool:
+        """Whether there is nothing to be told in it."""
+        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in SAYS_NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class _Parted:
+    """A sentence: what is left of it, and the asides before and behind that."""
+
+    rest: str
+    before: tuple[_Clause, ...] = ()
+    after: tuple[_Clause, ...] = ()
+
+    @property
+    def asides(self) -> tuple[_Clause, ...]:
+        """Those that tell something."""
+        return tuple(item for item in (*self.before, *self.after) if not item.is_polite)
+
+
+def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain | None:
+    """An instruction with every aside replaced by what it names.
+
+    None where there is none, and where the rest may speak of something that only an aside names and
+    the scene does not have.
 
     Args:
         text: normalized.
         is_name: whether something in the scene is called by a word.
         is_sentence: whether the grammar reads a sentence as it stands; what it reads stays whole.
     """
-    kept: list[str] = []
-    asides: list[str] = []
-    for sentence in sentences_of(text):
-        before, rest, after = _parted(" ".join(words_in(sentence)).replace(COLON, COMMA), is_name)
-        # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
-        outside = after.startswith("for ") or not (rest or _PERSON.match(sentence))
-        if is_sentence(sentence) and not outside:
-            kept.append(sentence)
-            continue
-        asides += [spaced(said.split()) for said in (before, after) if said]
-        kept += [_named(before, is_name), rest, _named(after, is_name)]
-    if not 0 < len(asides) <= MOST or not any(kept):
+    parted = [_parted(sentence, is_name, is_sentence) for sentence in sentences_of(text)]
+    rest = [part.rest for part in parted if part.rest]
+    asides = [aside for part in parted for aside in part.asides]
+    cut = any(part.before or part.after for part in parted)
+    if not cut or not rest or len(asides) > MOST or _mistakable(parted, is_name):
         return None
-    return Plain(". ".join(part.replace(f" {COMMA}", ",") for part in kept if part), tuple(asides))
+    topics = [told_of_thing(item.said, is_name) for item in asides if item.kind in ("", "plain")]
+    if not _are_spoken_of(topics, rest):
+        return None
+    kept = (
+        said
+        for part in parted
+        for said in (_named(part.before, is_name), part.rest, _named(part.after, is_name))
+    )
+    return Plain(
+        ". ".join(said.replace(f" {COMMA}", ",") for said in kept if said),
+        tuple(_as_told(item, part) for part in parted for item in part.asides),
+    )
 
 
-def _parted(sentence: str, is_name: Callable[[str], bool]) -> tuple[str, str, str]:
-    """The aside before a sentence, the sentence, and the aside behind it."""
-    before, after = "", ""
-    found = _LEADING.match(sentence)
-    if not found and (therefore := _THEREFORE.match(sentence)):
-        found = therefore if _tells(therefore["said"], is_name) else None
-    if found:
-        before, sentence = found["said"], found["rest"]
-    elif _tells(sentence, is_name):
-        return sentence, "", ""
-    if found := _TRAILING.match(sentence):
-        named = any(map(is_name, found["said"].split()))
-        asked = _ASKED.search(found["said"])
-        if not asked and not (named and found["said"].startswith(("before", "for"))):
-            sentence, after = found["rest"], found["said"]
-    elif _tells((last := sentence.rpartition(f" {COMMA} "))[2], is_name):
-        sentence, after = last[0], last[2]
-    return before, sentence, after
+def _as_told(aside: _Clause, part: _Parted) -> str:
+    """An aside, with the word for why where it stands behind a request."""
+    whole = aside.kind != "plain" and aside in part.after
+    return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
 
 
-def _tells(said: str, is_name: Callable[[str], bool]) -> bool:
-    """Whether this tells what somebody did, or how things outside of the scene are."""
-    words = said.split()
-    person = _PERSON.match(said)
-    if person:
-        happened = _HAPPENED.match(person["did"])
-        if happened is None:
+def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
+    """A sentence and its asides."""
+    clauses = list(_clauses(" ".join(words_in(sentence)).replace(COLON, COMMA)))
+    cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
+    # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
+    outside = len(cut) == len(clauses) and not is_of_people(sentence)
+    forced = outside or any(_is_no_phrase(clauses[at], is_name) for at in cut)
+    if not cut or (is_sentence(sentence) and not forced):
+        return _Parted(sentence)
+    left = [at for at in range(len(clauses)) if at not in cut]
+    rest = " ".join(clauses[at].text for at in left)
+    while led := _LEADING.match(rest):
+        rest = rest[led.end() :]
+    first = left[0] if left else len(clauses)
+    return _Parted(
+        rest,
+        tuple(clauses[at] for at in cut if at < first),
+        tuple(clauses[at] for at in cut if at > first),
+    )
+
+
+def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
+    """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
+    "seed box leaks".
+    """
+    words = () if not told_of_thing(aside.said, is_name) else aside.said.split()
+    strange = any(word not in ALL_WORDS and not is_name(word) for word in words)
+    return aside.is_polite or aside.kind == "benefit" or strange
+
+
+def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
+    """Whether a pronoun may mean what only an aside before it names."""
+    stranger = False
+    for part in parted:
+        stranger = stranger or any(_names_stranger(item.said, is_name) for item in part.asides)
+        if part.rest:
+            if stranger and _refers_back(part.rest.split(), is_name):
+                return True
+            stranger = False
+    return False
+
+
+def _are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bool:
+    """Whether what is told of things may be why something is asked of them; else it may ask for
+    something itself ("the shears are forbidden").
+    """
+    words = {word for said in rest for word in said.replace(",", "").split()}
+    referring = _PRONOUNS | {"either", "one", "both"}
+    return all(
+        (referring | {*topic[-1:]}) & words or topic[-1] in DESK_NOUNS for topic in topics if topic
+    )
+
+
+def _clauses(sentence: str) -> Iterator[_Clause]:
+    """The pieces of a sentence."""
+    words = sentence.split()
+    comma, kind, joint, said = False, "", "", list[str]()
+    at = 0
+    while at < len(words):
+        mark = words[at] == COMMA
+        ahead = " ".join(words[at + mark :])
+        begun = mark or at == 0
+        found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
+        if (mark or found) and (said or joint):
+            yield _Clause(comma, kind, joint, " ".join(said))
+            comma, kind, joint, said = mark, "", "", []
+        if found:
+            kind, joint = str(found.lastgroup), found[0]
+            at += mark + len(joint.split())
+        else:
+            said += [] if mark else [words[at]]
+            at += 1
+    yield _Clause(comma, kind, joint, " ".join(said))
+
+
+def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
+    """Whether one of a sentence's clauses asks for nothing."""
+    clause = clauses[at]
+    last = at + 1 == len(clauses) or is_doing((clauses[at + 1].said.split() or [""])[0])
+    trailing = at > 0 and last and not asks_besides(clause.said)
+    if clause.joint == "where" and not last:
+        trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
+    if clause.is_polite and len(clauses) > 1:
+        return not clause.said or clause.kind != "polite"
+    match clause.kind, clause.joint:
+        case _ if not clause.said:
             return False
-        did = person["did"].removeprefix(happened[0]).split()
-        if happened[0].endswith(" to "):
-            return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
-        jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
-        return not ((_DOING | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
-    outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
-    told = _TOO.sub("", said).split()  # "too close" is no "close"
-    asking = (_DOING | _ASKING | _REFERRING) & {*told}
-    return bool(_IN_GENERAL.match(said) or (outside and not asking))
+        case (("reason" | "meanwhile"), _):
+            reason = is_reason(clause.said, is_name)
+            return reason and (trailing or (at == 0 and clauses[1:] != []))
+        case "benefit", _:
+            return trailing and not any(map(is_name, clause.said.split()))
+        case "purpose", "before":
+            return trailing and not any(map(is_name, clause.said.split()))
+        case "purpose", ("so" | "so that" | "where"):
+            where = clause.joint == "where"
+            return trailing and is_purpose(clause.said, is_name, where=where)
+        case "purpose", _:
+            return trailing and is_warning(clause.said)
+        case "comment", _:
+            return clause.comma and is_comment(clause.said, is_name)
+    return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
 
-def _named(said: str, is_name: Callable[[str], bool]) -> str:
-    """What an aside names in the scene, as a remark."""
-    words: Sequence[str] = said.split()
-    phrases: list[str] = []
+def _named(asides: Sequence[_Clause], is_name: IsName) -> str:
+    """What asides name in the scene, as a remark."""
+    phrases = [phrase for aside in asides for phrase in _phrases(aside.said.split(), is_name)]
+    return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
+
+
+def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
+    """Phrases that name something in the scene."""
     for at, word in enumerate(words):
-        if (word,) in BEFORE_NOUNS:
+        if word in BEFORE_NAMES:
             end = last = at + 1
             while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
                 end += 1
                 last = end if is_name(words[end - 1]) else last
             if last > at + 1:
-                phrases.append(" ".join(words[at:last]))
-    return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
+                owner = "the" if word in ("his", "her", "their") else word
+                yield " ".join((owner, *words[at + 1 : last]))
+
+
+def _names_stranger(said: str, is_name: IsName) -> bool:
+    """Whether something is named that the scene does not have, and no person."""
+    words = said.split()
+    return any(
+        word in BEFORE_NAMES
+        and words[at + 1] not in ALL_WORDS
+        and not any(map(is_name, words[at + 1 : at + 4]))
+        and not re.match(rf"{PEOPLE}\b", " ".join(words[at:]))
+        for at, word in enumerate(words[:-1])
+    )
+
+
+def _refers_back(words: Sequence[str], is_name: IsName) -> bool:
+    """Whether a pronoun comes before anything that is named."""
+    return next((word in _PRONOUNS for word in words if word in _PRONOUNS or is_name(word)), False)

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
+from etot_cli.reasoning.language.grammar.asides import SAYS_NOTHING
 from etot_cli.reasoning.language.grammar.input import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.spelling import (
@@ -27,11 +28,7 @@ from etot_cli.reasoning.language.grammar.text import (
 from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.lexicon import singular
-from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import ANY_ONE, TIDYING, WITHOUT_MEANING
 
-_POLITE = frozenset(spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}"))
-"""Sentences that ask for nothing."""
 SHOWN_WORDS = 4
 MAX_READINGS = 200
 """Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
@@ -108,7 +105,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
-        if part in _POLITE and len(parts) > 1:
+        if part in SAYS_NOTHING and len(parts) > 1:
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []

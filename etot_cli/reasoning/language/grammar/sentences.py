@@ -60,7 +60,6 @@ from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
     NAMED,
     SAID,
-    STRANGE,
     about,
     all_put,
     each_sorted,
@@ -240,9 +239,6 @@ _WITH_MORE_BEFORE_IT = either(
         build=about,
     ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
-    sequence(
-        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason
-    ),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(

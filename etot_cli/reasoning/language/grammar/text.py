@@ -8,7 +8,14 @@ from collections.abc import Sequence
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, SIDES, SIZES, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    SIZES,
+    is_descriptive,
+    word_set,
+)
 from etot_cli.reasoning.language.words.patterns import spellings
 
 MAX_CHARACTERS = 2000
@@ -31,13 +38,11 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
-_UH = r"(?:,\s*|\s+)(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+"
-_FILLER = re.compile(
-    rf"(?:(?<=\bthe)|(?<=\bin)|(?<=\bon)|(?<=\bto)){_UH}"
-    rf"|{_UH}(?=(?:in|on|into|onto|to|and|from|inside|next|then)\b)",
+_UH = re.compile(
+    r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
     re.IGNORECASE,
 )
-"""Where nothing may be put right by it ("the apple, er, banana")."""
+_GOES_ON = word_set("in on into onto to and from inside next then")
 _WELL = re.compile(
     r"(^|[.!?;\n]\s*)(?:"
     r"right(?: then| so)?,\s*"
@@ -64,7 +69,7 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
-    r"(?:going|on|in|inside|too|not|now|still|already)\b"
+    r"(?:going|on|in|inside|too|not|now|still|already|less|more|so|much)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
     r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine)"
     r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
@@ -79,13 +84,24 @@ _ALL_DONE = re.compile(
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _CLITICS = (
+    # As people type who leave apostrophes out; "its" and "ill" are words of their own.
+    (r"\b(that|there|what|where|who)s\b", r"\1's"),
+    (rf"\bits (?={_STATES})|\bits (?=a\b|the\b)", "it's "),
+    (r"\b(do|does|did|is|are|was|has|have|should|could|would|must|need)nt\b", r"\1n't"),
+    (r"\b(can|won)t\b", r"\1't"),
+    (r"\b(i)(m|ve)\b", r"\1'\2"),
+    (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
+    (r"\bu\b", "you"),
+    (r"(?<=\w) \+ (?=\w)", " and "),
+    (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= been\b)", " has"),
     (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),
-    (r"\b(is|are|should|must|would|could|need)n't\b", r"\1 not"),
+    (r"\bdidn't\b", "did not"),
+    (r"\b(is|are|was|has|have|should|must|would|could|need)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"\b(i|it)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
@@ -101,7 +117,7 @@ _CLITICS = (
 
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
-    text = _FILLER.sub(" ", text)
+    text = _UH.sub(_without_uh, text)
     text = _WELL.sub(r"\1", _listed(_NEW_LINE.sub("\n ", text).casefold().strip()))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
@@ -162,6 +178,18 @@ def normalized(text: str) -> str:
     text = text.replace(":", " : ")
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
+
+
+def _without_uh(found: re.Match[str]) -> str:
+    """Words without what fills a gap between them, where nothing may be put right by it (as in "the
+    apple, er, banana").
+    """
+    before, after = found["before"].casefold(), found["after"].casefold()
+    waits = before in ("the", "in", "on", "to") or after in _GOES_ON
+    told = is_descriptive(before) and is_descriptive(after)
+    return (
+        f"{found['before']} {found['after']}" if waits or not (found["comma"] or told) else found[0]
+    )
 
 
 def _counted(text: str) -> str:

@@ -6,17 +6,13 @@ from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
-from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
-    optional,
     sequence,
     silent,
-    some,
     spanned,
-    word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
@@ -30,10 +26,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
-    LEVELS,
     is_descriptive,
     singular,
 )
@@ -48,12 +41,6 @@ def _topic(things: Things) -> ReorientClause | None:
 def sources(things: Things) -> list[Modifier]:
     """What says of a thing where it is taken from."""
     return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
-
-
-def _is_unknown(given: Input, text: str) -> bool:
-    """Whether a word is neither the grammar's nor one of something in the scene."""
-    told = is_descriptive(text) or text in LEVELS or text in COMMON_NOUNS
-    return not (told or text in ALL_WORDS or text in given.nouns or not text.isalpha())
 
 
 _STATED = either(
@@ -79,17 +66,6 @@ _REMARK = either(
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
 )
-STRANGE = spanned(
-    sequence(
-        ALL_THINGS,
-        silent(optional("(is|are|has|have) [been|all|badly]")),
-        silent(some(word(_is_unknown), least=1, most=4)),
-        silent(optional("over, off, down, up, out, apart")),
-        silent(optional("today, tonight, tomorrow, now, this (morning|afternoon|evening|week)")),
-    ),
-    lambda said, things: ReorientClause(things, only_named=True, remark=said),
-)
-"""Before what is to be done with it ("the stopper is cracked, so bin it")."""
 _ALREADY = sequence(
     noun_phrase,
     "is already, are already, 's already",

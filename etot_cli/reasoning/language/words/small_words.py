@@ -26,7 +26,10 @@ WITHOUT_MEANING = """
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
-    that would be (great|nice|lovely|perfect|all), (much|very much) appreciated
+    that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
+    ~comma (my dear|my friend|dear|love|darling|honey|sweetie|sweetheart|friend|dude|man|bro),
+    ~comma (sir|madam|folks),
+    (it is|that is) up to you, [it is] your choice, you (choose|decide|pick)
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -40,8 +43,9 @@ TASK = """
     [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
 """
 FRAMES = f"""
-    robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
-    great, um,
+    [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
+    great, um, [my] dear ~comma, now then, come on,
+    (i|we) (think|believe|guess|suppose|feel|reckon) [that],
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
@@ -140,7 +144,10 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
-AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
+AFTER = """
+    [but] [only] (once|[right|straight|directly|immediately|just] after|when|as soon as)
+    [you have|having|you]
+"""
 GONE = """
     (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
     (is|are) (put|set|laid) down

@@ -1,0 +1,198 @@
+"""Whether a clause only tells something: what people did, how things are, what something is for.
+
+A clause is taken for a request wherever it may be one: where it says what should be, what stays or
+goes, where something is, or what tells one thing from another.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.known import ALL_WORDS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    STATES,
+    THING_NOUNS,
+    is_descriptive,
+    word_set,
+)
+
+IsName = Callable[[str], bool]
+"""Whether something in the scene is called by a word."""
+_RELATIONS = (
+    "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|"
+    "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
+    "patients?|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher"
+)
+PEOPLE = (
+    rf"(?:i|we|you|he|she|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
+    rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?))"
+)
+_PERSON = re.compile(
+    rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often )*(?P<did>.+)$"
+)
+_HAPPENED = re.compile(
+    r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)|do not need)\b"
+    r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
+    r"|^will [^~]* (?:myself|ourselves)$"
+    r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
+    r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
+    r"found|got|did|went|came|ate|drank|saw|spilt|felt|will (?:be|need)|hope|think|know|"
+    r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
+)
+"""What somebody did, is or is about to do."""
+_ASKING = word_set(
+    """
+    want wants need needs wanted needed wish like prefer should must shall would could may let ought
+    go goes belong belongs hoping wondering please not never no none nothing without if
+    unless when until instead except only
+    """
+)
+_CHANGING = word_set(
+    """
+    stay stays remain remains live lives come comes join joins move moves leave leaves open opens
+    close closes shut shuts swap swaps switch switches return returns replace replaces change
+    changes fit fits follow follows end ends better to by than
+    """
+)
+"""What a thing does that somebody asks for, and words before such things."""
+_DOING = {
+    verb
+    for verb in VERB_WORDS
+    if VERB_WORDS & {f"{verb}ing", f"{verb[:-1]}ing", f"{verb}{verb[-1]}ing"}
+} | {"open", "shut", "empty"}
+"""What the robot could be asked to do."""
+_WORK = _DOING - {"clean", "tidy"}
+"""Those that say nothing else of a thing."""
+_ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
+_OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
+_TOO = re.compile(r"^(?:the|my|your|our) [^~]+ (?:is|are) (?:far |much )?too \w+")
+_IN_GENERAL = re.compile(
+    r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
+)
+_REFERRING = word_set(
+    "it they them this that these those one ones two three other others another rest everything "
+    "anything all both each every any same here there first last which"
+)
+"""They may speak of what was asked for ("one of them is enough")."""
+BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
+_PREDICATE = re.compile(
+    r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
+    r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|\w+[^s]s|\w+ed)"
+    r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
+    r"(?= |$)"
+)
+_TELLING = (
+    word_set("full free clear ready") | set(STATES) | set(LEVELS) | set(SIDES) | set(NUMBERS)
+    | set(THING_NOUNS) | _REFERRING
+)  # fmt: skip
+"""They tell one thing from another, or say how one is to be."""
+_SO_PEOPLE = re.compile(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
+_SO_NOTHING = re.compile(
+    r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
+    r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
+    r"|(?:nobody|no one) [^~]+"
+    r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
+    r"|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
+)
+_OR_WILL = re.compile(rf"^(?:{PEOPLE}|it|they) (?:will|would|might|may|could)\b")
+_COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
+
+
+def is_doing(word: str) -> bool:
+    """Whether a word says what the robot could be asked to do."""
+    return word in _DOING
+
+
+def asks_besides(said: str) -> bool:
+    """Whether something is asked for behind what is told ("because I need it and put it …")."""
+    return bool(_ASKED.search(said))
+
+
+def is_of_people(said: str) -> bool:
+    """Whether a clause is about somebody."""
+    return bool(_PERSON.match(said))
+
+
+def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
+    """Whether this tells what is to be gained, behind "so" ("I can see it") or ``where``."""
+    named = any(map(is_name, said.split()))
+    if where:
+        return bool(_SO_PEOPLE.match(said)) and not named
+    if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
+        return True
+    told_of = told_of_thing(said, is_name)
+    return bool(told_of and re.search(r" (?:is|are|looks?|seems?|feels?) ", said))
+
+
+def is_warning(said: str) -> bool:
+    """Whether this tells, behind "or", what else would happen ("it will fall")."""
+    return bool(_OR_WILL.match(said)) and not _DOING & {*said.split()}
+
+
+def is_comment(said: str, is_name: IsName) -> bool:
+    """Whether a relative clause behind a comma tells nothing apart ("which is fragile")."""
+    return bool(_COMMENT.match(said)) and _is_idle(said, is_name)
+
+
+def is_reason(said: str, is_name: IsName) -> bool:
+    """Whether this may stand behind "because" and asks for nothing itself."""
+    words = {*said.split()}
+    if not is_of_people(said):
+        return not (_ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
+    wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
+    placed = {"in", "on", "into", "onto", "at", "next", "beside", "near", "off", "out"} & words
+    return not (wanted and placed and any(map(is_name, words)))
+
+
+def is_remark(said: str, is_name: IsName) -> bool:
+    """Whether this tells what somebody did, or how things outside of the scene are."""
+    words = said.split()
+    person = _PERSON.match(said)
+    if asks_besides(said):
+        return False
+    if person:
+        happened = _HAPPENED.match(person["did"])
+        if happened is None:
+            return False
+        did = person["did"].removeprefix(happened[0]).split()
+        if happened[0].endswith(" to "):
+            return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
+        jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
+        return not ((_WORK | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
+    outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
+    told = _TOO.sub("", said).split()  # "too close" is no "close"
+    asking = (_WORK | _ASKING | _REFERRING) & {*told}
+    return bool(_IN_GENERAL.match(said) or (outside and not asking))
+
+
+def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
+    """The words for something in the scene of which this tells what places nothing, singles nothing
+    out and speaks of nothing else; none where it does not.
+    """
+    words = said.split() or [""]
+    end = 1
+    while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
+        end += 1
+    if words[0] not in BEFORE_NAMES or end == 1 or not is_name(words[end - 1]):
+        return ()
+    return tuple(words[1:end]) if _is_idle(" ".join(words[end:]), is_name) else ()
+
+
+def _is_idle(predicate: str, is_name: IsName) -> bool:
+    """Whether a predicate is such a one."""
+    found = _PREDICATE.match(predicate)
+    if not found:
+        return False
+    verb, *_ = found[0].split()
+    more = {*predicate[found.end() :].split()}
+    stems = {verb, *(verb.removesuffix(ending) for ending in ("s", "es", "d", "ed"))}
+    asking = (_ASKING | _CHANGING | _WORK) - {"not"}
+    if asking & more or (asking - {"get", "keep"}) & stems or _TELLING & more:
+        return False
+    if any(is_name(word) or is_descriptive(word) for word in more):
+        return False
+    return bool(more) or verb not in ALL_WORDS
