@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from etot_cli.reasoning.builtin.goal import Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -93,13 +93,18 @@ class Timed:
     sentence: int
 
 
-def continued(item: Timed, after: Timed) -> Timed | None:
-    """What is taken away and then put somewhere, as one ("first take the cup out and put it …")."""
-    taken, put = ([s for s in t.steps if isinstance(s, Put)] for t in (item, after))
-    one = [s.what for s in taken if s.removal] == [s.what for s in put] != []
-    further = after.order is Order.SAID and after.sentence == item.sentence
-    led = item.order in (Order.FIRST, Order.BEFORE_THAT)
-    return replace(item, steps=(*item.steps, *after.steps)) if one and further and led else None
+def continues(item: Timed, after: Timed) -> bool:
+    """Whether what one clause takes, the clause behind it puts somewhere ("first take the cup and put
+    it …"): both are done when the first one is.
+    """
+    taken = [
+        (step.what,) if isinstance(step, Pick) else step.what
+        for step in item.steps
+        if isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
+    ]
+    put = [step.what for step in after.steps if isinstance(step, Put) and not step.removal]
+    further = after.order in (Order.SAID, Order.THEN) and after.sentence == item.sentence
+    return taken == put != [] and further
 
 
 def in_order(said: Sequence[Timed]) -> list[Step]:

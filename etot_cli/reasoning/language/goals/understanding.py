@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import (
@@ -18,7 +19,7 @@ from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.turns import Timed, continued, in_order
+from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
@@ -72,18 +73,20 @@ class Understanding:
     def read(self, reading: Sequence[Spoken]) -> None:
         """Reads the clauses in the order they are said, and notes when each is to be done."""
         self.sentence += 1
-        steps = {}
+        timed: dict[int, Timed] = {}
+        before: int | None = None
         for spoken in sorted(reading, key=lambda item: item.position):
             _check_instead(spoken, self.context.last)
-            steps[id(spoken)] = steps_of(spoken.clause, self.context)
+            steps = tuple(steps_of(spoken.clause, self.context))
             self.context.last = spoken.clause
-        check_opposites(self.context.discourse)
-        for spoken in reading:
-            item = Timed(tuple(steps[id(spoken)]), spoken.order, self.sentence)
-            if self.timed and (joined := continued(self.timed[-1], item)):
-                self.timed[-1] = joined
+            item = Timed(steps, spoken.order, self.sentence)
+            if before is not None and continues(timed[before], item):
+                timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
-                self.timed.append(item)
+                before = id(spoken)
+                timed[before] = item
+        check_opposites(self.context.discourse)
+        self.timed += [timed[id(spoken)] for spoken in reading if id(spoken) in timed]
 
     def _narrowed(self, step: Step, after: Step | None) -> bool:
         """Whether the next step says more closely where things go ("carry it over to the bag and

@@ -65,7 +65,6 @@ from etot_cli.reasoning.language.grammar.topics import (
     each_sorted,
     for_a_reason,
     one_of_them,
-    set_down,
     shared_out,
     sources,
 )
@@ -249,14 +248,6 @@ _WITH_MORE_BEFORE_IT = either(
             ALL_THINGS,
             build=_placed_there,
         )
-    ),
-    sequence(
-        verbs.FETCH,
-        NAMED,
-        "over [here], here",
-        either(COMMA, "and, and then, then"),
-        CHAIN,
-        build=set_down,
     ),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

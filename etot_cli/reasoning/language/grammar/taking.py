@@ -86,9 +86,9 @@ PICK = sequence(
 )
 HAND_OVER = quiet(
     sequence(
-        "hand[ing], bring[ing], giv(e|ing), pass[ing]",
+        f"hand[ing], giv(e|ing), pass[ing], {verbs.FETCH}",
         THINGS,
-        phrase("[over] to me"),
+        either(phrase("[over] to me"), phrase("over [here], here", "")),
         build=lambda things, to: PickClause(things, to=to),
     )
 )

@@ -141,10 +141,3 @@ def all_put(topic: Reading, rest: Reading) -> Reading | None:
         np.pronoun == "them" for group in put.groups for np in group.things.phrases
     )
     return (*topic, *rest) if told else None
-
-
-def set_down(topic: Reading, rest: Reading) -> Reading | None:
-    """What is brought over is put where the next clause says ("bring it over and set it …")."""
-    put = rest[0].clause
-    taken_up = isinstance(put, PutClause) and put.groups[0].things.phrases[0].pronoun
-    return (*topic, *rest) if taken_up else None
