@@ -114,6 +114,16 @@ def check_poured(
             raise ReferenceProblem(phrase.text, why, 4, word=noun, candidates=packs)
 
 
+def check_contrasted(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+    """Whether "the cups on the plate, but not the red one" says of the plate which it is not."""
+    discourse = context.discourse
+    moved = {*discourse.things(*themes)}
+    for index in (place.where for place in places if place.where is not None):
+        if moved & {*discourse.left_out.get(index, ())}:
+            text = discourse.referents[index].text
+            raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
+
+
 def check_describes(
     context: Context,
     condition: State,

@@ -19,6 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
+    check_contrasted,
     check_describes,
     check_poured,
     check_swept,
@@ -131,6 +132,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
         places = not_beside(context, context.places.of(destinations, themes), ruled_out, themes)
+        check_contrasted(context, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each

@@ -64,12 +64,18 @@ from etot_cli.reasoning.language.grammar.taking import (
     SOURCE,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.places import Prep
 
 
 def _wanted_in_hand(things: Things) -> PickClause | None:
-    """Who wants something off the tray does not say that it is to be held."""
+    """Who wants something off the tray does not say that it is to be held, nor who wants all."""
     away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
-    return None if away else PickClause(things)
+    every = any(
+        {"all", "both", "each", "every"} & {*np.determiner.split()} for np in things.phrases
+    )
+    return None if away or every else PickClause(things)
 
 
 WANTED = either(
@@ -106,29 +112,37 @@ AGAIN = either(
 )
 
 
+def _is_one(np: NounPhrase) -> bool:
+    """Whether a phrase means one thing, of which nothing can be left out."""
+    several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
+    return np.determiner in ("the", "this", "that", "my") and not (several or is_category(np.head))
+
+
 def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:
     """A clause without some of the things that it is about ("…, except the blue one"), of those
     that its last phrase means, or that ``at`` an index.
     """
 
-    def without(things: Things) -> Things:
+    def without(things: Things) -> Things | None:
         phrases = [*things.phrases]
+        if left_out.prep is Prep.EXCEPT and not left_out.denied and _is_one(phrases[at]):
+            return None
         phrases[at] = phrases[at].told_by(left_out)
         return replace(things, phrases=tuple(phrases))
 
     match clause:
-        case PutClause(groups=(group,)):
-            return replace(clause, groups=(replace(group, things=without(group.things)),))
-        case EnsureClause(states=(state,)):
-            return EnsureClause((replace(state, subjects=without(Things(state.subjects)).phrases),))
+        case PutClause(groups=(group,)) if rest := without(group.things):
+            return replace(clause, groups=(replace(group, things=rest),))
+        case EnsureClause(states=(state,)) if rest := without(Things(state.subjects)):
+            return EnsureClause((replace(state, subjects=rest.phrases),))
         case (
             PickClause(things=things)
             | RemoveClause(things=things)
             | MoveClause(things=things)
             | TowerClause(things=things)
             | AgainClause(things=Things() as things)
-        ):
-            return replace(clause, things=without(things))
+        ) if rest := without(things):
+            return replace(clause, things=rest)
     return None
 
 

@@ -303,8 +303,15 @@ def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ..
     return None if nps is None or (both and len(nps) < 2) else nps
 
 
+def begins_like_a_verb(np: NounPhrase) -> bool:
+    """Whether a phrase may be a clause: "open right drawer" behind "close left drawer and" is."""
+    return not np.determiner and len(np.words) > 1 and np.words[0] in ("open", "shut", "empty")
+
+
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
     """Several phrases; in "the cup, the left one" no "and" says that there are two."""
+    if any(begins_like_a_verb(np) for _, np in more):
+        return None
     joined = any(said for said, _ in more)
     apposed = any(np.head == "one" for _, np in more)
     renamed = any(

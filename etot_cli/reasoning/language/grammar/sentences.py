@@ -22,7 +22,12 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST,
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import (
+    ALL_THINGS,
+    NP_LIST,
+    THINGS,
+    begins_like_a_verb,
+)
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -81,6 +86,11 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
     return AgainClause(None, destinations=where) if named else None
 
 
+def _once_more(things: Things) -> AgainClause | None:
+    """Of which the same is asked for as before."""
+    return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
+
+
 def _joint(name: str, *parts: Part) -> Parser:
     """What goes on a sentence, with a name for what joins it."""
     return sequence(*parts, build=lambda reading: (name, reading))
@@ -112,7 +122,7 @@ _JOINED = either(
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=AgainClause), VERBLESS)),
+        plain(either(sequence(THINGS, build=_once_more), VERBLESS)),
     ),
     _joint(
         "then",
@@ -314,7 +324,7 @@ SENTENCE = either(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(sequence(THINGS, build=AgainClause), Order.THEN),
+        plain(sequence(THINGS, build=_once_more), Order.THEN),
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)

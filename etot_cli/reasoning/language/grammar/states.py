@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
@@ -19,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
+    silent,
     some,
     valued,
 )
@@ -244,7 +247,7 @@ IF_NOT_SO = quiet(
 )
 """A sentence of its own: what follows it might be asked for in that case only."""
 _EACH = phrase("each, both, all")
-_TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
+_TO_BE = f"to (be|end up|go|stand|sit|lie), {verbs.DONE}"
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
 
 
@@ -252,6 +255,14 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     """What "arrange everything so that …" asks for stands behind it."""
     vague = np.head in DESK_NOUNS or matches_any(np.head, THING_NOUNS)
     return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
+
+
+def _all_so(
+    cost: int, nps: tuple[NounPhrase, ...], predicate: Any, more: Sequence[State | None]
+) -> EnsureClause | None:
+    """How things are to be; "I want the plate on the right" is rather about the plate there."""
+    said = _ensured(state_of(nps, predicate), *more)
+    return None if said is None else replace(said, far_fetched=cost)
 
 
 ENSURE = either(
@@ -277,7 +288,7 @@ ENSURE = either(
         sequence(
             either(
                 sequence(NP_LIST, verbs.NOT_BE),
-                sequence("(i|we) do not want", NP_LIST, _TO_BE),
+                sequence("(i|we) do not want", NP_LIST, optional(_TO_BE)),
                 sequence(
                     "neither",
                     separated(noun_phrase, "nor"),
@@ -334,13 +345,14 @@ ENSURE = either(
             PREDICATE,
             # "…, the ball in the cup": the verb is left out.
             some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
-            build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
+            build=partial(_all_so, cost),
         )
-        for said in (
-            (NP_LIST, verbs.MODAL),
-            (verbs.WANTED, NP_LIST, _TO_BE),
-            (verbs.CAN, NP_LIST, verbs.BE_PUT),
-            ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
+        for cost, said in (
+            (0, (NP_LIST, verbs.MODAL)),
+            (0, (verbs.WANTED, NP_LIST, silent(phrase(_TO_BE)))),
+            (1, (verbs.WANTED, NP_LIST)),
+            (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
+            (0, ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST)),
         )
     ),
 )

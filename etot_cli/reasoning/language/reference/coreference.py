@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -66,6 +67,13 @@ def meant_by_it(
         AmbiguousReference: several things are as likely to be meant.
         ReferenceProblem: nothing before it fits.
     """
+    if role in (Role.SURFACE, Role.CONTAINER, Role.PLACE):
+        # "Close the box after putting the cup beside the tray in it": not in the tray.
+        told_by = {*_telling(discourse)} - {*excluded}
+        if told_by:
+            with suppress(ReferenceProblem):
+                excluded_too = (*excluded, *told_by)
+                return meant_by_it(discourse, role, text, excluded_too, topmost=topmost)
     for clause in _clauses(discourse):
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]
@@ -114,6 +122,14 @@ def meant_by_it(
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _telling(discourse: Discourse) -> Iterator[int]:
+    """What the clause that is being read has only named to tell other things by."""
+    own = {m.referent: m.role for m in discourse.mentions if m.clause == discourse.clause}
+    before = {m.referent for m in discourse.mentions if m.clause != discourse.clause}
+    before |= {*_beside(discourse)}
+    yield from (i for i, said in own.items() if said is Role.ANY and i not in before)
 
 
 def _is_part(discourse: Discourse, referents: Sequence[int]) -> bool:
@@ -296,10 +312,12 @@ def _acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> 
 def latest_place(
     discourse: Discourse, relation: Relation, excluded: Sequence[int], text: str
 ) -> Place:
-    """What "inside" or "on top" without an object means.
+    """What "inside" or "on top" without an object means: nothing that but tells what is put there
+    ("the jar closest to the cart").
 
     Raises:
         ReferenceProblem: nothing before it fits, or several things do.
     """
     role = Role.CONTAINER if relation is Relation.INSIDE else Role.SURFACE
-    return Place(relation, meant_by_it(discourse, role, text, excluded))
+    told_by = _telling(discourse)
+    return Place(relation, meant_by_it(discourse, role, text, (*excluded, *told_by)))

@@ -165,9 +165,10 @@ class Phrases(Referents):
             self._check_alike(phrase, alike, role, f"{phrase.text}{end}")
 
     def _check_alike(self, phrase: NounPhrase, alike: NounPhrase, role: Role, text: str) -> None:
-        """Whether a phrase means the same with the words that another one has."""
+        """Whether a phrase means the same with the words that another one has, if it needs any."""
         ways = [self._options([item], role) for item in (alike, phrase)]
-        if all(ways):
+        told = phrase.words[:-1] and [len(option) for option in ways[1]] == [1]
+        if all(ways) and not (told and alike.modifiers):
             self._check_same(phrase.text, ways, f"{text!r} may be meant, too:")
 
     def _check_same(
