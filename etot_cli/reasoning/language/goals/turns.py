@@ -94,8 +94,8 @@ class Timed:
 
 
 def continues(item: Timed, after: Timed) -> bool:
-    """Whether what one clause takes, the one behind it puts somewhere ("first take the cup and put it
-    …"): both are done when the first one is.
+    """Whether what one clause takes, the one behind it puts somewhere ("first take the cup and put
+    it …"): both are done when the first one is.
     """
     taken = [
         (step.what,) if isinstance(step, Pick) else step.what

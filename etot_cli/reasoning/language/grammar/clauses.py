@@ -72,9 +72,8 @@ from etot_cli.reasoning.language.words.places import Prep
 def _wanted_in_hand(things: Things) -> PickClause | None:
     """Who wants something off the tray does not say that it is to be held, nor who wants all."""
     away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
-    every = any(
-        {"all", "both", "each", "every"} & {*np.determiner.split()} for np in things.phrases
-    )
+    said = {word for np in things.phrases for word in np.determiner.split()}
+    every = {"all", "both", "each", "every"} & said
     return None if away or every else PickClause(things)
 
 
@@ -115,7 +114,9 @@ AGAIN = either(
 def _is_one(np: NounPhrase) -> bool:
     """Whether a phrase means one thing, of which nothing can be left out."""
     several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
-    return np.determiner in ("the", "this", "that", "my") and not (several or is_category(np.head))
+    return np.determiner in ("", "the", "this", "that", "my") and not (
+        several or is_category(np.head)
+    )
 
 
 def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
@@ -53,6 +54,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     matches_any,
     singular,
+    word_set,
 )
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -73,8 +75,14 @@ ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
 
 
+_NEAREST = word_set("nearest closest farthest furthest")
+
+
 def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhrase | None:
     """A noun; "one" alone is a number, and no noun after another one ("the cups one …")."""
+    for before, said in pairwise(words):
+        if said in _NEAREST and not (is_descriptive(before) or before in ORDINALS):
+            return None  # "cup nearest shelf"
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)

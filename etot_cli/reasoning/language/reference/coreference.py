@@ -111,6 +111,13 @@ def meant_by_it(
         else:
             # One of several things that were acted on together is not "it".
             found = places or acted_on or landmarks
+            if role is not Role.THEME and found == landmarks != ():
+                # What was opened before, rather than what but tells which jar goes in there.
+                earlier = _earlier(discourse, clause, role, excluded)
+                if not {*landmarks} & {*_beside(discourse)}:
+                    found = earlier or found
+                else:
+                    found = (*found, *earlier)
             if role is Role.THEME and found == landmarks:
                 # "Take everything off the tray and put it away": what stood there, or that.
                 found = (*_whatever(discourse, clause), *found)
@@ -122,6 +129,17 @@ def meant_by_it(
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _earlier(
+    discourse: Discourse, clause: int, role: Role, excluded: Sequence[int]
+) -> tuple[int, ...]:
+    """What the latest clause before one acted on, or where something went to there."""
+    for before in _clauses(discourse):
+        acted_on, places, _ = _mentioned_in(discourse, before, role, excluded)
+        if before < clause and (acted_on or places):
+            return acted_on or places
+    return ()
 
 
 def _telling(discourse: Discourse) -> Iterator[int]:
