@@ -128,9 +128,11 @@ def check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
     """Whether "the small one goes in last" speaks of what was put there by another clause."""
     put = [
         {
-            thing
+            (thing, there)
             for step in item.steps
             if isinstance(step, Put)
+            for place in step.places
+            for there in (discourse.things(place.where) if place.where is not None else (None,))
             for index in step.what
             for thing in discourse.things(index)
         }

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
 from etot_cli.reasoning.builtin.relations import parts_of
-from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import cover, reorient
@@ -30,6 +32,35 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
+from etot_cli.reasoning.language.words.places import Prep
+
+_RELATIVE_PLACE = re.compile(
+    r"\b(?:that|which) (?:is|are|stands?|sits?|lies?)"
+    r" (?:in|on|at|next|beside|near|behind|left|right)\b"
+    r"|\b(?:standing|lying|sitting|located|placed)\b"
+)
+"""It tells where a thing is, and not where it is to be."""
+_PLACES = frozenset(
+    {Prep.ON, Prep.IN, Prep.NEAR, Prep.NEXT_TO, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRONT,
+     Prep.BETWEEN, Prep.AREA, Prep.SIDE, Prep.WITH}
+)  # fmt: skip
+"""Behind a noun they tell where a thing is, or where it is to be."""
+
+
+def _check_told(context: Context, things: Things) -> None:
+    """Whether it takes a place to tell what is wanted; else that is where it is to be.
+
+    Raises:
+        ReferenceProblem: "the laptop in the middle" is the only one.
+    """
+    for np in things.phrases:
+        placed = any(item.prep in _PLACES for item in np.modifiers)
+        if placed and not _RELATIVE_PLACE.search(np.text):
+            options: tuple[tuple[Thing, ...], ...] = ()
+            with suppress(ReferenceProblem):
+                options = context.phrases.meaning(replace(np, modifiers=()), Role.THEME).options
+            if [len(option) for option in options] == [1]:
+                raise ReferenceProblem(np.text, "say whether it is to be held", 1)
 
 
 def steps_of(clause: Clause, context: Context) -> list[Step]:
@@ -43,6 +74,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
     match clause:
         case PickClause():
             poses = clause.poses or (None,)
+            if clause.wanted:
+                _check_told(context, clause.things)
             for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
                 context.steps.append(Pick(index, poses))
             if clause.to:

@@ -70,7 +70,8 @@ _FIXED = """
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
-    only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left
+    only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left,
+    not (before|until)
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")

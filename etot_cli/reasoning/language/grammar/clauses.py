@@ -74,7 +74,7 @@ def _wanted_in_hand(things: Things) -> PickClause | None:
     away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
     said = {word for np in things.phrases for word in np.determiner.split()}
     every = {"all", "both", "each", "every"} & said
-    return None if away or every else PickClause(things)
+    return None if away or every else PickClause(things, wanted=True)
 
 
 WANTED = either(
@@ -355,7 +355,7 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
-_SO_BY_THEN = either(
+SO_BY_THEN = either(
     sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
     sequence(
         ALL_THINGS,
@@ -396,6 +396,7 @@ _HAVING_DONE = either(
 )
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("[but] [only] (once|after|when|as soon as)", plain(_SO_BY_THEN)),
+    sequence("having", plain(_HAVING_DONE)),
+    sequence("[but] [only] (once|after|when|as soon as)", plain(SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

@@ -150,6 +150,7 @@ OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(
         ALL_THINGS,
         verbs.MODAL,

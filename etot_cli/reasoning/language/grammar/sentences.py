@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     LED_CLAUSE,
     LEFT_OUT,
     SO,
+    SO_BY_THEN,
     Reading,
     excluding,
     of_the_things,
@@ -91,6 +92,11 @@ def _once_more(things: Things) -> AgainClause | None:
     return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
 
 
+def _also(things: Things) -> AgainClause:
+    """Behind a place, which it may be one more of."""
+    return AgainClause(things, trailing=True)
+
+
 def _joint(name: str, *parts: Part) -> Parser:
     """What goes on a sentence, with a name for what joins it."""
     return sequence(*parts, build=lambda reading: (name, reading))
@@ -113,6 +119,8 @@ _JOINED = either(
     _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     _joint("after", OPTIONAL_COMMA, EARLIER),
+    _joint("after", OPTIONAL_COMMA, "[but] not (before|until)", plain(SO_BY_THEN)),
+    _joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),

@@ -37,7 +37,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 
 _NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
 """Denials before a noun, and of which things what is denied is said."""
@@ -119,13 +119,19 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     return nps
 
 
+def _each_so(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> State | None:
+    """How several things are; no one thing is "both" so."""
+    one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
+    return None if said == "both" and one else state_of(all_of(nps, said), predicate)
+
+
 STATE = either(
     sequence(
         NP_LIST,
         verbs.BE,
         optional(phrase("both, all"), ""),
         PREDICATE,
-        build=lambda nps, said, predicate: state_of(all_of(nps, said), predicate),
+        build=_each_so,
     ),
     _STAYS,
     _contains("contains, holds"),
@@ -336,7 +342,7 @@ ENSURE = either(
                 sequence(_EACH, verbs.MODAL),
             ),
             PREDICATE,
-            build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
+            build=lambda *said: _ensured(_each_so(*said)),
         )
     ),
     *(

@@ -169,6 +169,8 @@ class PickClause:
     poses: tuple[GraspPose, ...] = ()
     to: str = ""
     """To whom it is to be handed ("to me")."""
+    wanted: bool = False
+    """Somebody wants it; what is said of its place may say where."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -59,7 +59,7 @@ _NOTHING_ELSE = re.compile(
 _BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
-    r"(?:all(?: of (?:them|it|these))?|both(?: of them)?|everything|the lot)"
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
     r" (?=(?:in|on|into|onto|to)\b)"
 )
 """What a list before a colon names, all of it."""
@@ -135,7 +135,7 @@ def normalized(text: str) -> str:
     )
     text = re.sub(r"\bnothing but\b", "only", text)
     text = re.sub(r"\bnothing (?:more|besides)\b", "nothing else", text)
-    text = _ALL_NAMED.sub(r"\1\2 ", text)
+    text = _ALL_NAMED.sub(lambda said: f"{said[1]}{said[2]} {said['both'] or ''} ", text)
     text = _MAY_GO.sub(r"\1\2 should go", text)
     text = re.sub(r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " ", text)
     text = re.sub(r"(?<=\w) please(?=, )", "", text)

@@ -86,7 +86,7 @@ MODAL = f"""
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
     (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
-    (is|are) supposed to be, go[es] [back], belong[s], live[s],
+    (is|are) supposed to be, [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
     (can|could|may|might|will) (go [back]|be put|be placed)
 """
 CAN = "can, could, may"
