@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.words.places import Prep
+
+_CONTRASTS = (Prep.CONTRAST, Prep.EXCEPT)
 
 
 def nodes(tree: object) -> Iterator[object]:
@@ -25,5 +28,12 @@ def reading_cost(tree: object) -> int:
     return sum(
         getattr(node, "far_fetched", 0)
         + (len(node.modifiers) + node.loose if isinstance(node, NounPhrase) else 0)
+        + (2 * _contrasts(node) if isinstance(node, Modifier) else 0)
         for node in nodes(tree)
     )
+
+
+def _contrasts(modifier: Modifier) -> bool:
+    """Whether it says of a landmark what that is not ("the jar nearest to the cart, but not …")."""
+    told = any(item.prep in _CONTRASTS for np in modifier.phrases for item in np.modifiers)
+    return modifier.prep not in _CONTRASTS and told

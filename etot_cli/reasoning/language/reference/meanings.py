@@ -215,6 +215,8 @@ class Meanings:
             if counted or (not elliptic and (phrase.words or not others)):
                 raise
             problem = error
+            if others and noun is not None and self._are_several(noun, role):
+                raise  # both were spoken of, if only to tell something else by one of them
         found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
         for other in self.discourse.nouns():
             if noun is not None and not same_noun(other, noun):
@@ -233,6 +235,13 @@ class Meanings:
             ways = [thing.name for options in said for thing in things_in(options)]
             raise AmbiguousReference(phrase.text, ways)
         return resolved
+
+    def _are_several(self, noun: str, role: Role) -> bool:
+        """Whether more than one thing is called so."""
+        every = NounPhrase("all", (noun,))
+        with suppress(ReferenceProblem):
+            return len(things_in(self.resolved_as(every, role, None).options)) > 1
+        return False
 
     def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
         """Whether "the big one" would tell one thing by its size or side of which there is one."""
