@@ -49,7 +49,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     for sentence in sentences:
         state = best_reading(state, sentence)
     goal = state.goal()
-    check_kept(goal)
+    check_kept(goal, scene)
     check_shut(goal, scene)
     check_everything(goal)
     check_run(goal)

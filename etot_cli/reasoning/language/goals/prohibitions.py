@@ -24,6 +24,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
@@ -92,6 +93,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     for index in indices if clause.avoid is Avoid.CLOSE else ():
         if not context.discourse.is_spoken(index):
             context.discourse.as_it_stands(index, is_open)
+    for index in indices if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else ():
+        leave_among_turned(context, index, opens=clause.avoid is Avoid.CLOSE)
     turned = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
     if clause.avoid is Avoid.MOVE and turned:  # "open it and leave it as it is"
         context.steps += [replace(step, final=True) for step in turned]

@@ -59,6 +59,7 @@ from etot_cli.reasoning.language.goals.prohibitions import (
     not_beside,
     rule_out,
 )
+from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -189,6 +190,7 @@ def ensure(context: Context, state: State) -> None:
                 if state.kept:
                     all_of_them = quantity_of(phrase.determiner).every
                     keep_as_it_is(context, index, state.word, every=all_of_them)
+                leave_among_turned(context, index, opens=state.word == "open")
                 context.steps.append(_made(index, opens=state.word == "open"))
                 _not_instead(context, phrase, index, opens=state.word == "open")
             if is_only(phrase.determiner):

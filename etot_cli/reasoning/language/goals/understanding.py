@@ -5,19 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Constraint,
-    Goal,
-    Keep,
-    Open,
-    Put,
-    Step,
-)
-from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.goal import Goal, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continued, in_order
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -104,37 +96,24 @@ class Understanding:
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
         return step == after or (whole and one == other != set())
 
-    def _constraints(self, steps: Sequence[Step]) -> list[Constraint]:
-        """Without what is to stay closed, but is to be opened and closed again: it is so after."""
-        if all(item.keep is not Keep.CLOSED for item in self.context.constraints):
-            return self.context.constraints
-        opened, closed = (
-            {
-                f"{part.owner}.{part.name}"
-                for step in steps
-                if isinstance(step, kind)
-                for thing in self.context.discourse.things(step.what)
-                for part in parts_of(self._scene, thing)
-            }
-            for kind in (Open, Close)
-        )
-        return [
-            item
-            for item in self.context.constraints
-            if item.keep is not Keep.CLOSED or not {*item.names} <= opened & closed
-        ]
-
     def goal(self) -> Goal:
-        """The goal so far."""
+        """The goal so far.
+
+        Raises:
+            ReferenceProblem: a part is to be both open and closed.
+        """
         discourse = self.context.discourse
         steps = [
             step
             for step, after in pairwise((*in_order(self.timed), None))
             if step is not None and not self._narrowed(step, after)
         ]
+        steps, constraints = in_turn(
+            steps, self.context.constraints, discourse.referents, self._scene
+        )
         return Goal(
             tuple(discourse.referents),
             tuple(steps),
-            tuple(dict.fromkeys(self._constraints(steps))),
+            tuple(dict.fromkeys(constraints)),
             tuple(discourse.notes),
         )
