@@ -131,7 +131,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             group = elsewhere(group)
         group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
-        places = not_beside(context, context.places.of(destinations, themes), ruled_out, themes)
+        found = context.places.of(destinations, themes, stays=wherever or clause.stays)
+        places = not_beside(context, found, ruled_out, themes)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each

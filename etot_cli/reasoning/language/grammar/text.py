@@ -92,7 +92,6 @@ _CLITICS = (
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
-    (r"\b(?:him|her)\b(?= (?:in|on|next|down|back|to|near|beside|behind|up)|$)", "it"),
     (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),

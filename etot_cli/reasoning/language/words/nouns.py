@@ -5,7 +5,7 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _COUNT = "|".join(NUMBERS)
-_THE = "the|these|those|my|your|its|their|our"
+_THE = "the|these|those|my|your|its|their|our|his|her"
 THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
 DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
