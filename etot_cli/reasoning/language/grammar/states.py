@@ -272,6 +272,13 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
+    sequence(
+        # "The drawer gets closed"
+        NP_LIST,
+        "get[s]",
+        OPEN_OR_CLOSED,
+        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
+    ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     quiet(
         sequence(

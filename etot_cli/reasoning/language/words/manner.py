@@ -56,8 +56,8 @@ KEPT_HELD = """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
-    where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
-    unmoved, in its place, like (that|this), that way, so
+    [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched,
+    in place, still, unmoved, in its place, like (that|this), that way, so
 """
 ANYHOW = """
     [either] [both] together or (separately|apart|individually|one by one),

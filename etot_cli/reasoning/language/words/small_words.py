@@ -16,15 +16,16 @@ WITHOUT_MEANING = """
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|any one|each|both) [of (them|these|those)]
+    (either|any|each|both) [one] [of (them|these|those)]
     ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
     ~comma (any|either) [one] [of (them|these|those)],
-    i (do not|don t) (care|mind) [which] [one], whichever, if you can,
+    [i] (do not|don t) (care|mind) [which] [one], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
     behind you, after you, one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
+    ~comma i (think|believe|guess|suppose|reckon),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated
 """
@@ -41,12 +42,12 @@ TASK = """
 """
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
-    great, um,
+    great, um, now then,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
-    you (should|must|[will] have to|[will] need to|can|may),
+    you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, let us, try to, please to, {TASK},
     the robot (should|must|has to|needs to), make sure to,
@@ -125,7 +126,7 @@ TRAILING_LAST = """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
 INSTEAD = "instead, instead of (it|them|that|those)"
 """What is asked for takes the place of what is taken away, or is not to be done."""
-AND = "and [also|likewise], as well as, along with, together with, plus"
+AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
@@ -140,7 +141,9 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
-AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
+AFTER = """
+    [but] [only|right|just|directly] (once|after|when|as soon as) [you have|having|you]
+"""
 GONE = """
     (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
     (is|are) (put|set|laid) down

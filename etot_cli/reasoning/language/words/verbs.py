@@ -80,14 +80,17 @@ _BROUGHT = """
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
+_GO = "end up|go [back]|live|belong|stand|sit|lie|rest"
+_OUGHT = """
+    should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
+    (is|are) supposed to
+"""
 MODAL = f"""
-    (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to) (be|end up|go [back]),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
-    ({_BROUGHT}|{_BEING}),
-    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
-    (is|are) supposed to be, go[es] [back], belong[s], live[s],
-    (can|could|may|might|will) (go [back]|be put|be placed)
+    ({_OUGHT}) ({_GO}|get|[finally|then] be [{_BROUGHT}|{_BEING}]),
+    (want|wants) to (be|{_GO}), (is|are) going [back], go[es] [back], belong[s], live[s],
+    (can|could|may|might|will) ({_GO}|be ({_BROUGHT})), get[s] ({_BROUGHT}),
+    (would (be|look|do|go)|look[s]) (better|best|nicer|tidier|neater|safer),
+    would (be|look|do|go) (good|nice|lovely|great|fine)
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
@@ -96,10 +99,10 @@ _RELATIONS = """
     colleague|teacher|student|neighbor|neighbour
 """
 WANT = """
-    i want, i would like, i d like, i need, we want, we need, i would love,
-    [i would|i d] prefer, i prefer, we would like, i would like to find,
-    (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
-    i want to (have|see), i would rather (have|see)
+    (i|we) (want|need|prefer) [to (have|see)],
+    (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
+    i d like, (can|could|may|might) (i|we) have, let us have,
+    (i|we) would rather (have|see)
 """
 OTHERS_WANT = f"""
     (the|my|our) ({_RELATIONS}) (wants|needs|would like [to have]),
