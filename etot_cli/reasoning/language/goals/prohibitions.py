@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import addresses, touches
+from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
@@ -67,7 +68,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         _avoid_others(context, clause)
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
-    if role is Role.ANY and any(phrase.is_elliptic for phrase in clause.things.phrases):
+    elliptic = (np.is_elliptic or leaves_noun_out(np) for np in clause.things.phrases)
+    if role is Role.ANY and any(elliptic):
         # "Leave the red one" speaks of what was moved rather than of where to.
         role = Role.PART if _moves_anyway(context, clause.things) else Role.THEME
     before = len(context.discourse.mentions)

@@ -11,7 +11,7 @@ from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continued, in_order
-from etot_cli.reasoning.language.grammar.spoken import Spoken
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Clause,
@@ -23,12 +23,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.world.state import SceneState
 
 
-def _check_instead(spoken: Spoken, before: Clause | None) -> None:
-    """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
-    room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None:
+    """Whether "instead" takes back what was asked for; what is taken away makes ``room`` anyway."""
+    room |= isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
     room |= isinstance(before, ReorientClause) and before.only_named  # how things are
     denied = (isinstance(before, AvoidClause) and before.negated) or (
         isinstance(before, EnsureClause) and all(state.denied for state in before.states)
@@ -66,8 +67,19 @@ class Understanding:
         self.sentence += 1
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
-            _check_instead(spoken, self.context.last)
-            steps[id(spoken)] = steps_of(spoken.clause, self.context)
+            moved = self.context.discourse.things(*self.context.discourse.put)
+            done = steps[id(spoken)] = steps_of(spoken.clause, self.context)
+            further = spoken is not reading[0] or spoken.order is Order.THEN
+            room = further and any(
+                touches(thing, at, self._scene)
+                for step in done
+                if isinstance(step, Put)
+                for place in step.places
+                if place.where is not None
+                for at in self.context.discourse.things(place.where)
+                for thing in moved
+            )
+            _check_instead(spoken, self.context.last, room=room)
             self.context.last = spoken.clause
         check_opposites(self.context.discourse)
         for spoken in reading:

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
     Turns,
 )
+from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -73,7 +74,9 @@ _FIXED = """
     only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left
 """
 """Phrases in which such words say something else, or nothing of their own."""
-_SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")
+_SAY_NOTHING = phrase(
+    f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
+)
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 

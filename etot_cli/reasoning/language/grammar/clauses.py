@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -18,6 +19,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
 )
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -27,6 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
+    silent,
     some,
     variants,
 )
@@ -64,6 +67,8 @@ from etot_cli.reasoning.language.grammar.taking import (
     SOURCE,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words.known import LINKS
+from etot_cli.reasoning.language.words.patterns import words_of
 
 
 def _wanted_in_hand(things: Things) -> PickClause | None:
@@ -79,9 +84,7 @@ WANTED = either(
         build=put_to,
     ),
     sequence(
-        "have, let",
-        ALL_THINGS,
-        "join",
+        either(sequence("have, let", ALL_THINGS, "join"), sequence(ALL_THINGS, verbs.JOIN)),
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
@@ -110,10 +113,17 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     """A clause without some of the things that it is about ("…, except the blue one"), of those
     that its last phrase means, or that ``at`` an index.
     """
+    return changed(clause, lambda np: np.told_by(left_out), at)
+
+
+def changed(
+    clause: Clause, change: Callable[[NounPhrase], NounPhrase], at: int = -1
+) -> Clause | None:
+    """A clause with one of the phrases for what it is about changed, the last one by default."""
 
     def without(things: Things) -> Things:
         phrases = [*things.phrases]
-        phrases[at] = phrases[at].told_by(left_out)
+        phrases[at] = change(phrases[at])
         return replace(things, phrases=tuple(phrases))
 
     match clause:
@@ -234,10 +244,17 @@ ORDER_WORDS = one_of(
         Order.THEN: small_words.LEADING_THEN,
     }
 )
+_DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
+_BEFORE_A_VERB = Parser(
+    lambda given, at: (
+        [(at, NOTHING)] if given.ahead[at] in {*_DOING, "open", "close", "shut"} else []
+    )
+)
 LEAD = sequence(
     some(
         either(
             small_words.FRAMES,
+            sequence("do", _BEFORE_A_VERB),
             small_words.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
@@ -340,19 +357,30 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
+_TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
 _SO_BY_THEN = either(
-    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.BE}, {small_words.GONE}, (is|are) out of the way",
+        DESTINATIONS,
+        build=put_to,
+    ),
     sequence(
         ALL_THINGS,
         verbs.BE,
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
+    sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
+    sequence(ALL_THINGS, "(is|are) (out|off|out of the way)", build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
-        SOURCE,
-        build=RemoveClause,
+        _TAKEN_BY_THEN,
+        silent(either("out, off, away, down", SOURCE)),
+        "and [then] [been]",
+        verbs.DONE,
+        DESTINATIONS,
+        build=put_to,
     ),
     SO,
 )

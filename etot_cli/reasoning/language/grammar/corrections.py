@@ -84,7 +84,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         spans = told or spans
     for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
-        if kept and rest[:1] == (",",) and rest[1:2] not in (("and",), ("then",)):
+        further = {*rest[1:2]} & {"and", "then", *VERB_WORDS}
+        if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
         new = (*said[:-1], taken[-1]) if noun else said

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.spelling import (
 )
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.text import (
+    COMMA,
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
@@ -28,9 +29,17 @@ from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import ANY_ONE, TIDYING, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import (
+    ANNOUNCED,
+    ANY_ONE,
+    TIDYING,
+    WITHOUT_MEANING,
+)
 
-_POLITE = frozenset(spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}"))
+_POLITE = frozenset(
+    said.replace(f" {COMMA}", ",")
+    for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
+)
 """Sentences that ask for nothing."""
 SHOWN_WORDS = 4
 MAX_READINGS = 200

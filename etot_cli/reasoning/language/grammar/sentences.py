@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from operator import add
-from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import (
@@ -14,11 +13,17 @@ from etot_cli.reasoning.language.grammar.clauses import (
     LEFT_OUT,
     SO,
     Reading,
-    excluding,
+    changed,
     of_the_things,
     plain,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+)
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
@@ -36,10 +41,16 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
+from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import (
+    ENSURE,
+    IF_NOT_SO,
+    OPEN_OR_CLOSED,
+    SHUT,
+    states,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -93,7 +104,7 @@ def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
 
 
 _LEFT_SO = sequence(
-    plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
+    plain(sequence(NP_LIST, optional(COLON), OPEN_OR_CLOSED, build=_left_so)),
     optional(small_words.TRAILING_LAST),
 )
 """How something is to be in the end, without a verb ("drawer shut")."""
@@ -178,9 +189,21 @@ _NOT_THIS = sequence(
 )
 
 
-def _without(out: Any, rest: Reading) -> Reading | None:
-    """A sentence that begins with what is left out."""
-    clause = excluding(rest[0].clause, out)
+def _without(out: Modifier, rest: Reading) -> Reading | None:
+    """A sentence that begins with what is left out; "it" behind that is what is not meant ("not the
+    tray, the cup on it").
+    """
+    (first, *more) = out.phrases
+
+    def told(np: NounPhrase) -> NounPhrase:
+        upon = (
+            replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
+            for item in np.modifiers
+        )
+        contrasted = out.prep is Prep.CONTRAST and not more
+        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
+
+    clause = changed(rest[0].clause, told)
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
@@ -269,7 +292,7 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
-    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
+    sequence(f"{verbs.TIDY}, {verbs.SWAP}", NAMED, COMMA, _PLACED, build=each_sorted),
     sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
@@ -282,7 +305,11 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         f"{small_words.TASK}, {small_words.END_STATE}", plain(sequence(states, build=EnsureClause))
     ),
-    plain(IF_NOT_SO),
+    sequence(
+        plain(IF_NOT_SO),
+        optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
+        build=add,
+    ),
     sequence(
         "with",
         plain(
@@ -350,6 +377,14 @@ WHOLE = either(
         some(_JOINED, least=1, most=12),
         _END,
         build=_first_placed,
+    ),
+    sequence(
+        # "The plate stays where it is, spoon to the right of it"
+        EMPTY_WORDS,
+        plain(either(KEEP_STILL, ENSURE)),
+        some(either(_JOINED, _joint("and", LIST, _PLACED)), least=1, most=6),
+        _END,
+        build=_chained,
     ),
     sequence(
         EMPTY_WORDS,

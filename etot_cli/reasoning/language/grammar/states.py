@@ -230,16 +230,48 @@ MOVE = either(
         build=lambda moved, turns: replace(moved, turns=turns),
     ),
 )
+_THEN = either(COMMA, sequence(OPTIONAL_COMMA, "then"))
+
+
+def _if_not_there(
+    subjects: tuple[NounPhrase, ...], where: tuple[Destination, ...], things: Things, there: Any
+) -> EnsureClause | None:
+    """In "if the cup is not on the tray, put it there": if it is, it stays there anyway."""
+    same = [(item.toward, item.targets) for item in where]
+    again = same == [(item.toward, item.targets) for item in there]
+    (here, *more) = there
+    inside = all(item.toward is Toward.INSIDE for item in where)
+    words = ("there", *(("in there", "in", "inside") if inside else ("on there",)))
+    again |= here.toward is Toward.HERE and here.word in words and not more
+    alone = len(things.phrases) == 1 and bool(things.phrases[0].pronoun)
+    return EnsureClause((State(subjects, where, kept=True),)) if alone and again else None
+
+
 IF_NOT_SO = quiet(
-    sequence(
-        "if",
-        NP_LIST,
-        f"{verbs.BE}, 's",
-        OPEN_OR_CLOSED,
-        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
-        EMPTY_WORDS,
-        _PLAIN_MOVE,
-        build=_if_not_so,
+    either(
+        sequence(
+            "if",
+            NP_LIST,
+            f"{verbs.BE}, 's",
+            OPEN_OR_CLOSED,
+            _THEN,
+            EMPTY_WORDS,
+            _PLAIN_MOVE,
+            build=_if_not_so,
+        ),
+        sequence(
+            "if",
+            NP_LIST,
+            "(is|are) not [already|yet|currently]",
+            DESTINATIONS,
+            optional("already, yet, by now"),
+            _THEN,
+            EMPTY_WORDS,
+            verbs.SET_DOWN,
+            THINGS,
+            DESTINATIONS,
+            build=_if_not_there,
+        ),
     )
 )
 """A sentence of its own: what follows it might be asked for in that case only."""

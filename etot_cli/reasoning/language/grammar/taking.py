@@ -108,6 +108,7 @@ REMOVE = either(
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
+    sequence("lift[ing]", THINGS, "out, off", build=RemoveClause),
     sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
     sequence(
@@ -132,12 +133,14 @@ def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Cl
     return RemoveClause(contents) if where is None else put_to(contents, where)
 
 
-def _tidied(verb: str, things: Things, away: str, where: Any) -> PutClause | None:
+def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutClause | None:
     """Who tidies a place brings away what is there; several things are tidied away themselves.
     "Tidy up everything on the tray" does not say where to.
     """
-    if things.are_any and not away:
+    named = all_of(things.phrases, said)
+    if (things.are_any and not away) or (said and named == things.phrases and not named[1:]):
         return None
+    things = replace(things, phrases=named)
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
     cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
@@ -161,7 +164,12 @@ EMPTY = either(
         build=lambda np, where: _emptied(Things((np,)), where),
     ),
     sequence(
-        phrase(verbs.TIDY), THINGS, optional(phrase("away, up"), ""), DESTINATIONS, build=_tidied
+        phrase(verbs.TIDY),
+        THINGS,
+        optional(phrase("away, up"), ""),
+        DESTINATIONS,
+        optional(sequence(OPTIONAL_COMMA, phrase("all, both"), "of them"), ""),
+        build=_tidied,
     ),
     sequence(
         verbs.TIDY,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, SIDES, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.patterns import spellings
 
@@ -184,11 +184,16 @@ def _qualified(found: re.Match[str]) -> str:
     return f"{noun} that is {word}" if is_descriptive(word) else found[0]
 
 
+_COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
+"""The number of a step, in words ("One, open the drawer. Two, …")."""
+
+
 def _listed(text: str) -> str:
     """A list in one row ("1. open it 2. fill it", "step 1: …", "* …") as lines."""
     if bullet := re.match(rf"{_LIST_HEAD}([{_BULLETS}]\s)", text):
         return re.sub(rf"(^|[\s,;.]){re.escape(bullet[1])}", r"\1\n ", text[bullet.start(1) :])
     numbers = [f"(?:{number}|{name})" for name, number in NUMBERS.items()]
+    text = _COUNTED_OFF.sub(lambda said: f"{said[1]}{NUMBERS[said[2]]}. ", text)
     for labels in (numbers, "abcdefgh"):
         items: list[str] = []
         rest = text
@@ -205,6 +210,21 @@ def _listed(text: str) -> str:
     return text
 
 
+_PAIR = re.compile(r"(?:\w+ ){0,2}\w+, (?:\w+ ){0,2}\w+")
+
+
+def _paired(parts: list[str]) -> list[str]:
+    """With a colon between things and their places, where several sentences are such pairs ("green
+    book, basket. Blue book, shelf"); one alone may be a list of two things.
+    """
+    pairs = [
+        part
+        for part in parts
+        if _PAIR.fullmatch(part) and not GRAMMAR_WORDS & {*part.replace(",", "").split()}
+    ]
+    return [part.replace(",", ":") if pairs[1:] and part in pairs else part for part in parts]
+
+
 _LOOKED_FOR = re.compile(
     rf"(?:(?:{'|'.join(spellings(small_words.FRAMES))}|please|now|first|then),? )*"
     rf"(?:{'|'.join(spellings(small_words.LOOK_FOR))}) (?:(?!,).)*$"
@@ -214,7 +234,7 @@ _LOOKED_FOR = re.compile(
 def sentences_of(text: str) -> list[str]:
     """The sentences of normalized text, without numbering."""
     plain = re.sub(r"\?", f" {QUESTION}?", _NUMBERING.sub(r"\1", text))
-    parts = (" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain))
+    parts = _paired([" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain)])
     found: list[str] = []
     for part in parts:
         if found and _LOOKED_FOR.match(found[-1]):

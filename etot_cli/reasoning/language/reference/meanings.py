@@ -275,12 +275,17 @@ class Meanings:
             pronoun=self.pronoun_things,
         )
         left_out = noun is not None and (elliptic or leaves_out) and not other
-        resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
-        narrower = resolved
+        narrower: Resolved | None = None
         with suppress(ReferenceProblem):
-            narrower = resolve(alike) if alike is not None else resolved
-        return narrowed_to(narrower, resolved, phrase, self.discourse)
+            narrower = None if alike is None else resolve(alike)
+        try:
+            resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
+        except ReferenceProblem:
+            if narrower is None:
+                raise
+            return narrower
+        return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
 
     def _named_before(self, phrase: NounPhrase, noun: str | None) -> tuple[Thing, ...]:
         """Several things that were but named by a noun ("there are two red cups"): "the left one"

@@ -155,7 +155,8 @@ def left_out(
         if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
             for item in modifier.phrases:
                 said = " ".join((item.determiner, *item.words, item.pronoun))
-                if said.split()[0] in _SO_MANY:
+                none = modifier.prep is Prep.CONTRAST and said.startswith("one of ")
+                if said.split()[0] in _SO_MANY and not none:
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = set(landmarks(item, words[-1]))

@@ -38,7 +38,11 @@ EXCEPT = """
 """
 CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, as opposed to"
 """Before what is not meant, behind what is."""
-AS_YOU_LIKE = "[that|which] you (like|want|prefer|wish|please|choose)"
+AS_YOU_LIKE = """
+    [that|which] you (like|want|prefer|wish|please|choose),
+    [that|which] is (easiest|easier|handiest|most convenient) [to (reach|get|grab|get at)],
+    [that|which] you (can reach|find|get) (easiest|first|most easily)
+"""
 """Behind what is left open anyway."""
 RELATIVE = """
     (that|which|who) (is|are|stands|stand|lies|lie|sits|sit|rests|rest|was|were)

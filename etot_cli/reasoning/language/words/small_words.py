@@ -33,10 +33,13 @@ WITHOUT_MEANING = """
 for, every plan does: things are set down, and no plan may harm anything."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
+ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
+"""Before what is to be done."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
-TASK = """
+TASK = f"""
+    {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma,
     [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
 """

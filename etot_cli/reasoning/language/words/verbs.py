@@ -96,7 +96,8 @@ CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 _RELATIONS = """
     guest|customer|client|patient|boss|wife|husband|mother|father|sister|brother|son|daughter|
-    colleague|teacher|student|neighbor|neighbour
+    colleague|teacher|student|neighbor|neighbour|little one|baby|toddler|kid|child|boy|girl|
+    granddaughter|grandson|grandmother|grandfather
 """
 WANT = """
     (i|we) (want|need|prefer) [to (have|see)],
@@ -106,7 +107,8 @@ WANT = """
 """
 OTHERS_WANT = f"""
     (the|my|our) ({_RELATIONS}) (wants|needs|would like [to have]),
-    (the|my|our) (guests|customers|clients|patients|parents|colleagues|students|visitors)
+    (the|my|our)
+    (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children)
     (want|need|would like [to have]),
     (grandma|grandpa|granny|mum|mom|dad|he|she|somebody|someone) (wants|needs|would like [to have]),
     they (want|need|would like [to have])
@@ -125,8 +127,8 @@ NOT_BE = """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
 STAY = """
-    [can|may] (stay|remain), (stays|remains),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
+    ([can|may] (stay|remain)|stays|remains) [put],
+    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain) [put]
 """
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
@@ -136,6 +138,7 @@ DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
+JOIN = "joins, [can|may|should|must|is to|are to|has to|needs to|will] join"
 COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|are to] come[s]"
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
@@ -150,7 +153,7 @@ REORIENT = """
 """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
-BUILD = "build[ing] [me], mak(e|ing) [me], creat(e|ing), form[ing]"
+BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
@@ -170,6 +173,15 @@ NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
     [but] do not bother (to|with|), [but|and] (it is|it 's|it s) not necessary to
 """
+NOT_TO_BE = """
+    (must|should|may|can|shall|could) (not|never) be, (is|are) (not|never) to be
+"""
+TOUCHED = "touched, bumped, knocked"
+DISTURBED = """
+    moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
+    removed, taken [away|out|off], knocked over
+"""
+"""Behind what must not be."""
 WITHOUT = """
     without, [while] (making|being) sure not to, [while] being careful not to,
     [while] taking care not to, so as not to
