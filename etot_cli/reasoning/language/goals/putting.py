@@ -363,13 +363,16 @@ def _condition(
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
-        # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
-        along: list[int | None] = []
+        # Of a bystander it says where it is, not where it is to be, unless it goes along in one, or
+        # beside that.
+        places: tuple[Place, ...] = ()
         with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
-            along = [p.where for p in context.places.of(condition.destinations, subjects)]
-        if not set(along) & set(themes):
+            places = context.places.of(condition.destinations, subjects)
+        along = {index for place in places for index in place.referents()} & set(themes)
+        if not along or (subjects[1:] and any(place.beside for place in places)):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
-    places = context.places.of(condition.destinations, subjects)
+    else:
+        places = context.places.of(condition.destinations, subjects)
     for subject in subjects:
         places_of[subject] = places

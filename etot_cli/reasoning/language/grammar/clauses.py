@@ -35,7 +35,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
+from etot_cli.reasoning.language.grammar.putting import FLANKED, OUT_AND_INTO, PUT, brought
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -288,6 +288,14 @@ def _bared(
     return (Spoken(RemoveClause(Things(out), theme, without=True), at), Spoken(clause, at))
 
 
+def _with_others(
+    orders: tuple[Order | bool, ...], put: tuple[int, Clause], more: tuple[int, Clause]
+) -> Reading | None:
+    """What goes somewhere, and then others beside it."""
+    at, clause = put
+    return None if orders else (Spoken(clause, at), Spoken(more[1], more[0]))
+
+
 def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
     """What is not to go somewhere, and what is ("…, only the green one")."""
     only = all(np.determiner.startswith("only") for np in meant.phrases)
@@ -338,6 +346,13 @@ LED_CLAUSE = Rule(
                 DESTINATIONS,
                 build=lambda out, where: AvoidClause(Avoid.PUT, out, where, negated=True),
             )
+        ),
+        sequence(
+            LEAD,
+            located(either(PUT, ENSURE), lambda at, clause: (at, clause)),
+            OPTIONAL_COMMA,
+            located(FLANKED, lambda at, clause: (at, clause)),
+            build=_with_others,
         ),
         sequence(
             LEAD,

@@ -119,6 +119,14 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
+_ON_BOTH_SIDES = phrase(places.ON_BOTH_SIDES)
+FLANKED = sequence(
+    "and, with", ALL_THINGS, _ON_BOTH_SIDES, phrase("it", NounPhrase(pronoun="it", text="it")),
+    build=_flanking,
+)  # fmt: skip
+"""Behind a clause about that ("… in the middle, with a cup on either side of it")."""
+
+
 def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
     things, said = found
@@ -181,7 +189,7 @@ PUT = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
-    sequence(BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
+    sequence(BROUGHT, _ON_BOTH_SIDES, noun_phrase, build=_flanking),
     sequence(
         BROUGHT,
         places.NEARBY[Nearby.NEXT_TO],
