@@ -88,8 +88,12 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
         return [*themes]
     pool = things_in(first.options)
     widths = {max(infos[thing.name].size[:2]) for thing in pool}
+    alike = max(widths) - min(widths) <= AS_WIDE_M
+    singly = all(len(option) == 1 for referent in said for option in referent.options)
+    if clause.upward is not None and alike and singly:
+        return [*themes][:: 1 if clause.upward else -1]  # "one red block, then the other"
     ordered = clause.upward is not None or clause.bottom or clause.middle or clause.top
-    if len(themes) > 1 or ordered or max(widths) - min(widths) > AS_WIDE_M:
+    if len(themes) > 1 or ordered or not alike:
         raise ReferenceProblem(first.text, "say which ones to stack", 2)
     found: list[int] = []
     for _ in range(count):

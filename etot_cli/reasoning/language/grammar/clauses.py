@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
+    LEFT,
     ONLY_THOSE,
     excepting,
     exceptions,
@@ -164,6 +165,7 @@ LEFT_OUT = either(
     sequence(
         f"{nouns.EXCEPT}, without, any [one] but",
         exceptions,
+        LEFT,
         build=excepting,
     ),
     sequence(optional("but"), ONLY_THOSE),

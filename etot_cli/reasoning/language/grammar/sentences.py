@@ -262,6 +262,17 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=about,
     ),
+    sequence(
+        # "Here is how the shelf should look: books on the upper board, …"
+        either(
+            sequence("(here|this|that) is how", NAMED, "(should|must|has to|is to) (look|be)"),
+            sequence(NAMED, "(should|must|has to) (look|be) like this"),
+            sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
+        ),
+        COMMA,
+        either(CHAIN, _PLACED),
+        build=add,
+    ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence(
         plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason

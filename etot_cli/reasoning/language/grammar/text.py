@@ -81,7 +81,7 @@ _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! 
 _CLITICS = (
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= been\b)", " has"),
-    (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
+    (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),

@@ -59,6 +59,10 @@ AS_IT_IS = """
     [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+IS_LEFT = """
+    ~comma (which|that) ((is|are) (fine|good|ok|okay|alright)|[can|may|should] (stay|stays))
+    (there|here|put|where (it is|they are)|as (it is|they are)) [~comma]
+"""
 ANYHOW = """
     [either] [both] together or (separately|apart|individually|one by one),
     [either] (separately|apart|individually) or together, in any combination
