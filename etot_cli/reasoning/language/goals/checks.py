@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, things_in
+from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.turns import Timed
@@ -62,6 +62,14 @@ def check_kept(goal: Goal, scene: SceneState) -> None:
             if below := sorted(always & carriers(scene, name)):
                 why = f"{name} would come along with {below[0]}; say where it is to go"
                 raise ReferenceProblem(referent.text, why, 4)
+
+
+def check_replaced(goal: Goal, in_the_way: Sequence[tuple[str, frozenset[Thing]]]) -> None:
+    """Whether what is where something is to go "instead of it" goes elsewhere."""
+    moved = {thing for index in _moved(goal) for thing in things_in(goal.referents[index].options)}
+    for text, things in in_the_way:
+        if not things <= moved:
+            raise ReferenceProblem(text, "it is there; say where that is to go", 3)
 
 
 def _moved(goal: Goal) -> Iterator[int]:

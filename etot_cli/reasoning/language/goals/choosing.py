@@ -40,9 +40,9 @@ def check_taken(
                 told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
             if prep is Prep.FROM and reached & told:
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
-            there = any(touches(one, at, context.scene) for one in told for at in reached)
+            there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
             if prep is Prep.CONTRAST and there:
-                raise ReferenceProblem(np.text, "it is there; say where that is to go", 3)
+                context.in_the_way.append((np.text, frozenset(there)))
     for phrase in (np for item in group.destinations for np in item.targets):
         described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
         if not taken or described or not phrase.is_elliptic:

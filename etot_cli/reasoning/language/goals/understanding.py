@@ -57,6 +57,7 @@ class Understanding:
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
         other.context.done = self.context.done
+        other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.sentence, other.context.last = self.sentence, self.context.last

@@ -378,6 +378,7 @@ ENSURE = either(
         for said in (
             (NP_LIST, verbs.MODAL),
             (verbs.WANTED, NP_LIST, _TO_BE),
+            (verbs.WISH_IF, NP_LIST, verbs.WISHED_SO),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
             ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
         )

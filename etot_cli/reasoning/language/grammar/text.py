@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import LEVELS, NUMBERS, SIDES, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.verbs import PAST
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -107,6 +108,7 @@ def normalized(text: str) -> str:
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
+    text = _WISHED.sub(_as_asked, text)
     text = re.sub(r"\band/or\b", "or", text)
     text = re.sub(
         rf"\b(left|right|top|bottom|front|back|upper|lower)[{_HYPHENS} ]most\b", r"\1most", text
@@ -208,6 +210,19 @@ def _listed(text: str) -> str:
         if len(items) > 1:
             return "\n ".join((*items[1:], rest))
     return text
+
+
+_DID = re.compile(
+    rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
+    r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
+)
+_WISHED = re.compile(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
+
+
+def _as_asked(wish: re.Match[str]) -> str:
+    """What is wished for in the past tense ("it would be nice if you took it and closed …")."""
+    asked = _DID.sub(lambda said: f"{said[1] or said[3]}{PAST[said[2] or said[4]]}", wish[0])
+    return re.sub(r"\bif you (?!(?:would|could|can|will)\b)", "if you would ", asked)
 
 
 _PAIR = re.compile(r"(?:\w+ ){0,2}\w+, (?:\w+ ){0,2}\w+")

@@ -66,8 +66,10 @@ _STATED = either(
     sequence(
         small_words.SOMEBODY_LEFT,
         noun_phrase,
-        DESCRIBED,
-        build=lambda np, said: Things((np.told_by(said),)),
+        optional(DESCRIBED, None),
+        build=lambda np, said: (
+            Things((np.told_by(*([said] if said else [])),)) if said or np.modifiers else None
+        ),
     ),
     sequence(
         f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from etot_cli.reasoning.language.words.verbs import RELATIONS
+
 WITHOUT_MEANING = """
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
@@ -60,7 +62,8 @@ FRAMES = f"""
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
-    i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
+    i would (appreciate|like|love) it if you (would|could),
+    it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
@@ -91,7 +94,9 @@ FOUND = """
     [still|just|now|currently|again|all] [left|standing|lying|sitting|resting|wide]
 """
 """Between a thing and how it is, before something is asked of it."""
-SOMEBODY_LEFT = "(i|we|you|they|he|she|someone|somebody) [have|has|had] [just] left"
+SOMEBODY_LEFT = f"""
+    (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left
+"""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
 SAME_AGAIN = """

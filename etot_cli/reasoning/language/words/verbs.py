@@ -9,6 +9,16 @@ PICK = """
     pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
+PAST = {
+    "took": "take", "moved": "move", "placed": "place", "brought": "bring", "got": "get",
+    "gave": "give", "picked": "pick", "opened": "open", "closed": "close", "left": "leave",
+    "lifted": "lift", "fetched": "fetch", "returned": "return", "stored": "store",
+    "cleared": "clear", "tidied": "tidy", "emptied": "empty", "filled": "fill", "stacked": "stack",
+    "dropped": "drop", "handed": "hand", "passed": "pass", "grabbed": "grab", "carried": "carry",
+    "laid": "lay", "stood": "stand", "stuck": "stick", "popped": "pop", "pushed": "push",
+    "pulled": "pull", "turned": "turn", "swapped": "swap", "removed": "remove", "kept": "keep",
+}  # fmt: skip
+"""How a wish puts what is to be done ("I'd be glad if you took it out")."""
 TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering) me, hand[ing] over
 """
@@ -94,7 +104,7 @@ MODAL = f"""
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
-_RELATIONS = """
+RELATIONS = """
     guest|customer|client|patient|boss|wife|husband|mother|father|sister|brother|son|daughter|
     colleague|teacher|student|neighbor|neighbour|little one|baby|toddler|kid|child|boy|girl|
     granddaughter|grandson|grandmother|grandfather
@@ -105,8 +115,14 @@ WANT = """
     i d like, (can|could|may|might) (i|we) have, let us have,
     (i|we) would rather (have|see)
 """
+WISH_IF = """
+    i would be (glad|happy|happier|grateful|delighted) if,
+    it would be (good|great|nice|lovely|best|better) if, i would (like|love|prefer) it if
+"""
+WISHED_SO = "(was|were|is|are|could be|would be) [to be], went, stood, sat, lay, ended up"
+"""How a wish has it that something is somewhere."""
 OTHERS_WANT = f"""
-    (the|my|our) ({_RELATIONS}) (wants|needs|would like [to have]),
+    (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
     (the|my|our)
     (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children)
     (want|need|would like [to have]),
