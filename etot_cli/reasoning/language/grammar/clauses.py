@@ -53,6 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     PutGroup,
     RemoveClause,
+    State,
     Things,
     Toward,
     TowerClause,
@@ -66,6 +67,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     PICK,
     REMOVE,
     SOURCE,
+    emptied,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.known import LINKS
@@ -246,6 +248,10 @@ ORDER_WORDS = one_of(
         Order.THEN: small_words.LEADING_THEN,
     }
 )
+_OPINION = Parser(
+    lambda given, at: [(at, NOTHING)] if {"should", "would", "ought"} & {*given.words[at:]} else []
+)
+"""Before a wish in such words; that something belongs somewhere is but thought."""
 _DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
 _BEFORE_A_VERB = Parser(
     lambda given, at: (
@@ -257,6 +263,7 @@ LEAD = sequence(
         either(
             small_words.FRAMES,
             sequence("do", _BEFORE_A_VERB),
+            sequence("i (think|believe|guess|suppose|reckon|feel) [that]", _OPINION),
             small_words.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
@@ -296,6 +303,24 @@ def _with_others(
     """What goes somewhere, and then others beside it."""
     at, clause = put
     return None if orders else (Spoken(clause, at), Spoken(more[1], more[0]))
+
+
+_EMPTY_AND_SO = located(
+    sequence(
+        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
+        either(
+            sequence(manner.EMPTIED, "and", OPEN_OR_CLOSED),
+            sequence(OPEN_OR_CLOSED, "and", manner.EMPTIED),
+        ),
+        optional(small_words.TRAILING_LAST),
+        build=lambda things, word: (
+            emptied(things),
+            EnsureClause((State(things.phrases, word=word),)),
+        ),
+    ),
+    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
+)
+"""How something is to be in the end, in two words ("empty and closed")."""
 
 
 def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
@@ -341,7 +366,11 @@ LED_CLAUSE = Rule(
     either(
         sequence(LEAD, _BOTH_WAYS, build=lambda orders, said: None if orders else said),
         sequence(LEAD, CLAUSE, build=_spoken),
-        sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
+        sequence(
+            LEAD,
+            either(_ONLY_THESE, _EMPTY_AND_SO),
+            build=lambda orders, said: None if orders else said,
+        ),
         plain(
             sequence(
                 _NEITHER,

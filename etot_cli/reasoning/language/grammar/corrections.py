@@ -73,6 +73,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     before, after = (
         tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
     )
+    if after[:1] == ("not",) and "," in after and {*after[1 : after.index(",")]} <= {*before}:
+        after = after[after.index(",") + 1 :]  # "the car, no wait, not the car, the ball"
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop

@@ -348,6 +348,14 @@ ENSURE = either(
         optional("in it"),
         build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
     ),
+    sequence(
+        verbs.WISH_IF,
+        NP_LIST,
+        verbs.WISHED_SO,
+        optional(_EACH, ""),
+        PREDICATE,
+        build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
+    ),
     valued(
         either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),
         lambda state: EnsureClause((state,)),
@@ -378,7 +386,6 @@ ENSURE = either(
         for said in (
             (NP_LIST, verbs.MODAL),
             (verbs.WANTED, NP_LIST, _TO_BE),
-            (verbs.WISH_IF, NP_LIST, verbs.WISHED_SO),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
             ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
         )

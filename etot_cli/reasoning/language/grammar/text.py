@@ -86,7 +86,7 @@ _CLITICS = (
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),
-    (r"\b(is|are|should|must|would|could|need)n't\b", r"\1 not"),
+    (r"\b(is|are|was|were|should|must|would|could|need)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"'d(?= better\b)", " had"),
     (r"\b(i|it|we|you|they)'d\b", r"\1 would"),
