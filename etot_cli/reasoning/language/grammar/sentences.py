@@ -38,12 +38,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
+    silent,
     some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
-from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import (
     ENSURE,
     IF_NOT_SO,
@@ -62,6 +63,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     RemoveClause,
     State,
+    SwapClause,
     Things,
     Toward,
     put_to,
@@ -254,6 +256,21 @@ _PAIRS = quiet(
 """Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
+
+
+def _swapped(things: Things, rest: Reading) -> Reading | None:
+    """Two things that swap places, as it is said again ("swap them, the cup on the tray, …")."""
+    match rest:
+        case (Spoken(clause=PutClause() as clause) as said,):
+            return (replace(said, clause=SwapClause(things, placed=clause)),)
+        case (Spoken(clause=EnsureClause(states=said_so)) as said,):
+            groups = tuple(PutGroup(Things(so.subjects), so.destinations) for so in said_so)
+            known = all(so.destinations and not (so.denied or so.kept) for so in said_so)
+            swap = SwapClause(things, placed=PutClause(groups))
+            return (replace(said, clause=swap),) if known else None
+    return None
+
+
 _WITH_MORE_BEFORE_IT = either(
     sequence(
         optional(small_words.LOOK_FOR),
@@ -303,7 +320,15 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
-    sequence(f"{verbs.TIDY}, {verbs.SWAP}", NAMED, COMMA, _PLACED, build=each_sorted),
+    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
+    sequence(
+        verbs.SWAP,
+        THINGS,
+        silent(optional("around, over")),
+        COMMA,
+        either(_PLACED, plain(either(PUT, ENSURE))),
+        build=_swapped,
+    ),
     sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
@@ -393,9 +418,11 @@ WHOLE = either(
         # "The plate stays where it is, spoon to the right of it"
         EMPTY_WORDS,
         plain(either(KEEP_STILL, ENSURE)),
-        some(either(_JOINED, _joint("and", LIST, _PLACED)), least=1, most=6),
+        some(_JOINED, most=6),
+        _joint("and", LIST, _PLACED),
+        some(_JOINED, most=6),
         _END,
-        build=_chained,
+        build=lambda first, more, placed, rest: _chained(first, (*more, placed, *rest)),
     ),
     sequence(
         EMPTY_WORDS,

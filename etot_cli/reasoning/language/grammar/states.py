@@ -242,7 +242,8 @@ def _if_not_there(
     (here, *more) = there
     inside = all(item.toward is Toward.INSIDE for item in where)
     words = ("there", *(("in there", "in", "inside") if inside else ("on there",)))
-    again |= here.toward is Toward.HERE and here.word in words and not more
+    several = more or where[1:] or where[0].targets[1:]
+    again |= here.toward is Toward.HERE and here.word in words and not several
     alone = len(things.phrases) == 1 and bool(things.phrases[0].pronoun)
     return EnsureClause((State(subjects, where, kept=True),)) if alone and again else None
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from etot_cli.reasoning.language.words.verbs import RELATIONS
 
-WITHOUT_MEANING = """
+_WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
+WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
     again,
@@ -16,12 +17,12 @@ WITHOUT_MEANING = """
     (when|once) you have [got] (it|them),
     whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
-    (it does not|does not|no) matter which [one],
+    (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
     (either|any|each|both) [one] [of (them|these|those)]
     ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
     ~comma (any|either) [one] [of (them|these|those)],
-    [i] (do not|don t) (care|mind) [which] [one], whichever, if you can,
+    [i] (do not|don t) (care|mind) [one|{_WHICH}], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
     behind you, after you, one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,

@@ -136,7 +136,7 @@ BE = """
 """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
+    (should|must|shall|may|can|had better) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
@@ -182,8 +182,8 @@ CHANGE_PLACES = """
 """
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
-    but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
-    [but|and] take care not to
+    [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
+    [but|and] be careful not to, [but|and] take care not to
 """
 NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
