@@ -9,6 +9,14 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.doubles import (
+    BOTH_WAYS,
+    EMPTY_AND_SO,
+    NEITHER,
+    ONLY_THESE,
+    bared,
+    with_others,
+)
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
@@ -18,6 +26,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.moves import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -28,17 +37,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
-    separated,
     sequence,
-    silent,
     some,
     variants,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import FLANKED, OUT_AND_INTO, PUT, brought
+from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
@@ -53,7 +60,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     PutGroup,
     RemoveClause,
-    State,
     Things,
     Toward,
     TowerClause,
@@ -67,7 +73,6 @@ from etot_cli.reasoning.language.grammar.taking import (
     PICK,
     REMOVE,
     SOURCE,
-    emptied,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.known import LINKS
@@ -286,94 +291,18 @@ def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
     return (Spoken(clause, at, when, instead), *(Spoken(item, at) for item in avoided))
 
 
-def _bared(
-    orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...]
-) -> Reading | None:
-    """Who puts a mug somewhere "without the pen" takes the pen out of it first."""
-    at, clause = put
-    (theme, *more) = clause.groups[0].things.phrases
-    if orders or more or clause.groups[1:]:
-        return None
-    return (Spoken(RemoveClause(Things(out), theme, without=True), at), Spoken(clause, at))
-
-
-def _with_others(
-    orders: tuple[Order | bool, ...], put: tuple[int, Clause], more: tuple[int, Clause]
-) -> Reading | None:
-    """What goes somewhere, and then others beside it."""
-    at, clause = put
-    return None if orders else (Spoken(clause, at), Spoken(more[1], more[0]))
-
-
-_EMPTY_AND_SO = located(
-    sequence(
-        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
-        either(
-            sequence(manner.EMPTIED, "and", OPEN_OR_CLOSED),
-            sequence(OPEN_OR_CLOSED, "and", manner.EMPTIED),
-        ),
-        optional(small_words.TRAILING_LAST),
-        build=lambda things, word: (
-            emptied(things),
-            EnsureClause((State(things.phrases, word=word),)),
-        ),
-    ),
-    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
-)
-"""How something is to be in the end, in two words ("empty and closed")."""
-
-
-def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
-    """What is not to go somewhere, and what is ("…, only the green one")."""
-    only = all(np.determiner.startswith("only") for np in meant.phrases)
-    avoided = AvoidClause(Avoid.PUT, out, where, negated=True)
-    return (avoided, put_to(meant, where)) if joint or only else None
-
-
-_NEITHER = sequence(verbs.PUT, "neither", separated(noun_phrase, "nor"), build=Things)
-_ONLY_THESE = located(
-    sequence(
-        either(sequence(verbs.DO_NOT, verbs.PUT, THINGS), _NEITHER),
-        DESTINATIONS,
-        OPTIONAL_COMMA,
-        optional(phrase("but, just, but just"), ""),
-        THINGS,
-        build=_only_these,
-    ),
-    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
-)
-_OPENED_OR_CLOSED = one_of({True: verbs.OPEN, False: verbs.CLOSE})
-
-
-def _both_ways(first: bool, opens: bool, things: Things) -> tuple[Clause, Clause] | None:
-    """Of the same things it is first one and then the other ("open, then close the drawer")."""
-    known = all(np.determiner in ("the", "both", "") for np in things.phrases)
-    ways = (MoveClause(things, first), MoveClause(things, opens))
-    return ways if known and not things.either and first != opens else None
-
-
-_BOTH_WAYS = located(
-    sequence(
-        _OPENED_OR_CLOSED,
-        either(sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA), "and"),
-        _OPENED_OR_CLOSED,
-        THINGS,
-        build=_both_ways,
-    ),
-    lambda at, ways: (Spoken(ways[0], at), Spoken(ways[1], at, Order.THEN)),
-)
 LED_CLAUSE = Rule(
     either(
-        sequence(LEAD, _BOTH_WAYS, build=lambda orders, said: None if orders else said),
+        sequence(LEAD, BOTH_WAYS, build=lambda orders, said: None if orders else said),
         sequence(LEAD, CLAUSE, build=_spoken),
         sequence(
             LEAD,
-            either(_ONLY_THESE, _EMPTY_AND_SO),
+            either(ONLY_THESE, EMPTY_AND_SO),
             build=lambda orders, said: None if orders else said,
         ),
         plain(
             sequence(
-                _NEITHER,
+                NEITHER,
                 DESTINATIONS,
                 build=lambda out, where: AvoidClause(Avoid.PUT, out, where, negated=True),
             )
@@ -383,7 +312,7 @@ LED_CLAUSE = Rule(
             located(either(PUT, ENSURE), lambda at, clause: (at, clause)),
             OPTIONAL_COMMA,
             located(FLANKED, lambda at, clause: (at, clause)),
-            build=_with_others,
+            build=with_others,
         ),
         sequence(
             LEAD,
@@ -391,70 +320,7 @@ LED_CLAUSE = Rule(
             OPTIONAL_COMMA,
             "without",
             NP_LIST,
-            build=_bared,
+            build=bared,
         ),
     )
 )
-
-
-SO = sequence(
-    ALL_THINGS,
-    optional(f"{verbs.BE}, (has|have) been"),
-    OPEN_OR_CLOSED,
-    build=lambda things, word: MoveClause(things, word == "open"),
-)
-_TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
-_SO_BY_THEN = either(
-    sequence(
-        ALL_THINGS,
-        f"{verbs.BE}, {small_words.GONE}, (is|are) out of the way",
-        DESTINATIONS,
-        build=put_to,
-    ),
-    sequence(
-        ALL_THINGS,
-        verbs.BE,
-        OUT_AND_INTO,
-        build=lambda things, moved: PutClause((brought(things, *moved),)),
-    ),
-    sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
-    sequence(ALL_THINGS, "(is|are) (out|off|out of the way)", build=RemoveClause),
-    sequence(
-        ALL_THINGS,
-        _TAKEN_BY_THEN,
-        silent(either("out, off, away, down", SOURCE)),
-        "and [then] [been]",
-        verbs.DONE,
-        DESTINATIONS,
-        build=put_to,
-    ),
-    SO,
-)
-"""What has been done or is so by then ("once the pear has been put into the bowl")."""
-_HAVING_DONE = either(
-    *(
-        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
-    ),
-    *(
-        sequence(
-            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for said, particle, opens in (
-            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
-            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
-        )
-    ),
-    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
-    sequence(
-        "taken, removed, moved, cleared",
-        ALL_THINGS,
-        either(SOURCE, phrase("out, off, away", "")),
-        build=lambda things, source: RemoveClause(things, source or None),
-    ),
-)
-EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("[but] [only] (once|after|when|as soon as)", plain(_SO_BY_THEN)),
-)
-"""What comes before the rest of a sentence."""

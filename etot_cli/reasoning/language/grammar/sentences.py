@@ -5,56 +5,55 @@ from __future__ import annotations
 from dataclasses import replace
 from operator import add
 
-from etot_cli.reasoning.language.grammar.arrangements import REPLACING
+from etot_cli.reasoning.language.grammar.chains import (
+    CHAIN,
+    JOINED,
+    LEFT_SO,
+    chained,
+    joint,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.clauses import (
-    EARLIER,
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
-    SO,
     Reading,
     changed,
     of_the_things,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import (
-    COLON,
     COMMA,
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
-    Parser,
-    Part,
     complete,
     either,
     optional,
-    quiet,
-    separated,
     sequence,
     silent,
     some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import (
     ENSURE,
-    IF_NOT_SO,
-    OPEN_OR_CLOSED,
-    SHUT,
     states,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
-    AvoidClause,
     Destination,
     EnsureClause,
     Modifier,
@@ -62,7 +61,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     PutGroup,
     RemoveClause,
-    State,
     SwapClause,
     Things,
     Toward,
@@ -83,107 +81,22 @@ from etot_cli.reasoning.language.grammar.topics import (
     shared_out,
     sources,
 )
-from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
 
-def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
-    """What was put somewhere goes on to another place; "on top" says no such thing."""
-    named = all(item.targets and not item.targets[0].pronoun for item in where)
-    return AgainClause(None, destinations=where) if named else None
-
-
-def _joint(name: str, *parts: Part) -> Parser:
-    """What goes on a sentence, with a name for what joins it."""
-    return sequence(*parts, build=lambda reading: (name, reading))
-
-
-def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    return EnsureClause((State(nps, word=word),))
-
-
-_LEFT_SO = sequence(
-    plain(sequence(NP_LIST, optional(COLON), OPEN_OR_CLOSED, build=_left_so)),
-    optional(small_words.TRAILING_LAST),
-)
-"""How something is to be in the end, without a verb ("drawer shut")."""
-_JOINED = either(
-    _joint("and", either(COMMA, LIST), _LEFT_SO),
-    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
-    _joint("mere and", "and", LED_CLAUSE),
-    _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
-    _joint("after", OPTIONAL_COMMA, EARLIER),
-    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
-    _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
-    _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.THEN_JOINTS,
-        OPTIONAL_COMMA,
-        EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=AgainClause), VERBLESS)),
-    ),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.ONWARD,
-        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
-    ),
-)
-
-
-def _then(clause: Reading) -> Reading:
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
-
-
-def _maybe_denied(done: Reading, clause: Reading) -> Reading:
-    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
-    before = done[-1].clause
-    if (
-        not isinstance(before, AvoidClause)
-        or not before.negated
-        or isinstance(clause[0].clause, AvoidClause)
-    ):
-        return done
-    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
-
-
-def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    done = first
-    for joint, clause in more:
-        if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
-            return None  # "keep it open while you …"; else the hand would do two things
-        if joint == "mere and":
-            done = _maybe_denied(done, clause)
-        if joint == "after":
-            done = (*clause, *_then(done))
-        else:
-            done = (*done, *(_then(clause) if joint == "then" else clause))
-    return done
-
-
-CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
-
-
 def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    return None if str(asks).startswith("what") else _chained(first, more)
+    return None if str(asks).startswith("what") else chained(first, more)
 
 
 def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """What comes first without a verb, and then more."""
-    return _verbless(first, more) if any(joint == "then" for joint, _ in more) else None
+    return _verbless(first, more) if any(said == "then" for said, _ in more) else None
 
 
 _NOT_THIS = sequence(
@@ -213,7 +126,7 @@ def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     """Headlines have no articles; "the drawer shut" lacks a verb."""
     clause = first[0].clause
     bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return _chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
+    return chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
 
 
 def _taken_out(things: Things) -> RemoveClause | None:
@@ -237,23 +150,6 @@ def _placed_there(np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.TO, (np,)),))
 
 
-_PAIRS = quiet(
-    sequence(
-        separated(
-            sequence(
-                noun_phrase,
-                noun_phrase,
-                build=lambda np, place: PutGroup(
-                    Things((np,)), (Destination(Toward.TO, (place,)),)
-                ),
-            ),
-            LIST,
-            most=6,
-        ),
-        build=lambda groups: PutClause(groups) if groups[1:] else None,
-    )
-)
-"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 
@@ -329,7 +225,7 @@ _WITH_MORE_BEFORE_IT = either(
         either(_PLACED, plain(either(PUT, ENSURE))),
         build=_swapped,
     ),
-    sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
+    sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         NAMED,
@@ -358,19 +254,19 @@ _WITH_MORE_BEFORE_IT = either(
             )
         ),
         COMMA,
-        valued(CHAIN, _then),
+        valued(CHAIN, then_done),
         build=add,
     ),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
-    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, _then), build=add),
+    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(
         small_words.BEFORE,
         LED_CLAUSE,
         OPTIONAL_COMMA,
         CHAIN,
-        build=lambda later, rest: rest + _then(later),
+        build=lambda later, rest: rest + then_done(later),
     ),
 )
 SENTENCE = either(
@@ -402,7 +298,7 @@ WHOLE = either(
         optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
         optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
         _PLACED,
-        some(_JOINED, most=12),
+        some(JOINED, most=12),
         _END,
         build=_verbless,
     ),
@@ -410,7 +306,7 @@ WHOLE = either(
         # "First the ball into the box, then the cup"
         EMPTY_WORDS,
         either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
-        some(_JOINED, least=1, most=12),
+        some(JOINED, least=1, most=12),
         _END,
         build=_first_placed,
     ),
@@ -418,16 +314,16 @@ WHOLE = either(
         # "The plate stays where it is, spoon to the right of it"
         EMPTY_WORDS,
         plain(either(KEEP_STILL, ENSURE)),
-        some(_JOINED, most=6),
-        _joint("and", LIST, _PLACED),
-        some(_JOINED, most=6),
+        some(JOINED, most=6),
+        joint("and", LIST, _PLACED),
+        some(JOINED, most=6),
         _END,
-        build=lambda first, more, placed, rest: _chained(first, (*more, placed, *rest)),
+        build=lambda first, more, placed, rest: chained(first, (*more, placed, *rest)),
     ),
     sequence(
         EMPTY_WORDS,
-        either(_LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
-        some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
+        either(LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
+        some(either(JOINED, joint("and", LIST, _PLACED)), most=6),
         _END,
         build=_headline,
     ),
