@@ -69,11 +69,11 @@ def phrases(scene: SceneState, name: str, *, plain: bool = False) -> Iterator[st
         yield f"the {info.color} {word}"
         yield f"the {word} that is {info.color}"
     under = _support(scene, name)
-    if under and under in scene.infos and _is_unique(scene, under) and not plain:
-        if under not in [_support(scene, other) for other in others]:
-            relation = "in" if state.inside else "on"
-            yield f"the {word} {relation} the {scene.infos[under].label}"
-            yield f"the {word} that is {relation} the {scene.infos[under].label}"
+    alone = under not in [_support(scene, other) for other in others]
+    if under in scene.infos and alone and not plain and _is_unique(scene, str(under)):
+        relation, there = "in" if state.inside else "on", scene.infos[str(under)].label
+        yield f"the {word} {relation} the {there}"
+        yield f"the {word} that is {relation} the {there}"
     if not others or any(_support(scene, other) != "desk" for other in alike):
         return
     sideways = [scene.states[other].position[1] - state.position[1] for other in others]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
+    PutClause,
     SwapClause,
     Things,
     TowerClause,
@@ -88,8 +90,12 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
         return [*themes]
     pool = things_in(first.options)
     widths = {max(infos[thing.name].size[:2]) for thing in pool}
+    alike = max(widths) - min(widths) <= AS_WIDE_M
+    singly = all(len(option) == 1 for referent in said for option in referent.options)
+    if clause.upward is not None and alike and singly:
+        return [*themes][:: 1 if clause.upward else -1]  # "one red block, then the other"
     ordered = clause.upward is not None or clause.bottom or clause.middle or clause.top
-    if len(themes) > 1 or ordered or max(widths) - min(widths) > AS_WIDE_M:
+    if len(themes) > 1 or ordered or not alike:
         raise ReferenceProblem(first.text, "say which ones to stack", 2)
     found: list[int] = []
     for _ in range(count):
@@ -162,22 +168,42 @@ def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing
     return found[0]
 
 
+def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:
+    """Puts two things where it is said, which is where the other one is."""
+    put(context, clause)
+    moved: dict[Thing, bool] = {}
+    for step in (step for step in context.steps if isinstance(step, Put)):
+        there = {(place.relation, *_at(context, place)) for place in step.places}
+        for thing in (t for i in step.what for t in context.only(i, "say which one")):
+            home = goal.get(thing)
+            moved[thing] = home is not None and there == {(home.relation, *_at(context, home))}
+    if moved.keys() != goal.keys() or not all(moved.values()):
+        raise ReferenceProblem(text, "that is not each where the other one is", 3)
+
+
+def _at(context: Context, place: Place) -> tuple[Thing, ...]:
+    return () if place.where is None else context.discourse.things(place.where)
+
+
 def swap(context: Context, clause: SwapClause) -> None:
     """Each of two things to the other's place, while the first one waits on the desk; what is
     replaced stays there.
     """
-    put = context.discourse.put
-    place_of_it = put and any(np.text == "its" for np in clause.things.phrases)
-    still = [i for i in range(len(context.discourse.referents)) if place_of_it and i not in put]
+    gone = context.discourse.put
+    place_of_it = gone and any(np.text == "its" for np in clause.things.phrases)
+    still = [i for i in range(len(context.discourse.referents)) if place_of_it and i not in gone]
     themes = context.phrases.things(clause.things, Role.THEME, still)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
     text = clause.things.text
     if len(things) != 2:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
     stay = themes[1:] if clause.replaces else themes  # it may have been taken away before
-    if any(index in context.discourse.put for index in stay):
+    if any(index in gone for index in stay):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
+    if clause.placed:
+        _placed(context, clause.placed, dict(zip(things, homes[::-1], strict=True)), text)
+        return
     for place in context.places.of(clause.where, themes[1:]) if clause.where else ():
         named = place.where is not None and {*context.discourse.things(place.where)}
         at = homes[0].where
@@ -192,8 +218,8 @@ def swap(context: Context, clause: SwapClause) -> None:
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
     if clause.replaces:
         away = Put((themes[0],), (context.places.on_the_desk(),), removal=True)
-        gone = themes[0] in context.discourse.put
-        context.steps += [*([] if gone else [away]), Put((themes[1],), (homes[0],))]
+        before = [] if themes[0] in gone else [away]
+        context.steps += [*before, Put((themes[1],), (homes[0],))]
         return
     if homes[0] == homes[1]:
         if homes[0].relation is not Relation.ON:

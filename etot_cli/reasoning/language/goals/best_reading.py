@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.goals.plausibility import (
     guesses,
     holds_roughly,
     plans_of,
+    taken_up_again,
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
@@ -47,7 +48,8 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     unclear: AmbiguousReference | None = None
     for reading in sentence.readings:
         simplicity = reading_cost(reading)
-        if found and simplicity > cost and not undecided:
+        odd = all(taken_up_again(item.timed) for item in found.values())
+        if found and simplicity > cost and not undecided and not odd:
             break
         attempt = state.copy()
         try:
@@ -64,6 +66,8 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
                 problem, blame = error, error.weight - simplicity
             continue
         meaning = _meaning(goal)
+        if found and odd and not taken_up_again(attempt.timed):
+            found, cost = {}, simplicity  # "the cup on the left, lift it"
         if found and simplicity > cost:
             if len(attempt.context.discourse.undecided) < undecided and meaning not in found:
                 # What would tell "the cup" from others may be said of it.
@@ -81,9 +85,8 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     if not found:
         assert problem is not None  # a sentence has at least one reading
         raise problem
-    odd = {meaning: guesses(attempt.context, attempt.timed) for meaning, attempt in found.items()}
-    least = min(odd.values())
-    found = {meaning: attempt for meaning, attempt in found.items() if odd[meaning] == least}
+    doubts = {way: guesses(attempt.context, attempt.timed) for way, attempt in found.items()}
+    found = {way: found[way] for way in found if doubts[way] == min(doubts.values())}
     if len(found) == 1:
         return next(iter(found.values()))
     return _only_one_that_asks(state, sentence, found)

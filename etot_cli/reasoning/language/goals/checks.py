@@ -5,10 +5,10 @@ Each raises a ReferenceProblem that names the words.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, things_in
-from etot_cli.reasoning.builtin.relations import carriers, parts_of
+from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.turns import Timed
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -48,20 +48,39 @@ def check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
         held = picked[-1] if picked else held
 
 
-def check_kept(goal: Goal) -> None:
-    """Whether anything is to be put somewhere and to stay where it is."""
+def check_kept(goal: Goal, scene: SceneState) -> None:
+    """Whether anything is to be moved and to stay where it is, by itself or with what it is on."""
     still = (Keep.UNTOUCHED, Keep.UNMOVED)
     kept = {name for item in goal.constraints if item.keep in still for name in item.names}
-    for index in (index for step in goal.steps if isinstance(step, Put) for index in step.what):
+    for index in _moved(goal):
         referent = goal.referents[index]
         always = set.intersection(*({t.name for t in option} for option in referent.options))
-        for name in sorted(always & kept):
-            why = f"{name} cannot both be put somewhere and be left as it is"
-            raise ReferenceProblem(referent.text, why, 4)
+        for name in sorted(kept):
+            if name in always:
+                why = f"{name} cannot both be put somewhere and be left as it is"
+                raise ReferenceProblem(referent.text, why, 4)
+            if below := sorted(always & carriers(scene, name)):
+                why = f"{name} would come along with {below[0]}; say where it is to go"
+                raise ReferenceProblem(referent.text, why, 4)
+
+
+def check_replaced(goal: Goal, in_the_way: Sequence[tuple[str, frozenset[Thing]]]) -> None:
+    """Whether what is where something is to go "instead of it" goes elsewhere."""
+    moved = {thing for index in _moved(goal) for thing in things_in(goal.referents[index].options)}
+    for text, things in in_the_way:
+        if not things <= moved:
+            raise ReferenceProblem(text, "it is there; say where that is to go", 3)
+
+
+def _moved(goal: Goal) -> Iterator[int]:
+    """The referents that are put somewhere or picked up."""
+    for step in goal.steps:
+        if isinstance(step, Put | Pick):
+            yield from step.what if isinstance(step, Put) else (step.what,)
 
 
 def check_shut(goal: Goal, scene: SceneState) -> None:
-    """Whether anything is to be put into what is closed and must not be opened."""
+    """Whether anything is to be put into what is closed and must not be opened, or taken out."""
     shut = {name for item in goal.constraints if item.keep is Keep.CLOSED for name in item.names}
     for step in (step for step in goal.steps if isinstance(step, Put) and shut):
         for place in step.places:
@@ -72,6 +91,17 @@ def check_shut(goal: Goal, scene: SceneState) -> None:
             if parts and all({f"{p.owner}.{p.name}", p.owner} & shut for p in parts):
                 why = "nothing can be put in there while it stays closed; say 'then close it'"
                 raise ReferenceProblem(referent.text, why, 4)
+    for index in _moved(goal) if shut else ():
+        within = [
+            scene.part(scene.states[thing.name].inside or "")
+            for thing in things_in(goal.referents[index].options)
+            if thing.name in scene.states
+        ]
+        if all(
+            p and not is_open(scene, p) and {f"{p.owner}.{p.name}", p.owner} & shut for p in within
+        ):
+            why = "it cannot be taken out of what stays closed; say 'then close it'"
+            raise ReferenceProblem(goal.referents[index].text, why, 4)
 
 
 def check_everything(goal: Goal) -> None:

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Whereabouts, holds
 from etot_cli.world.state import DESK
 
 
@@ -39,9 +40,9 @@ def check_taken(
                 told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
             if prep is Prep.FROM and reached & told:
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
-            there = any(touches(one, at, context.scene) for one in told for at in reached)
+            there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
             if prep is Prep.CONTRAST and there:
-                raise ReferenceProblem(np.text, "it is there; say where that is to go", 3)
+                context.in_the_way.append((np.text, frozenset(there)))
     for phrase in (np for item in group.destinations for np in item.targets):
         described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
         if not taken or described or not phrase.is_elliptic:
@@ -130,14 +131,24 @@ def check_describes(
     subjects: Sequence[int],
     places_of: dict[int, tuple[Place, ...]],
 ) -> None:
-    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there."""
+    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there, or
+    beside it.
+    """
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
     below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
         return
     for index in (index for index in subjects if index not in context.discourse.put):
         for thing in context.discourse.things(index):
-            if below & bearers(context.scene, thing.name):
+            beside = [
+                Whereabouts(item.relation, (name,))
+                for where in condition.destinations
+                for item in where.beside
+                for name in below
+                if item.relation.landmarks == 1
+            ]
+            there = any(holds(item, thing.name, context.scene) for item in beside)
+            if there or below & bearers(context.scene, thing.name):
                 text = context.discourse.referents[index].text
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)
 

@@ -43,6 +43,8 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
+        self.in_the_way: list[tuple[str, frozenset[Thing]]] = []
+        """What is where something is to go instead of it: it has to go elsewhere."""
         self.last: Clause | None = None
         """The clause before."""
 

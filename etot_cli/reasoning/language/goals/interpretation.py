@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_everything,
     check_held,
     check_kept,
+    check_replaced,
     check_run,
     check_shut,
     check_turns,
@@ -49,7 +50,8 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     for sentence in sentences:
         state = best_reading(state, sentence)
     goal = state.goal()
-    check_kept(goal)
+    check_replaced(goal, state.context.in_the_way)
+    check_kept(goal, scene)
     check_shut(goal, scene)
     check_everything(goal)
     check_run(goal)

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from itertools import islice
 
 from etot_cli.reasoning.builtin.branching import branches_of
-from etot_cli.reasoning.builtin.goal import Goal, Put, Relation
+from etot_cli.reasoning.builtin.goal import Goal, Pick, Put, Relation
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.turns import Timed
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.reference.landmarks import ROUGHLY
 from etot_cli.reasoning.language.reference.sifting import TAKEN_FOR
 from etot_cli.reasoning.language.reference.vessels import goes_in
@@ -50,6 +51,19 @@ def guesses(context: Context, said: Sequence[Timed]) -> int:
     rough = [note.removesuffix(ROUGHLY).split(": ")[-1] for note in notes if note.endswith(ROUGHLY)]
     roughly = sum(bool(moved & {*names.split()}) for names in rough)
     return cramped + roughly + sum(note.startswith(TAKEN_FOR) for note in notes)
+
+
+def taken_up_again(said: Sequence[Timed]) -> bool:
+    """Whether a sentence moves again what it has put somewhere, without a word for order."""
+    put: set[tuple[int, int]] = set()
+    again = False
+    for item in said:
+        for step in (step for step in item.steps if isinstance(step, Put | Pick)):
+            what = step.what if isinstance(step, Put) else (step.what,)
+            again |= item.order is Order.SAID and any((item.sentence, i) in put for i in what)
+            if isinstance(step, Put) and not (step.removal or step.aside):
+                put |= {(item.sentence, index) for index in what}
+    return again
 
 
 def plans_of(goal: Goal, scene: SceneState, *, ordered: bool) -> tuple[Moves, ...]:

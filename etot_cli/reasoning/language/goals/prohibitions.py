@@ -24,6 +24,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
@@ -35,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import addresses, touches
+from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
@@ -66,7 +68,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         _avoid_others(context, clause)
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
-    if role is Role.ANY and any(phrase.is_elliptic for phrase in clause.things.phrases):
+    elliptic = (np.is_elliptic or leaves_noun_out(np) for np in clause.things.phrases)
+    if role is Role.ANY and any(elliptic):
         # "Leave the red one" speaks of what was moved rather than of where to.
         role = Role.PART if _moves_anyway(context, clause.things) else Role.THEME
     before = len(context.discourse.mentions)
@@ -92,6 +95,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     for index in indices if clause.avoid is Avoid.CLOSE else ():
         if not context.discourse.is_spoken(index):
             context.discourse.as_it_stands(index, is_open)
+    for index in indices if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else ():
+        leave_among_turned(context, index, opens=clause.avoid is Avoid.CLOSE)
     turned = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
     if clause.avoid is Avoid.MOVE and turned:  # "open it and leave it as it is"
         context.steps += [replace(step, final=True) for step in turned]

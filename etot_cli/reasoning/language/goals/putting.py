@@ -60,6 +60,7 @@ from etot_cli.reasoning.language.goals.prohibitions import (
     not_beside,
     rule_out,
 )
+from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -131,7 +132,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             group = elsewhere(group)
         group, abreast = side_by_side(group)
         destinations, grouping = distributed(group, grouping)
-        places = not_beside(context, context.places.of(destinations, themes), ruled_out, themes)
+        found = context.places.of(destinations, themes, stays=wherever or clause.stays)
+        places = not_beside(context, found, ruled_out, themes)
         check_contrasted(context, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
@@ -191,6 +193,7 @@ def ensure(context: Context, state: State) -> None:
                 if state.kept:
                     all_of_them = quantity_of(phrase.determiner).every
                     keep_as_it_is(context, index, state.word, every=all_of_them)
+                leave_among_turned(context, index, opens=state.word == "open")
                 context.steps.append(_made(index, opens=state.word == "open"))
                 _not_instead(context, phrase, index, opens=state.word == "open")
             if is_only(phrase.determiner):
@@ -362,13 +365,16 @@ def _condition(
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
-        # Of a bystander it says where it is, not where it is to be, unless it goes along in one.
-        along: list[int | None] = []
+        # Of a bystander it says where it is, not where it is to be, unless it goes along in one, or
+        # beside that.
+        places: tuple[Place, ...] = ()
         with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
-            along = [p.where for p in context.places.of(condition.destinations, subjects)]
-        if not set(along) & set(themes):
+            places = context.places.of(condition.destinations, subjects)
+        along = {index for place in places for index in place.referents()} & set(themes)
+        if not along or (subjects[1:] and any(place.beside for place in places)):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
-    places = context.places.of(condition.destinations, subjects)
+    else:
+        places = context.places.of(condition.destinations, subjects)
     for subject in subjects:
         places_of[subject] = places

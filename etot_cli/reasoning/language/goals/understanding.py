@@ -6,21 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Constraint,
-    Goal,
-    Keep,
-    Open,
-    Put,
-    Step,
-)
-from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.goal import Goal, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
-from etot_cli.reasoning.language.grammar.spoken import Spoken
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Clause,
@@ -32,12 +24,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.world.state import SceneState
 
 
-def _check_instead(spoken: Spoken, before: Clause | None) -> None:
-    """Whether "instead" takes back what was asked for; what is taken away makes room anyway."""
-    room = isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None:
+    """Whether "instead" takes back what was asked for; what is taken away makes ``room`` anyway."""
+    room |= isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
     room |= isinstance(before, ReorientClause) and before.only_named  # how things are
     denied = (isinstance(before, AvoidClause) and before.negated) or (
         isinstance(before, EnsureClause) and all(state.denied for state in before.states)
@@ -65,6 +58,7 @@ class Understanding:
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
         other.context.done = self.context.done
+        other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.sentence, other.context.last = self.sentence, self.context.last
@@ -76,8 +70,19 @@ class Understanding:
         timed: dict[int, Timed] = {}
         before: int | None = None
         for spoken in sorted(reading, key=lambda item: item.position):
-            _check_instead(spoken, self.context.last)
+            moved = self.context.discourse.things(*self.context.discourse.put)
             steps = tuple(steps_of(spoken.clause, self.context))
+            further = spoken is not reading[0] or spoken.order is Order.THEN
+            room = further and any(
+                touches(thing, at, self._scene)
+                for step in steps
+                if isinstance(step, Put)
+                for place in step.places
+                if place.where is not None
+                for at in self.context.discourse.things(place.where)
+                for thing in moved
+            )
+            _check_instead(spoken, self.context.last, room=room)
             self.context.last = spoken.clause
             item = Timed(steps, spoken.order, self.sentence)
             if before is not None and continues(timed[before], item):
@@ -107,37 +112,24 @@ class Understanding:
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
         return step == after or (whole and one == other != set())
 
-    def _constraints(self, steps: Sequence[Step]) -> list[Constraint]:
-        """Without what is to stay closed, but is to be opened and closed again: it is so after."""
-        if all(item.keep is not Keep.CLOSED for item in self.context.constraints):
-            return self.context.constraints
-        opened, closed = (
-            {
-                f"{part.owner}.{part.name}"
-                for step in steps
-                if isinstance(step, kind)
-                for thing in self.context.discourse.things(step.what)
-                for part in parts_of(self._scene, thing)
-            }
-            for kind in (Open, Close)
-        )
-        return [
-            item
-            for item in self.context.constraints
-            if item.keep is not Keep.CLOSED or not {*item.names} <= opened & closed
-        ]
-
     def goal(self) -> Goal:
-        """The goal so far."""
+        """The goal so far.
+
+        Raises:
+            ReferenceProblem: a part is to be both open and closed.
+        """
         discourse = self.context.discourse
         steps = [
             step
             for step, after in pairwise((*in_order(self.timed), None))
             if step is not None and not self._narrowed(step, after)
         ]
+        steps, constraints = in_turn(
+            steps, self.context.constraints, discourse.referents, self._scene
+        )
         return Goal(
             tuple(discourse.referents),
             tuple(steps),
-            tuple(dict.fromkeys(self._constraints(steps))),
+            tuple(dict.fromkeys(constraints)),
             tuple(discourse.notes),
         )

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
     Turns,
 )
+from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -62,7 +63,7 @@ _FIXED = """
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
-    back on [the] top of, right (next|behind|beside|in front|after), not both [of them],
+    back on [the] top of, right (next|behind|beside|in front|after|once|when), not both [of them],
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of,
@@ -74,7 +75,9 @@ _FIXED = """
     not (before|until)
 """
 """Phrases in which such words say something else, or nothing of their own."""
-_SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")
+_SAY_NOTHING = phrase(
+    f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
+)
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
+from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import SO, all_of, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
@@ -38,10 +39,21 @@ GROUPING = either(
 )
 BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
 CONDITION = sequence("with", NP_LIST, optional("still"), SO, build=state_of)
+_CONDITIONS = sequence(
+    "with",
+    PUT_GROUPS,
+    build=lambda groups: (
+        ("with", tuple(State(group.things.phrases, group.destinations) for group in groups))
+        if groups[1:] and not any(group.things.either for group in groups)
+        else None
+    ),
+)
+"""Several things that are to be beside another, each on a side of its own."""
 EXTRA = sequence(
     OPTIONAL_COMMA,
     either(
         CONDITION,
+        _CONDITIONS,
         phrase(manner.STANDING, ("upright", ())),
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),
@@ -87,6 +99,7 @@ def put_of(
     groupings = [item for item in extras if isinstance(item, Grouping)]
     conditions = tuple(item for item in extras if isinstance(item, State))
     said = [item for item in extras if isinstance(item, tuple) and item]
+    conditions += tuple(state for name, states in said if name == "with" for state in states)
     turns = turns_of(said)
     named = {item[0] for item in said}
     if each := next((words for name, words in said if name == "apart" and words), ()):

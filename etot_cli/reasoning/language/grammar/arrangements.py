@@ -251,20 +251,29 @@ def _exchanged(
     return SwapClause(Things(there), back=back) if alike else None
 
 
-REPLACING = sequence(
-    noun_phrase,
-    optional(either(INTO, ONTO), None),
-    either(
-        sequence("in [the] place of", noun_phrase),
-        phrase("in its place", NounPhrase(pronoun="it", text="its")),
-    ),
-    build=lambda new, there, old: SwapClause(
-        Things((old, new)), replaces=True, where=() if there is None else (there,)
-    ),
+_THE_PLACE = either(
+    sequence("in [the] place of", noun_phrase),
+    phrase("in its place", NounPhrase(pronoun="it", text="its")),
+    phrase("in (his|her) place", NounPhrase(pronoun="him", text="its")),
 )
+
+
+def _replacing(new: NounPhrase, there: Any, old: NounPhrase) -> SwapClause:
+    where = () if there is None else (there,)
+    return SwapClause(Things((old, new)), replaces=True, where=where)
+
+
+REPLACING = sequence(noun_phrase, optional(either(INTO, ONTO), None), _THE_PLACE, build=_replacing)
 """What goes where something else was."""
 SWAP = either(
     sequence(verbs.SET_DOWN, REPLACING),
+    sequence(
+        noun_phrase,
+        verbs.MODAL,
+        optional(either(INTO, ONTO), None),
+        _THE_PLACE,
+        build=_replacing,
+    ),
     sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
     sequence(
         optional(f"have, let, make, can, could, may, {verbs.WANT}"),

@@ -28,7 +28,12 @@ from etot_cli.reasoning.language.grammar.text import COLON, COMMA, sentences_of,
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import ANY_ONE, TIDYING, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import (
+    ANNOUNCED,
+    ANY_ONE,
+    TIDYING,
+    WITHOUT_MEANING,
+)
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
@@ -54,7 +59,8 @@ _AHEAD = re.compile(
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
 SAYS_NOTHING = frozenset(
-    said.removeprefix(f"{COMMA} ") for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}")
+    said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
+    for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
 )
 """Sentences and clauses that ask for nothing."""
 IsSentence = Callable[[str], bool]

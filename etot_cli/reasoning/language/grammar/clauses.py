@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.doubles import (
+    BOTH_WAYS,
+    EMPTY_AND_SO,
+    NEITHER,
+    ONLY_THESE,
+    bared,
+    with_others,
+)
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
+    LEFT,
     ONLY_THOSE,
     excepting,
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.moves import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -25,16 +37,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
-    separated,
     sequence,
     some,
     variants,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
+from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
@@ -65,7 +76,9 @@ from etot_cli.reasoning.language.grammar.taking import (
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -77,6 +90,13 @@ def _wanted_in_hand(things: Things) -> PickClause | None:
     return None if away or every else PickClause(things, wanted=True)
 
 
+def _is_one(np: NounPhrase) -> bool:
+    """Whether a phrase means one thing, of which nothing can be left out."""
+    several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
+    known = np.determiner in ("", "the", "this", "that", "my")
+    return known and not (several or is_category(np.head))
+
+
 WANTED = either(
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
@@ -84,9 +104,7 @@ WANTED = either(
         build=put_to,
     ),
     sequence(
-        "have, let",
-        ALL_THINGS,
-        "join",
+        either(sequence("have, let", ALL_THINGS, "join"), sequence(ALL_THINGS, verbs.JOIN)),
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
@@ -111,24 +129,31 @@ AGAIN = either(
 )
 
 
-def _is_one(np: NounPhrase) -> bool:
-    """Whether a phrase means one thing, of which nothing can be left out."""
-    several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
-    return np.determiner in ("", "the", "this", "that", "my") and not (
-        several or is_category(np.head)
-    )
-
-
 def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:
     """A clause without some of the things that it is about ("…, except the blue one"), of those
     that its last phrase means, or that ``at`` an index.
     """
+    some = left_out.prep is Prep.EXCEPT and not left_out.denied
+
+    def without(np: NounPhrase) -> NounPhrase | None:
+        return None if some and _is_one(np) else np.told_by(left_out)
+
+    return changed(clause, without, at)
+
+
+def changed(
+    clause: Clause, change: Callable[[NounPhrase], NounPhrase | None], at: int = -1
+) -> Clause | None:
+    """A clause with one of the phrases for what it is about changed, the last one by default; None
+    where that cannot be changed.
+    """
 
     def without(things: Things) -> Things | None:
         phrases = [*things.phrases]
-        if left_out.prep is Prep.EXCEPT and not left_out.denied and _is_one(phrases[at]):
+        new = change(phrases[at])
+        if new is None:
             return None
-        phrases[at] = phrases[at].told_by(left_out)
+        phrases[at] = new
         return replace(things, phrases=tuple(phrases))
 
     match clause:
@@ -169,6 +194,7 @@ LEFT_OUT = either(
     sequence(
         f"{nouns.EXCEPT}, without, any [one] but",
         exceptions,
+        LEFT,
         build=excepting,
     ),
     sequence(optional("but"), ONLY_THOSE),
@@ -249,10 +275,22 @@ ORDER_WORDS = one_of(
         Order.THEN: small_words.LEADING_THEN,
     }
 )
+_OPINION = Parser(
+    lambda given, at: [(at, NOTHING)] if {"should", "would", "ought"} & {*given.words[at:]} else []
+)
+"""Before a wish in such words; that something belongs somewhere is but thought."""
+_DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
+_BEFORE_A_VERB = Parser(
+    lambda given, at: (
+        [(at, NOTHING)] if given.ahead[at] in {*_DOING, "open", "close", "shut"} else []
+    )
+)
 LEAD = sequence(
     some(
         either(
             small_words.FRAMES,
+            sequence("do", _BEFORE_A_VERB),
+            sequence("i (think|believe|guess|suppose|reckon|feel) [that]", _OPINION),
             small_words.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
@@ -275,67 +313,28 @@ def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
     return (Spoken(clause, at, when, instead), *(Spoken(item, at) for item in avoided))
 
 
-def _bared(
-    orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...]
-) -> Reading | None:
-    """Who puts a mug somewhere "without the pen" takes the pen out of it first."""
-    at, clause = put
-    (theme, *more) = clause.groups[0].things.phrases
-    if orders or more or clause.groups[1:]:
-        return None
-    return (Spoken(RemoveClause(Things(out), theme, without=True), at), Spoken(clause, at))
-
-
-def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:
-    """What is not to go somewhere, and what is ("…, only the green one")."""
-    only = all(np.determiner.startswith("only") for np in meant.phrases)
-    avoided = AvoidClause(Avoid.PUT, out, where, negated=True)
-    return (avoided, put_to(meant, where)) if joint or only else None
-
-
-_NEITHER = sequence(verbs.PUT, "neither", separated(noun_phrase, "nor"), build=Things)
-_ONLY_THESE = located(
-    sequence(
-        either(sequence(verbs.DO_NOT, verbs.PUT, THINGS), _NEITHER),
-        DESTINATIONS,
-        OPTIONAL_COMMA,
-        optional(phrase("but, just, but just"), ""),
-        THINGS,
-        build=_only_these,
-    ),
-    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
-)
-_OPENED_OR_CLOSED = one_of({True: verbs.OPEN, False: verbs.CLOSE})
-
-
-def _both_ways(first: bool, opens: bool, things: Things) -> tuple[Clause, Clause] | None:
-    """Of the same things it is first one and then the other ("open, then close the drawer")."""
-    known = all(np.determiner in ("the", "both", "") for np in things.phrases)
-    ways = (MoveClause(things, first), MoveClause(things, opens))
-    return ways if known and not things.either and first != opens else None
-
-
-_BOTH_WAYS = located(
-    sequence(
-        _OPENED_OR_CLOSED,
-        either(sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA), "and"),
-        _OPENED_OR_CLOSED,
-        THINGS,
-        build=_both_ways,
-    ),
-    lambda at, ways: (Spoken(ways[0], at), Spoken(ways[1], at, Order.THEN)),
-)
 LED_CLAUSE = Rule(
     either(
-        sequence(LEAD, _BOTH_WAYS, build=lambda orders, said: None if orders else said),
+        sequence(LEAD, BOTH_WAYS, build=lambda orders, said: None if orders else said),
         sequence(LEAD, CLAUSE, build=_spoken),
-        sequence(LEAD, _ONLY_THESE, build=lambda orders, said: None if orders else said),
+        sequence(
+            LEAD,
+            either(ONLY_THESE, EMPTY_AND_SO),
+            build=lambda orders, said: None if orders else said,
+        ),
         plain(
             sequence(
-                _NEITHER,
+                NEITHER,
                 DESTINATIONS,
                 build=lambda out, where: AvoidClause(Avoid.PUT, out, where, negated=True),
             )
+        ),
+        sequence(
+            LEAD,
+            located(either(PUT, ENSURE), lambda at, clause: (at, clause)),
+            OPTIONAL_COMMA,
+            located(FLANKED, lambda at, clause: (at, clause)),
+            build=with_others,
         ),
         sequence(
             LEAD,
@@ -343,60 +342,7 @@ LED_CLAUSE = Rule(
             OPTIONAL_COMMA,
             "without",
             NP_LIST,
-            build=_bared,
+            build=bared,
         ),
     )
 )
-
-
-SO = sequence(
-    ALL_THINGS,
-    optional(f"{verbs.BE}, (has|have) been"),
-    OPEN_OR_CLOSED,
-    build=lambda things, word: MoveClause(things, word == "open"),
-)
-SO_BY_THEN = either(
-    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
-    sequence(
-        ALL_THINGS,
-        verbs.BE,
-        OUT_AND_INTO,
-        build=lambda things, moved: PutClause((brought(things, *moved),)),
-    ),
-    sequence(
-        ALL_THINGS,
-        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
-        SOURCE,
-        build=RemoveClause,
-    ),
-    SO,
-)
-"""What has been done or is so by then ("once the pear has been put into the bowl")."""
-_HAVING_DONE = either(
-    *(
-        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
-    ),
-    *(
-        sequence(
-            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for said, particle, opens in (
-            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
-            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
-        )
-    ),
-    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
-    sequence(
-        "taken, removed, moved, cleared",
-        ALL_THINGS,
-        either(SOURCE, phrase("out, off, away", "")),
-        build=lambda things, source: RemoveClause(things, source or None),
-    ),
-)
-EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("having", plain(_HAVING_DONE)),
-    sequence("[but] [only] (once|after|when|as soon as)", plain(SO_BY_THEN)),
-)
-"""What comes before the rest of a sentence."""

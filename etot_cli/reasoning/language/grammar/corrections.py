@@ -73,6 +73,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     before, after = (
         tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
     )
+    if after[:1] == ("not",) and "," in after and {*after[1 : after.index(",")]} <= {*before}:
+        after = after[after.index(",") + 1 :]  # "the car, no wait, not the car, the ball"
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
@@ -84,7 +86,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         spans = told or spans
     for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
-        if kept and rest[:1] == (",",) and rest[1:2] not in (("and",), ("then",)):
+        further = {*rest[1:2]} & {"and", "then", *VERB_WORDS}
+        if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
         new = (*said[:-1], taken[-1]) if noun else said

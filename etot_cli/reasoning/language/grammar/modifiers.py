@@ -44,6 +44,8 @@ from etot_cli.world.spatial import Nearby
 
 noun_phrase = Rule()
 exceptions = Rule()
+LEFT = optional(manner.IS_LEFT)
+"""Behind what is left out: that it stays so."""
 ADJECTIVE = either(
     word(lambda given, text: is_descriptive(text) or text in given.nouns),
     phrase(manner.STATES),
@@ -346,6 +348,6 @@ _modifier = either(
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(COMMA, CONTRASTED, COMMA),
-    sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, build=excepting),
+    sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, LEFT, build=excepting),
 )
 MODIFIER.define(_modifier)

@@ -70,7 +70,7 @@ DETERMINER = either(
         build=lambda *words: " ".join(words),
     ),
 )
-PRONOUN = phrase("it, them, they, this, that, these, those, its")
+PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
 
@@ -139,7 +139,7 @@ def _any_of(determiner: str, first: str, more: Any, rest: Any, modifiers: Any) -
 
 
 def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
-    if modifiers and pronoun in ("it", "its"):
+    if modifiers and pronoun in ("it", "its", "he", "him", "she", "her"):
         return None
     return NounPhrase(modifiers=modifiers, pronoun=pronoun)
 
@@ -232,7 +232,7 @@ noun_phrase.define(
                 build=partial(NounPhrase, "any"),
             ),
             sequence(
-                optional("the, a, their, its, his"),
+                optional("the, a, their, its, his, her"),
                 nouns.MATCHING_ADJECTIVES,
                 WORDS,
                 build=lambda words: NounPhrase("the", words, (Modifier(Prep.MATCHING),)),

@@ -68,6 +68,12 @@ AVOID = either(
         build=lambda clause: replace(clause, negated=True, needless=True),
     ),
     sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
+    sequence(
+        THINGS,
+        verbs.NOT_TO_BE,
+        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED}),
+        build=lambda things, avoid: AvoidClause(avoid, things),
+    ),
 )
 WITHOUT = sequence(
     OPTIONAL_COMMA,
@@ -93,9 +99,16 @@ _STAYS = sequence(
     "stay[s], remain[s]",
     optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
+OTHERS_STILL = sequence(
+    either(
+        sequence(_EVERYTHING_ELSE, _STAYS),
+        sequence("leav(e|ing), keep[ing]", _EVERYTHING_ELSE, optional(manner.AS_IT_IS)),
+    ),
+    build=lambda: AvoidClause(Avoid.MOVE, None),
+)
 KEEP_STILL = either(
     sequence(THINGS, _STAYS, build=partial(AvoidClause, Avoid.MOVE)),
-    sequence(_EVERYTHING_ELSE, _STAYS, build=lambda: AvoidClause(Avoid.MOVE, None)),
+    OTHERS_STILL,
     sequence(
         # After "the cups" rather one of them that is left out.
         either(
@@ -105,12 +118,6 @@ KEEP_STILL = either(
             ),
         ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
-    ),
-    sequence(
-        "leav(e|ing), keep[ing]",
-        _EVERYTHING_ELSE,
-        optional(manner.AS_IT_IS),
-        build=lambda: AvoidClause(Avoid.MOVE, None),
     ),
     sequence(
         "keep[ing], stay[ing]",

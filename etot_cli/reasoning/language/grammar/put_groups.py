@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     NounPhrase,
+    PutClause,
     PutGroup,
     Things,
     Toward,
@@ -93,3 +94,20 @@ PUT_GROUP = either(
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),
 )
 PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
+PAIRS = quiet(
+    sequence(
+        separated(
+            sequence(
+                noun_phrase,
+                noun_phrase,
+                build=lambda np, place: PutGroup(
+                    Things((np,)), (Destination(Toward.TO, (place,)),)
+                ),
+            ),
+            LIST,
+            most=6,
+        ),
+        build=lambda groups: PutClause(groups) if groups[1:] else None,
+    )
+)
+"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""

@@ -119,11 +119,20 @@ def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 
+_ON_BOTH_SIDES = phrase(places.ON_BOTH_SIDES)
+FLANKED = sequence(
+    "and, with", ALL_THINGS, _ON_BOTH_SIDES, phrase("it", NounPhrase(pronoun="it", text="it")),
+    build=_flanking,
+)  # fmt: skip
+"""Behind a clause about that ("… in the middle, with a cup on either side of it")."""
+
+
 def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
     things, said = found
     described = any(item.modifiers for item in (*others, *things.phrases))
-    named = not described and all(np.words and np.determiner in THE_WORDS for np in others)
+    known = (*THE_WORDS, *([""] if said == "in with" else ()))  # "in with teddy"
+    named = not described and all(np.words and np.determiner in known for np in others)
     where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
     return put_to(things, (where,)) if named else None
 
@@ -159,10 +168,14 @@ PUT = either(
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
-        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
+        either(
+            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
+            sequence(verbs.WANTED, ALL_THINGS),
+        ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
+    sequence(ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down)", DIRECTED, build=put_to),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
         ALL_THINGS,
@@ -177,7 +190,7 @@ PUT = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
-    sequence(BROUGHT, phrase(places.ON_BOTH_SIDES), noun_phrase, build=_flanking),
+    sequence(BROUGHT, _ON_BOTH_SIDES, noun_phrase, build=_flanking),
     sequence(
         BROUGHT,
         places.NEARBY[Nearby.NEXT_TO],
@@ -206,7 +219,13 @@ PUT = either(
             either(
                 sequence(verbs.SET_DOWN, THINGS, phrase("with, together with, in with")),
                 sequence(verbs.THROW, THINGS, phrase("in with")),
-                sequence(ALL_THINGS, verbs.MODAL, phrase("with, together with, in with")),
+                sequence(
+                    either(
+                        sequence(ALL_THINGS, verbs.MODAL),
+                        sequence(verbs.WANTED, ALL_THINGS, verbs.DONE),
+                    ),
+                    phrase("with, together with, in with"),
+                ),
             ),
             NP_LIST,
             build=_beside_others,

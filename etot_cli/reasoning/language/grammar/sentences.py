@@ -4,51 +4,57 @@ from __future__ import annotations
 
 from dataclasses import replace
 from operator import add
-from typing import Any
 
-from etot_cli.reasoning.language.grammar.arrangements import REPLACING
+from etot_cli.reasoning.language.grammar.chains import (
+    CHAIN,
+    JOINED,
+    LEFT_SO,
+    chained,
+    joint,
+    once_more,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.clauses import (
-    EARLIER,
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
-    SO,
-    SO_BY_THEN,
     Reading,
-    excluding,
+    changed,
     of_the_things,
     plain,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+)
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import (
-    ALL_THINGS,
-    NP_LIST,
-    THINGS,
-    begins_like_a_verb,
-)
+from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
-    Parser,
-    Part,
     complete,
     either,
     optional,
-    quiet,
-    separated,
     sequence,
+    silent,
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
-from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.put_groups import PAIRS
+from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.states import (
+    ENSURE,
+    states,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
-    AvoidClause,
     Destination,
     EnsureClause,
     Modifier,
@@ -56,7 +62,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     PutGroup,
     RemoveClause,
-    State,
+    SwapClause,
     Things,
     Toward,
     put_to,
@@ -74,119 +80,22 @@ from etot_cli.reasoning.language.grammar.topics import (
     shared_out,
     sources,
 )
-from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
 
 
-def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
-    """What was put somewhere goes on to another place; "on top" says no such thing."""
-    named = all(item.targets and not item.targets[0].pronoun for item in where)
-    return AgainClause(None, destinations=where) if named else None
-
-
-def _once_more(things: Things) -> AgainClause | None:
-    """Of which the same is asked for as before."""
-    return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
-
-
-def _also(things: Things) -> AgainClause:
-    """Behind a place, which it may be one more of."""
-    return AgainClause(things, trailing=True)
-
-
-def _joint(name: str, *parts: Part) -> Parser:
-    """What goes on a sentence, with a name for what joins it."""
-    return sequence(*parts, build=lambda reading: (name, reading))
-
-
-def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    return EnsureClause((State(nps, word=word),))
-
-
-_LEFT_SO = sequence(
-    plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
-    optional(small_words.TRAILING_LAST),
-)
-"""How something is to be in the end, without a verb ("drawer shut")."""
-_JOINED = either(
-    _joint("and", either(COMMA, LIST), _LEFT_SO),
-    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
-    _joint("mere and", "and", LED_CLAUSE),
-    _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
-    _joint("after", OPTIONAL_COMMA, EARLIER),
-    _joint("after", OPTIONAL_COMMA, "[but] not (before|until)", plain(SO_BY_THEN)),
-    _joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
-    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
-    _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
-    _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.THEN_JOINTS,
-        OPTIONAL_COMMA,
-        EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=_once_more), VERBLESS)),
-    ),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.ONWARD,
-        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
-    ),
-)
-
-
-def _then(clause: Reading) -> Reading:
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
-
-
-def _maybe_denied(done: Reading, clause: Reading) -> Reading:
-    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
-    before = done[-1].clause
-    if (
-        not isinstance(before, AvoidClause)
-        or not before.negated
-        or isinstance(clause[0].clause, AvoidClause)
-    ):
-        return done
-    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
-
-
-def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    done = first
-    for joint, clause in more:
-        if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
-            return None  # "keep it open while you …"; else the hand would do two things
-        if joint == "mere and":
-            done = _maybe_denied(done, clause)
-        if joint == "after":
-            done = (*clause, *_then(done))
-        else:
-            done = (*done, *(_then(clause) if joint == "then" else clause))
-    return done
-
-
-CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
-
-
 def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    return None if str(asks).startswith("what") else _chained(first, more)
+    return None if str(asks).startswith("what") else chained(first, more)
 
 
 def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """What comes first without a verb, and then more."""
-    return _verbless(first, more) if any(joint == "then" for joint, _ in more) else None
+    return _verbless(first, more) if any(said == "then" for said, _ in more) else None
 
 
 _NOT_THIS = sequence(
@@ -194,9 +103,21 @@ _NOT_THIS = sequence(
 )
 
 
-def _without(out: Any, rest: Reading) -> Reading | None:
-    """A sentence that begins with what is left out."""
-    clause = excluding(rest[0].clause, out)
+def _without(out: Modifier, rest: Reading) -> Reading | None:
+    """A sentence that begins with what is left out; "it" behind that is what is not meant ("not the
+    tray, the cup on it").
+    """
+    (first, *more) = out.phrases
+
+    def told(np: NounPhrase) -> NounPhrase:
+        upon = (
+            replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
+            for item in np.modifiers
+        )
+        contrasted = out.prep is Prep.CONTRAST and not more
+        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
+
+    clause = changed(rest[0].clause, told)
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
@@ -204,7 +125,7 @@ def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     """Headlines have no articles; "the drawer shut" lacks a verb."""
     clause = first[0].clause
     bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return _chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
+    return chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
 
 
 def _taken_out(things: Things) -> RemoveClause | None:
@@ -228,25 +149,23 @@ def _placed_there(np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.TO, (np,)),))
 
 
-_PAIRS = quiet(
-    sequence(
-        separated(
-            sequence(
-                noun_phrase,
-                noun_phrase,
-                build=lambda np, place: PutGroup(
-                    Things((np,)), (Destination(Toward.TO, (place,)),)
-                ),
-            ),
-            LIST,
-            most=6,
-        ),
-        build=lambda groups: PutClause(groups) if groups[1:] else None,
-    )
-)
-"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
+
+
+def _swapped(things: Things, rest: Reading) -> Reading | None:
+    """Two things that swap places, as it is said again ("swap them, the cup on the tray, …")."""
+    match rest:
+        case (Spoken(clause=PutClause() as clause) as said,):
+            return (replace(said, clause=SwapClause(things, placed=clause)),)
+        case (Spoken(clause=EnsureClause(states=said_so)) as said,):
+            groups = tuple(PutGroup(Things(so.subjects), so.destinations) for so in said_so)
+            known = all(so.destinations and not (so.denied or so.kept) for so in said_so)
+            swap = SwapClause(things, placed=PutClause(groups))
+            return (replace(said, clause=swap),) if known else None
+    return None
+
+
 _WITH_MORE_BEFORE_IT = either(
     sequence(
         optional(small_words.LOOK_FOR),
@@ -254,6 +173,17 @@ _WITH_MORE_BEFORE_IT = either(
         either(COMMA, "[~comma] and, and then, then, [~comma] so"),
         CHAIN,
         build=about,
+    ),
+    sequence(
+        # "Here is how the shelf should look: books on the upper board, …"
+        either(
+            sequence("(here|this|that) is how", NAMED, "(should|must|has to|is to) (look|be)"),
+            sequence(NAMED, "(should|must|has to) (look|be) like this"),
+            sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
+        ),
+        COMMA,
+        either(CHAIN, _PLACED),
+        build=add,
     ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
@@ -275,7 +205,15 @@ _WITH_MORE_BEFORE_IT = either(
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
     sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
-    sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
+    sequence(
+        verbs.SWAP,
+        THINGS,
+        silent(optional("around, over")),
+        COMMA,
+        either(_PLACED, plain(either(PUT, ENSURE))),
+        build=_swapped,
+    ),
+    sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         NAMED,
@@ -287,7 +225,11 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         f"{small_words.TASK}, {small_words.END_STATE}", plain(sequence(states, build=EnsureClause))
     ),
-    plain(IF_NOT_SO),
+    sequence(
+        plain(IF_NOT_SO),
+        optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
+        build=add,
+    ),
     sequence(
         "with",
         plain(
@@ -300,19 +242,19 @@ _WITH_MORE_BEFORE_IT = either(
             )
         ),
         COMMA,
-        valued(CHAIN, _then),
+        valued(CHAIN, then_done),
         build=add,
     ),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
-    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, _then), build=add),
+    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(
         small_words.BEFORE,
         LED_CLAUSE,
         OPTIONAL_COMMA,
         CHAIN,
-        build=lambda later, rest: rest + _then(later),
+        build=lambda later, rest: rest + then_done(later),
     ),
 )
 SENTENCE = either(
@@ -332,7 +274,7 @@ SENTENCE = either(
         f"{small_words.LEADING_THEN}, [and] now",
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(sequence(THINGS, build=_once_more), Order.THEN),
+        plain(sequence(THINGS, build=once_more), Order.THEN),
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
@@ -344,7 +286,7 @@ WHOLE = either(
         optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
         optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
         _PLACED,
-        some(_JOINED, most=12),
+        some(JOINED, most=12),
         _END,
         build=_verbless,
     ),
@@ -352,14 +294,24 @@ WHOLE = either(
         # "First the ball into the box, then the cup"
         EMPTY_WORDS,
         either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
-        some(_JOINED, least=1, most=12),
+        some(JOINED, least=1, most=12),
         _END,
         build=_first_placed,
     ),
     sequence(
+        # "The plate stays where it is, spoon to the right of it"
         EMPTY_WORDS,
-        either(_LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
-        some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
+        plain(either(KEEP_STILL, ENSURE)),
+        some(JOINED, most=6),
+        joint("and", LIST, _PLACED),
+        some(JOINED, most=6),
+        _END,
+        build=lambda first, more, placed, rest: chained(first, (*more, placed, *rest)),
+    ),
+    sequence(
+        EMPTY_WORDS,
+        either(LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
+        some(either(JOINED, joint("and", LIST, _PLACED)), most=6),
         _END,
         build=_headline,
     ),

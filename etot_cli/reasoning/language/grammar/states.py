@@ -7,11 +7,11 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import LIST
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
@@ -28,14 +28,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
-    MoveClause,
     NounPhrase,
     PutGroup,
     State,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 
@@ -150,108 +148,6 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
     return EnsureClause(said)
 
 
-def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
-    """In "if the drawer is closed, open it": what is open already stays so anyway."""
-    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
-    if not again or moved.opens == (word == "open"):
-        return None
-    return MoveClause(Things(subjects), moved.opens, guarded=True)
-
-
-_PLAIN_MOVE = either(
-    *(
-        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
-    ),
-    *(
-        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (
-            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
-            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
-        )
-    ),
-    *(
-        sequence(
-            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for verb, particle, opens in (
-            (verbs.PULL, manner.OPEN_STATE, True),
-            (verbs.PULL, manner.CLOSED_STATE, False),
-            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
-            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
-            (
-                "giv(e|ing)",
-                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
-                f" {manner.A_PUSH} to (close|shut) it",
-                False,
-            ),
-        )
-    ),
-)
-
-
-def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
-    """In "grasp the handle of the drawer and open it" that is the drawer."""
-    again = bool(moved.things.phrases[0].pronoun)
-    if again != bool(handled):
-        return None
-    return replace(moved, things=Things(handled)) if again else moved
-
-
-def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
-    """What has the handle of "the drawer handle" and "the drawer's handle"."""
-    if np.head != "handle":
-        return None
-    return (
-        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
-    )
-
-
-_HANDLED = either(
-    phrase("the handle, its handle", ()),
-    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
-    sequence(noun_phrase, build=_handled),
-)
-_BY_HANDLE = either(
-    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
-    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
-    sequence(
-        verbs.PICK,
-        _HANDLED,
-        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
-        _PLAIN_MOVE,
-        build=_by_handle,
-    ),
-)
-MOVE = either(
-    _PLAIN_MOVE,
-    quiet(_BY_HANDLE),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
-        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
-    ),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        valued(TURN, lambda turn: turns_of((turn,))),
-        build=lambda moved, turns: replace(moved, turns=turns),
-    ),
-)
-IF_NOT_SO = quiet(
-    sequence(
-        "if",
-        NP_LIST,
-        f"{verbs.BE}, 's",
-        OPEN_OR_CLOSED,
-        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
-        EMPTY_WORDS,
-        _PLAIN_MOVE,
-        build=_if_not_so,
-    )
-)
-"""A sentence of its own: what follows it might be asked for in that case only."""
 _EACH = phrase("each, both, all")
 _TO_BE = f"to (be|end up|go|stand|sit|lie), {verbs.DONE}"
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
@@ -289,6 +185,13 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
     ),
+    sequence(
+        # "The drawer gets closed"
+        NP_LIST,
+        "get[s]",
+        OPEN_OR_CLOSED,
+        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
+    ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     quiet(
         sequence(
@@ -325,6 +228,14 @@ ENSURE = either(
         NP_LIST,
         optional("in it"),
         build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
+    ),
+    sequence(
+        verbs.WISH_IF,
+        NP_LIST,
+        verbs.WISHED_SO,
+        optional(_EACH, ""),
+        PREDICATE,
+        build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
     ),
     valued(
         either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),

@@ -299,6 +299,8 @@ class SwapClause:
     """The same things, where it is said again which one goes back where."""
     where: tuple[Destination, ...] = ()
     """Where what is replaced is, as it is said again ("put it on the tray in its place")."""
+    placed: PutClause | None = None
+    """Where each of them goes, as it is said again."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -108,6 +108,7 @@ REMOVE = either(
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
+    sequence("lift[ing]", THINGS, "out, off", build=RemoveClause),
     sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
     sequence(
@@ -127,17 +128,20 @@ def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
     return NounPhrase("all", ("objects",), (modifier,), text=text)
 
 
-def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
+def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
+    """What takes all out of things, and brings it somewhere."""
     contents = Things(tuple(_contents_of(np, held) for np in things.phrases))
     return RemoveClause(contents) if where is None else put_to(contents, where)
 
 
-def _tidied(verb: str, things: Things, away: str, where: Any) -> PutClause | None:
+def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutClause | None:
     """Who tidies a place brings away what is there; several things are tidied away themselves.
     "Tidy up everything on the tray" does not say where to.
     """
-    if things.are_any and not away:
+    named = all_of(things.phrases, said)
+    if (things.are_any and not away) or (said and named == things.phrases and not named[1:]):
         return None
+    things = replace(things, phrases=named)
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
     cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
@@ -151,17 +155,22 @@ EMPTY = either(
         optional(_CONTENTS_OF),
         THINGS,
         optional(DESTINATIONS, None),
-        build=_emptied,
+        build=emptied,
     ),
     sequence(
         either(verbs.BRING, verbs.REMOVE),
         "[all] (the|its) contents",
         SOURCE,
         optional(DIRECTED, None),
-        build=lambda np, where: _emptied(Things((np,)), where),
+        build=lambda np, where: emptied(Things((np,)), where),
     ),
     sequence(
-        phrase(verbs.TIDY), THINGS, optional(phrase("away, up"), ""), DESTINATIONS, build=_tidied
+        phrase(verbs.TIDY),
+        THINGS,
+        optional(phrase("away, up"), ""),
+        DESTINATIONS,
+        optional(sequence(OPTIONAL_COMMA, phrase("all, both"), "of them"), ""),
+        build=_tidied,
     ),
     sequence(
         verbs.TIDY,
@@ -169,13 +178,13 @@ EMPTY = either(
         DIRECTED,
         build=lambda things, where: put_to(things, where) if things.are_any else None,
     ),
-    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
+    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=emptied),
     sequence(
         "clear[ing], clean[ing], empty[ing]",
         ALL_THINGS,
         "out",
         optional(DESTINATIONS, None),
-        build=_emptied,
+        build=emptied,
     ),
     sequence(
         either(
@@ -186,9 +195,9 @@ EMPTY = either(
         ),
         optional(phrase("both, all"), ""),
         manner.EMPTIED,
-        build=lambda things, said: _emptied(Things(all_of(things.phrases, said))),
+        build=lambda things, said: emptied(Things(all_of(things.phrases, said))),
     ),
-    sequence(verbs.NOTHING_IS, ALL_THINGS, build=_emptied),
+    sequence(verbs.NOTHING_IS, ALL_THINGS, build=emptied),
 )
 
 
@@ -232,5 +241,5 @@ COVER = either(
     sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
     sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
     sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
-    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(_emptied, held=Prep.ON)),
+    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(emptied, held=Prep.ON)),
 )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.verbs import PAST
 
 MAX_CHARACTERS = 2000
 MAX_WORDS = 80
@@ -96,19 +97,19 @@ _CLITICS = (
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= been\b)", " has"),
-    (r"\b(that|which|it|there|what|who)'s\b", r"\1 is"),
+    (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),
     (r"\bdidn't\b", "did not"),
-    (r"\b(is|are|was|has|have|should|must|would|could|need)n't\b", r"\1 not"),
+    (r"\b(is|are|was|were|has|have|should|must|would|could|need)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
-    (r"\b(i|it)'d\b", r"\1 would"),
+    (r"'d(?= better\b)", " had"),
+    (r"\b(i|it|we|you|they)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
-    (r"\b(?:him|her)\b(?= (?:in|on|next|down|back|to|near|beside|behind|up)|$)", "it"),
     (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
@@ -123,6 +124,7 @@ def normalized(text: str) -> str:
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     for pattern, plain in _CLITICS:
         text = re.sub(pattern, plain, text)
+    text = _WISHED.sub(_as_asked, text)
     text = re.sub(r"\band/or\b", "or", text)
     text = re.sub(
         rf"\b(left|right|top|bottom|front|back|upper|lower)[{_HYPHENS} ]most\b", r"\1most", text
@@ -212,11 +214,16 @@ def _qualified(found: re.Match[str]) -> str:
     return f"{noun} that is {word}" if is_descriptive(word) else found[0]
 
 
+_COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
+"""The number of a step, in words ("One, open the drawer. Two, …")."""
+
+
 def _listed(text: str) -> str:
     """A list in one row ("1. open it 2. fill it", "step 1: …", "* …") as lines."""
     if bullet := re.match(rf"{_LIST_HEAD}([{_BULLETS}]\s)", text):
         return re.sub(rf"(^|[\s,;.]){re.escape(bullet[1])}", r"\1\n ", text[bullet.start(1) :])
     numbers = [f"(?:{number}|{name})" for name, number in NUMBERS.items()]
+    text = _COUNTED_OFF.sub(lambda said: f"{said[1]}{NUMBERS[said[2]]}. ", text)
     for labels in (numbers, "abcdefgh"):
         items: list[str] = []
         rest = text
@@ -233,6 +240,34 @@ def _listed(text: str) -> str:
     return text
 
 
+_DID = re.compile(
+    rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
+    r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
+)
+_WISHED = re.compile(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
+
+
+def _as_asked(wish: re.Match[str]) -> str:
+    """What is wished for in the past tense ("it would be nice if you took it and closed …")."""
+    asked = _DID.sub(lambda said: f"{said[1] or said[3]}{PAST[said[2] or said[4]]}", wish[0])
+    return re.sub(r"\bif you (?!(?:would|could|can|will)\b)", "if you would ", asked)
+
+
+_PAIR = re.compile(r"(?:\w+ ){0,2}\w+, (?:\w+ ){0,2}\w+")
+
+
+def _paired(parts: list[str]) -> list[str]:
+    """With a colon between things and their places, where several sentences are such pairs ("green
+    book, basket. Blue book, shelf"); one alone may be a list of two things.
+    """
+    pairs = [
+        part
+        for part in parts
+        if _PAIR.fullmatch(part) and not GRAMMAR_WORDS & {*part.replace(",", "").split()}
+    ]
+    return [part.replace(",", ":") if pairs[1:] and part in pairs else part for part in parts]
+
+
 _LOOKED_FOR = re.compile(
     rf"(?:(?:{'|'.join(spellings(small_words.FRAMES))}|please|now|first|then),? )*"
     rf"(?:{'|'.join(spellings(small_words.LOOK_FOR))}) (?:(?!,).)*$"
@@ -242,7 +277,7 @@ _LOOKED_FOR = re.compile(
 def sentences_of(text: str) -> list[str]:
     """The sentences of normalized text, without numbering."""
     plain = re.sub(r"\?", f" {QUESTION}?", _NUMBERING.sub(r"\1", text))
-    parts = (" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain))
+    parts = _paired([" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain)])
     found: list[str] = []
     for part in parts:
         if found and _LOOKED_FOR.match(found[-1]):

@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    optional,
     sequence,
     silent,
     spanned,
@@ -53,8 +54,10 @@ _STATED = either(
     sequence(
         small_words.SOMEBODY_LEFT,
         noun_phrase,
-        DESCRIBED,
-        build=lambda np, said: Things((np.told_by(said),)),
+        optional(DESCRIBED, None),
+        build=lambda np, said: (
+            Things((np.told_by(*([said] if said else [])),)) if said or np.modifiers else None
+        ),
     ),
     sequence(
         f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS

@@ -11,10 +11,13 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.modified import names_of_things
 from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.reasoning.language.words import categories
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
+PERSONAL_PRONOUNS = frozenset({"he", "him", "she", "her"})
+"""Of what is called like an animal or a doll; of people nothing is known."""
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
 
@@ -47,7 +50,20 @@ def antecedents(
         if not found:
             raise ReferenceProblem(text, UNCLEAR, 2)
         return found
+    if pronoun in PERSONAL_PRONOUNS:
+        indices = range(len(discourse.referents))
+        excluded = (*excluded, *(i for i in indices if not is_like_people(discourse, i)))
     return (meant_by_it(discourse, role, text, excluded, topmost=topmost),)
+
+
+def is_like_people(discourse: Discourse, referent: int) -> bool:
+    """Whether a referent is spoken of as "he" or "she"."""
+    infos = discourse.scene.infos
+    names = [thing.name for thing in discourse.things(referent)]
+    return all(
+        name in infos and any(map(categories.is_like_people, (name, infos[name].label)))
+        for name in names
+    )
 
 
 def meant_by_it(

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
-_DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "your", "its", "their"})
+_DEFINITE = frozenset(
+    {"the", "this", "that", "these", "those", "my", "your", "its", "their", "his", "her"}
+)
 
 
 @dataclass(frozen=True, slots=True)

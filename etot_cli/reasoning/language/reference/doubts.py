@@ -83,7 +83,7 @@ class Asked:
         return ReferenceProblem(self.phrase.text, why, rank, word=word, candidates=names)
 
 
-_OWNERS = ("my", "your", "our")
+_OWNERS = ("my", "your", "our", "his", "her")
 
 
 def check_determiner(phrase: NounPhrase, quantity: Quantity) -> None:
@@ -215,8 +215,12 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
         raise asked.problem(f"say which of {names_of_things(things)}", 2, meant=things)
     if match.plural and len(things) == 1 and _says_several(asked):
         raise asked.problem(f"only {things[0].name} is called so", 2, words[-1], things)
-    if phrase.determiner in _OWNERS and not match.plural and len(things) > 1:
+    owned = phrase.determiner in _OWNERS and not match.plural
+    if owned and len(things) > 1:
         raise asked.problem(f"whose {names_of_things(things)} are is not known", 2, meant=things)
+    chests = [t for t in things if t.name != DESK and not t.part and scene.infos[t.name].parts[1:]]
+    if owned and chests and asked.role is Role.CONTAINER and words[-1] == "drawer":
+        raise asked.problem(f"say which drawer of {chests[0].name}", 2)
     if quantity.sole and len(things) > 1:
         raise asked.problem(f"it is not the only one: {names_of_things(things)}", 2, "only")
     level = next((word for word in words[:-1] if word in LEVELS), "")

@@ -13,9 +13,11 @@ from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
+    PERSONAL_PRONOUNS,
     PLURAL_PRONOUNS,
     antecedents,
     candidates,
+    is_like_people,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -47,6 +49,8 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
+
+_POSSESSORS = {"its": "it", "their": "them", "his": "him", "her": "her"}
 
 
 class Meanings:
@@ -98,7 +102,7 @@ class Meanings:
             phrase = replace(
                 phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
             )
-        possessor = {"its": "it", "their": "them"}.get(phrase.determiner.split(" ")[0])
+        possessor = _POSSESSORS.get(phrase.determiner.split(" ")[0])
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
             phrase = self._possessed(phrase, pronoun, role, noun_before)
@@ -190,7 +194,8 @@ class Meanings:
             owners = {thing for things in self.pronoun_things(owner) for thing in things}
             named = self.resolver.called_after(things, owners, phrase.words)
         if named is None or owner.words or role is Role.THEME:
-            return ways[0]
+            person = owner.pronoun in PERSONAL_PRONOUNS  # "grandma wants her glasses": as "my"
+            return phrase if person else ways[0]
         note = f"read {phrase.text!r} as {named}"
         self.discourse.notes += [note] if note not in self.discourse.notes else []
         return replace(phrase, determiner="the", words=(named,))
@@ -279,12 +284,17 @@ class Meanings:
             pronoun=self.pronoun_things,
         )
         left_out = noun is not None and (elliptic or leaves_out) and not other
-        resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
-        narrower = resolved
+        narrower: Resolved | None = None
         with suppress(ReferenceProblem):
-            narrower = resolve(alike) if alike is not None else resolved
-        return narrowed_to(narrower, resolved, phrase, self.discourse)
+            narrower = None if alike is None else resolve(alike)
+        try:
+            resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
+        except ReferenceProblem:
+            if narrower is None:
+                raise
+            return narrower
+        return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
 
     def _named_before(self, phrase: NounPhrase, noun: str | None) -> tuple[Thing, ...]:
         """Several things that were but named by a noun ("there are two red cups"): "the left one"
@@ -305,8 +315,10 @@ class Meanings:
         if not phrase.pronoun:
             return list(self.meaning(phrase, Role.ANY).options)
         if phrase.pronoun not in PLURAL_PRONOUNS:
-            before = phrase.determiner == HERE_BEFORE
+            person = phrase.pronoun in PERSONAL_PRONOUNS
+            before = person or phrase.determiner == HERE_BEFORE
             indices = candidates(self.discourse, everywhere=before)
+            indices = tuple(i for i in indices if not person or is_like_people(self.discourse, i))
             found = [self.discourse.things(index) for index in indices]
             if not found:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)

@@ -66,7 +66,7 @@ def modified(
         if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
             things = between_the_others(things, phrase, scene)
             continue
-        if modifier.prep in RANKED and any(thing.name == DESK for thing in things):
+        if modifier.prep in RANKED | HOLDING and any(thing.name == DESK for thing in things):
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
             _check_cleared(modifier, landmark_sets(modifier), scene)
@@ -76,7 +76,10 @@ def modified(
             found, more = related(
                 modifier, things, landmarks, quantity, count, scene, said, phrase.text
             )
-            if found and (tuple(found) not in ways or not any(ROUGHLY in note for note in said)):
+            rough = any(ROUGHLY in note for note in said)
+            if rough and modifier.prep in RANKED and modifier.words[1:]:
+                continue  # "with the cup next to it" rather says where that is to be
+            if found and (tuple(found) not in ways or not rough):
                 ways[tuple(found)] = more, said
         if len(ways) > 1 and unclear < len(waiting):
             # Another modifier may tell.
@@ -155,7 +158,8 @@ def left_out(
         if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
             for item in modifier.phrases:
                 said = " ".join((item.determiner, *item.words, item.pronoun))
-                if said.split()[0] in _SO_MANY:
+                none = modifier.prep is Prep.CONTRAST and said.startswith("one of ")
+                if said.split()[0] in _SO_MANY and not none:
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = set(landmarks(item, words[-1]))

@@ -61,8 +61,12 @@ def part_around(resolved: Resolved, inner: Sequence[Thing], scene: SceneState) -
 
 
 def of_spoken_owner(resolved: Resolved, discourse: Discourse) -> Resolved:
-    """Of several pieces' doors "the door" is that of the piece that was spoken of last."""
-    parts = all(len(option) == 1 and option[0].part for option in resolved.options)
+    """Of several pieces' doors "the door" is that of the piece that was spoken of last, and so is
+    "the upper board" of two shelves.
+    """
+    parts = all(
+        len(option) == 1 and option[0].address != option[0].name for option in resolved.options
+    )
     if not (resolved.definite and parts and len(resolved.options) > 1):
         return resolved
     for mention in reversed(discourse.mentions):

@@ -50,16 +50,14 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
     singular,
 )
-from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.nouns import STACK, THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
-_INCOMPLETE = frozenset(
-    {"", "the", "a", "an", "my", "your", "its", "their", "our", "this", "that", "these", "those"}
-)
+_INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
@@ -35,7 +36,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
 _DESK = Resolved(((Thing(DESK),),), noun=DESK)
@@ -82,11 +83,9 @@ class Places:
         return [index for index, referent in enumerate(referents) if referent.options in meant]
 
     def of(
-        self,
-        destinations: Sequence[Destination],
-        themes: Sequence[int],
+        self, destinations: Sequence[Destination], themes: Sequence[int], *, stays: bool = False
     ) -> tuple[Place, ...]:
-        """Alternative places."""
+        """Alternative places; ``stays``: of several drawers the one that things are in already."""
         places: dict[Place, None] = {}
         for destination in destinations:
             if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
@@ -104,7 +103,7 @@ class Places:
                 found = [
                     place
                     for phrase in self._phrases.one_of(destination.targets, role)
-                    for place in self._targets(destination, phrase, role, themes)
+                    for place in self._targets(destination, phrase, themes, stays=stays)
                 ]
                 within = [place for place in found if place.relation is Relation.INSIDE]
                 inside = bool(within)
@@ -122,9 +121,9 @@ class Places:
         return tuple(places)
 
     def _targets(
-        self, destination: Destination, phrase: NounPhrase, role: Role, themes: Sequence[int]
+        self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
     ) -> list[Place]:
-        toward = destination.toward
+        toward, role = destination.toward, _ROLES.get(destination.toward, Role.PLACE)
         bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
         targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
         spoken = any(item.role in targets for item in self.discourse.mentions)
@@ -147,7 +146,8 @@ class Places:
             self._check_carried(phrase, index, themes)
             drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
-                self.discourse.as_it_stands(index, is_open)
+                for so in (partial(self._holds, themes), is_open)[not stays :]:
+                    self.discourse.as_it_stands(index, so)
             ways = self.relations_to(toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = self.relations_to(Toward.ON, index, themes)
@@ -155,6 +155,11 @@ class Places:
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
+
+    def _holds(self, themes: Sequence[int], scene: SceneState, part: PartInfo) -> bool:
+        """Whether a drawer holds all of some things."""
+        at, things = Thing(part.owner, part.name), self.discourse.things(*themes)
+        return all(space.touches(thing, at, scene) for thing in things)
 
     def _lies_on_it(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> bool:
         """Whether things lie on what was put somewhere last, and do not sink into it."""

@@ -205,7 +205,9 @@ class Surroundings:
             things = self._discourse.things(index)
             if any(thing.name == DESK for thing in things):
                 raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
-            if any(self._scene.states[thing.name].inside is not None for thing in things):
+            moved = discourse.things(*discourse.put)
+            kept = (self._scene.states[thing.name] for thing in things if thing not in moved)
+            if any(state.inside is not None for state in kept):
                 raise ReferenceProblem(phrase.text, "it lies in a container", 2)
             if all(len(option) == 1 for option in referent.options):
                 found.append(index)

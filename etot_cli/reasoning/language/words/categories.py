@@ -7,7 +7,7 @@ fruit, a toy car) is told by its own noun alone.
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.words.lexicon import singular, word_set
+from etot_cli.reasoning.language.words.lexicon import head_of, singular, word_set
 
 _FRUIT = word_set(
     """
@@ -83,6 +83,7 @@ _PLAYTHINGS = word_set(
     "ball doll teddy puppet yoyo kite puzzle figurine block robot lego rattle drum jigsaw marble "
     "xylophone frisbee tambourine"
 )
+_LIKE_PEOPLE = _ANIMALS | word_set("doll teddy puppet figurine robot")
 _CLOTHES = word_set(
     "shirt tshirt sweater pullover hoodie coat jacket sock hat cap beanie scarf glove mitten pants "
     "trouser jean short skirt dress blouse belt tie pajama pyjama"
@@ -188,6 +189,11 @@ def is_category(word: str) -> bool:
 def members_of(category: str) -> frozenset[str]:
     """The nouns, in the singular, of what counts among a category; empty where it is none."""
     return CATEGORIES.get(category) or CATEGORIES.get(singular(category), frozenset())
+
+
+def is_like_people(label: str) -> bool:
+    """Whether what has a label is spoken of as "he" or "she"; a dog's bowl is not."""
+    return head_of(label.casefold().replace(" ", "_")) in _LIKE_PEOPLE
 
 
 def is_poured(noun: str, name: str, label: str) -> bool:

@@ -9,8 +9,8 @@ from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of
 
 _FUNCTION = """
-    the a an any some another these those this that my your its their our it them they of and or
-    then in into inside within on onto upon atop to from off out at by next beside near
+    the a an any some another these those this that my your its their our his her it them they
+    of and or then in into inside within on onto upon atop to from off out at by next beside near
     nearby behind beyond under underneath below beneath above over between with without is
     are be was were been being am should must shall has have had which who whose whom either both
     all
@@ -18,7 +18,7 @@ _FUNCTION = """
     after once when whenever as please don t do does did together separately respectively
     horizontally
     vertically upright ensure up down there here than instead two three four five six seven eight
-    nine ten i we us me you he she what why how whether himself aside away everything anything
+    nine ten i we us me you he him she what why how whether himself aside away everything anything
     something everyone nothing apart along plus via per using twice thrice times half halfway
     backwards forwards sideways rather also too just simply could would will may might i'd d ll
     ve re 's whichever upside goes go belong belongs want wants need needs like
@@ -35,7 +35,7 @@ VERB_WORDS = words_of(
         verbs.DO_NOT, verbs.NEED_NOT,
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
-    "back", "places", "positions", "position"}  # fmt: skip
+    "back", "places", "positions", "position", "us", "him", "her", "them"}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
     """

@@ -56,8 +56,12 @@ KEPT_HELD = """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
-    where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched, in place, still,
-    unmoved, in its place, like (that|this), that way, so
+    [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched,
+    in place, still, unmoved, in its place, like (that|this), that way, so
+"""
+IS_LEFT = """
+    ~comma (which|that) ((is|are) (fine|good|ok|okay|alright)|[can|may|should] (stay|stays))
+    (there|here|put|where (it is|they are)|as (it is|they are)) [~comma]
 """
 ANYHOW = """
     [either] [both] together or (separately|apart|individually|one by one),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
 _COUNT = "|".join(NUMBERS)
-_THE = "the|these|those|my|your|its|their|our"
+_THE = "the|these|those|my|your|its|their|our|his|her"
 THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
 DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
@@ -40,8 +40,9 @@ CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, 
 """Before what is not meant, behind what is."""
 AS_YOU_LIKE = """
     [that|which] you (like|want|prefer|wish|please|choose),
-    is (easiest|easier|handy|handier|handiest|simplest|simpler|[more|most] convenient)
-    [to (reach|get at)|for you]
+    [that|which] is (easiest|easier|handy|handier|handiest|simplest|[more|most] convenient)
+    [to (reach|get|grab|get at)|for you],
+    [that|which] you (can reach|find|get) (easiest|first|most easily)
 """
 """Behind what is left open anyway."""
 RELATIVE = """

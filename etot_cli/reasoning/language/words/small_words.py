@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-WITHOUT_MEANING = """
+from etot_cli.reasoning.language.words.verbs import RELATIONS
+
+_WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
+WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
     again,
@@ -14,17 +17,18 @@ WITHOUT_MEANING = """
     (when|once) you have [got] (it|them),
     whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
-    (it does not|does not|no) matter which [one],
+    (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|any one|each|both) [of (them|these|those)]
+    (either|any|each|both) [one] [of (them|these|those)]
     ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
     ~comma (any|either) [one] [of (them|these|those)],
-    i (do not|don t) (care|mind) [which] [one], whichever, if you can,
+    [i] (do not|don t) (care|mind) [one|{_WHICH}], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
     behind you, after you, one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
+    ~comma i (think|believe|guess|suppose|reckon),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma (my dear|my friend|dear|love|darling|honey|sweetie|sweetheart|friend|dude|man|bro),
@@ -35,10 +39,15 @@ WITHOUT_MEANING = """
 for, every plan does: things are set down, and no plan may harm anything."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
+ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
+"""Before what is to be done."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
+LIKE_THIS = "(set|lay|arrange|prepare|organise|organize) [up], i (want|would like)"
+"""Before what is to be as the words behind a colon say."""
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
-TASK = """
+TASK = f"""
+    {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma,
     [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
 """
@@ -50,7 +59,7 @@ FRAMES = f"""
     (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
-    you (should|must|[will] have to|[will] need to|can|may),
+    you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, let us, try to, please to, {TASK},
     the robot (should|must|has to|needs to), make sure to,
@@ -58,7 +67,8 @@ FRAMES = f"""
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
-    i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
+    i would (appreciate|like|love) it if you (would|could),
+    it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
@@ -89,7 +99,9 @@ FOUND = """
     [still|just|now|currently|again|all] [left|standing|lying|sitting|resting|wide]
 """
 """Between a thing and how it is, before something is asked of it."""
-SOMEBODY_LEFT = "(i|we|you|they|he|she|someone|somebody) [have|has|had] [just] left"
+SOMEBODY_LEFT = f"""
+    (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left
+"""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
 SAME_AGAIN = """
@@ -129,7 +141,7 @@ TRAILING_LAST = """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
 INSTEAD = "instead, instead of (it|them|that|those)"
 """What is asked for takes the place of what is taken away, or is not to be done."""
-AND = "and [also|likewise], as well as, along with, together with, plus"
+AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
@@ -145,7 +157,7 @@ EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
 AFTER = """
-    [but] [only] (once|[right|straight|directly|immediately|just] after|when|as soon as)
+    [but] [only|right|straight|just|directly|immediately] (once|after|when|as soon as)
     [you have|having|you]
 """
 GONE = """

@@ -9,6 +9,16 @@ PICK = """
     pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
+PAST = {
+    "took": "take", "moved": "move", "placed": "place", "brought": "bring", "got": "get",
+    "gave": "give", "picked": "pick", "opened": "open", "closed": "close", "left": "leave",
+    "lifted": "lift", "fetched": "fetch", "returned": "return", "stored": "store",
+    "cleared": "clear", "tidied": "tidy", "emptied": "empty", "filled": "fill", "stacked": "stack",
+    "dropped": "drop", "handed": "hand", "passed": "pass", "grabbed": "grab", "carried": "carry",
+    "laid": "lay", "stood": "stand", "stuck": "stick", "popped": "pop", "pushed": "push",
+    "pulled": "pull", "turned": "turn", "swapped": "swap", "removed": "remove", "kept": "keep",
+}  # fmt: skip
+"""How a wish puts what is to be done ("I'd be glad if you took it out")."""
 TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering) me, hand[ing] over
 """
@@ -80,30 +90,42 @@ _BROUGHT = """
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
+_GO = "end up|go [back]|live|belong|stand|sit|lie|rest"
+_OUGHT = """
+    should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
+    (is|are) supposed to
+"""
 MODAL = f"""
-    (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to) (be|end up|go [back]),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
-    ({_BROUGHT}|{_BEING}),
-    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
-    (is|are) supposed to be, [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    (can|could|may|might|will) (go [back]|be put|be placed)
+    ({_OUGHT}) ({_GO}|get|[finally|then] be [{_BROUGHT}|{_BEING}]),
+    (want|wants) to (be|{_GO}), (is|are) going [back], [then|next|finally|afterwards] go[es] [back],
+    belong[s], live[s],
+    (can|could|may|might|will) ({_GO}|be ({_BROUGHT})), get[s] ({_BROUGHT}),
+    (would (be|look|do|go)|look[s]) (better|best|nicer|tidier|neater|safer),
+    would (be|look|do|go) (good|nice|lovely|great|fine)
 """
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
-_RELATIONS = """
+RELATIONS = """
     guest|customer|client|patient|boss|wife|husband|mother|father|sister|brother|son|daughter|
-    colleague|teacher|student|neighbor|neighbour
+    colleague|teacher|student|neighbor|neighbour|little one|baby|toddler|kid|child|boy|girl|
+    granddaughter|grandson|grandmother|grandfather
 """
 WANT = """
-    i want, i would like, i d like, i need, we want, we need, i would love,
-    [i would|i d] prefer, i prefer, we would like, i would like to find,
-    (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
-    i want to (have|see), i would rather (have|see)
+    (i|we) (want|need|prefer) [to (have|see)],
+    (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
+    i d like, (can|could|may|might) (i|we) have, let us have,
+    (i|we) would rather (have|see)
 """
+WISH_IF = """
+    i would be (glad|happy|happier|grateful|delighted) if,
+    it would be (good|great|nice|lovely|best|better) if, i would (like|love|prefer) it if
+"""
+WISHED_SO = "(was|were|is|are|could be|would be) [to be], went, stood, sat, lay, ended up"
+"""How a wish has it that something is somewhere."""
 OTHERS_WANT = f"""
-    (the|my|our) ({_RELATIONS}) (wants|needs|would like [to have]),
-    (the|my|our) (guests|customers|clients|patients|parents|colleagues|students|visitors)
+    (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
+    (the|my|our)
+    (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children)
     (want|need|would like [to have]),
     (grandma|grandpa|granny|mum|mom|dad|he|she|somebody|someone) (wants|needs|would like [to have]),
     they (want|need|would like [to have])
@@ -115,15 +137,15 @@ BE = """
 """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
+    (should|must|shall|may|can|had better) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
 CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
 STAY = """
-    [can|may] (stay|remain), (stays|remains),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
+    ([can|may] (stay|remain)|stays|remains) [put],
+    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain) [put]
 """
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
@@ -133,6 +155,7 @@ DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
+JOIN = "joins, [can|may|should|must|is to|are to|has to|needs to|will] join"
 COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|are to] come[s]"
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
@@ -147,7 +170,7 @@ REORIENT = """
 """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
-BUILD = "build[ing] [me], mak(e|ing) [me], creat(e|ing), form[ing]"
+BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
@@ -160,13 +183,22 @@ CHANGE_PLACES = """
 """
 DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
-    but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
-    [but|and] take care not to
+    [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
+    [but|and] be careful not to, [but|and] take care not to
 """
 NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
     [but] do not bother (to|with|), [but|and] (it is|it 's|it s) not necessary to
 """
+NOT_TO_BE = """
+    (must|should|may|can|shall|could) (not|never) be, (is|are) (not|never) to be
+"""
+TOUCHED = "touched, bumped, knocked"
+DISTURBED = """
+    moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
+    removed, taken [away|out|off], knocked over
+"""
+"""Behind what must not be."""
 WITHOUT = """
     without, [while] (making|being) sure not to, [while] being careful not to,
     [while] taking care not to, so as not to

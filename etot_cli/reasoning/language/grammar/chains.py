@@ -1,0 +1,138 @@
+"""Rules for clauses one after the other, and what joins them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.arrangements import REPLACING
+from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+)
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO_BY_THEN
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    Part,
+    either,
+    optional,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    AvoidClause,
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    State,
+    Things,
+)
+from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
+from etot_cli.reasoning.language.words import small_words
+
+
+def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
+    """What was put somewhere goes on to another place; "on top" says no such thing."""
+    named = all(item.targets and not item.targets[0].pronoun for item in where)
+    return AgainClause(None, destinations=where) if named else None
+
+
+def once_more(things: Things) -> AgainClause | None:
+    """Of which the same is asked for as before."""
+    return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
+
+
+def _also(things: Things) -> AgainClause:
+    """Behind a place, which it may be one more of."""
+    return AgainClause(things, trailing=True)
+
+
+def joint(name: str, *parts: Part) -> Parser:
+    """What goes on a sentence, with a name for what joins it."""
+    return sequence(*parts, build=lambda reading: (name, reading))
+
+
+def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+    return EnsureClause((State(nps, word=word),))
+
+
+LEFT_SO = sequence(
+    plain(sequence(NP_LIST, optional(COLON), OPEN_OR_CLOSED, build=_left_so)),
+    optional(small_words.TRAILING_LAST),
+)
+"""How something is to be in the end, without a verb ("drawer shut")."""
+JOINED = either(
+    joint("and", either(COMMA, LIST), LEFT_SO),
+    joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
+    joint("mere and", "and", LED_CLAUSE),
+    joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
+    joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
+    joint("after", OPTIONAL_COMMA, EARLIER),
+    joint("after", OPTIONAL_COMMA, "[but] not (before|until)", plain(SO_BY_THEN)),
+    joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
+    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
+    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        small_words.THEN_JOINTS,
+        OPTIONAL_COMMA,
+        EMPTY_WORDS,
+        plain(either(sequence(THINGS, build=once_more), VERBLESS)),
+    ),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        small_words.ONWARD,
+        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
+    ),
+)
+
+
+def then_done(clause: Reading) -> Reading:
+    """A reading that is to be done after what was said before."""
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
+def _maybe_denied(done: Reading, clause: Reading) -> Reading:
+    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
+    before = done[-1].clause
+    if (
+        not isinstance(before, AvoidClause)
+        or not before.negated
+        or isinstance(clause[0].clause, AvoidClause)
+    ):
+        return done
+    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
+
+
+def chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+    """Clauses in the order in which they are to be done, by what joins them."""
+    done = first
+    for said, clause in more:
+        if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
+            return None  # "keep it open while you …"; else the hand would do two things
+        if said == "mere and":
+            done = _maybe_denied(done, clause)
+        if said == "after":
+            done = (*clause, *then_done(done))
+        else:
+            done = (*done, *(then_done(clause) if said == "then" else clause))
+    return done
+
+
+CHAIN = sequence(LED_CLAUSE, some(JOINED, most=12), build=chained)
