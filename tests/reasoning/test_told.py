@@ -9,7 +9,8 @@ import pytest
 
 from tests.reasoning import corpus_scenes
 from tests.reasoning.test_metamorphic_reading import meaning
-from tests.reasoning.told import FAMILIES, Family, Teller, Told, terse
+from tests.reasoning.told import Teller, Told
+from tests.reasoning.told_families import FAMILIES, Family, terse
 
 SCENES = {
     name: getattr(corpus_scenes, name)()

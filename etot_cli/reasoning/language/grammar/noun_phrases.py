@@ -246,7 +246,8 @@ noun_phrase.define(
                 ),
             ),
             sequence(OPTIONAL_DETERMINER, ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
-            sequence(OPTIONAL_DETERMINER, "non, not", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
+            sequence(OPTIONAL_DETERMINER, "non", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
+            sequence(DETERMINER, "not", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
             sequence(
                 OPTIONAL_DETERMINER,
                 some(NOUN_WORD, least=1, most=2),

@@ -144,10 +144,10 @@ ACROSS = "(to|on|at) the (other|opposite) side of"
 """Where something is not yet."""
 _AT = "on|at|to|in|onto|towards|near|along"
 _SIDES = {
-    Nearby.AT_LEFT: ("[far] left", "(on|at) the [far] left"),
-    Nearby.AT_RIGHT: ("[far] right", "(on|at) the [far] right"),
-    Nearby.AT_FRONT: ("(front|near)", f"({_AT}) the front"),
-    Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear)"),
+    Nearby.AT_LEFT: ("[far] left", "(on|at) [the] [far] left"),
+    Nearby.AT_RIGHT: ("[far] right", "(on|at) [the] [far] right"),
+    Nearby.AT_FRONT: ("(front|near)", f"({_AT}) the front, (at|on|towards) front"),
+    Nearby.AT_BACK: ("(back|rear|far)", f"({_AT}) the (back|rear), (at|on|towards) (back|rear)"),
 }
 """How they are called before a word for an end or edge, and without one."""
 _ENDS = {(): "side|end|half|part", (Nearby.AT_EDGE,): "edge|border"}
@@ -187,16 +187,16 @@ REGIONS: dict[tuple[Nearby, ...], str] = {
         for side, (said, alone) in _SIDES.items()
         for edge, named in _ENDS.items()
     },
-    (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) the (middle|centre|center)",
-    (Nearby.AT_EDGE,): "(at|on|near|to|by) (the|an) (edge|border|rim)",
-    (Nearby.AT_CORNER,): "(in|at|into|to|on) (the|a) corner",
+    (Nearby.AT_CENTRE,): "(in|at|into|to|on|onto) [the] (middle|centre|center)",
+    (Nearby.AT_EDGE,): "(at|on|near|to|by) [the|an] (edge|border|rim)",
+    (Nearby.AT_CORNER,): "(in|at|into|to|on) [the|a] corner",
     # "The left corner" is either, the far left one only that at the back.
     **{
-        (side, Nearby.AT_CORNER): f"(in|at|into|to|on) the {said.split()[-1]} corner"
+        (side, Nearby.AT_CORNER): f"(in|at|into|to|on) [the] {said.split()[-1]} corner"
         for side, (said, _) in _SIDES.items()
     },
     **{
-        (*sides, *corner): f"(in|at|into|to|on) the ({said}) {named}"
+        (*sides, *corner): f"(in|at|into|to|on) [the] ({said}) {named}"
         for sides, (plain, besides) in _QUARTERS.items()
         for corner, said, named in (
             ((), plain, "[part|quarter|area]"),

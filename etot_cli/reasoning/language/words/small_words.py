@@ -62,7 +62,7 @@ FRAMES = f"""
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, let us, try to, please to, {TASK},
-    the robot (should|must|has to|needs to), make sure to,
+    [the] robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
