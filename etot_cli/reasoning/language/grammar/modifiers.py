@@ -273,7 +273,7 @@ MODIFIERS = some(MODIFIER, most=4)
 
 def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
     """What is not meant, but what a thing is told from."""
-    told = all(np.words and (np.determiner or np.head.isdigit()) for np in nps)
+    told = all(np.words and (np.determiner or not is_descriptive(np.head)) for np in nps)
     return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
 
 
