@@ -89,8 +89,7 @@ KEEP_OUT = sequence(
 )
 _EVERYTHING_ELSE = "everything else, all else, the (rest|others) [of it|of them]"
 _STAYS = sequence(
-    "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left), "
-    "stay[s], remain[s]",
+    verbs.LEFT_THERE,
     optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
 KEEP_STILL = either(

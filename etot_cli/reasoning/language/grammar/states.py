@@ -45,7 +45,7 @@ _NOT_SO = sequence(
 )
 SO = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
+PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, sequence(optional("somewhere, anywhere"), WHERE))
 """How things are to be."""
 
 
@@ -71,6 +71,12 @@ def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None
         subjects = tuple(replace(np, determiner="all") for np in subjects)
         return EnsureClause((_opposite(subjects, word),))
     return _ensured(opposite(subjects, word))
+
+
+def _there_is_none(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """What there should not be ("a cup", "any cups", "cups"): no such thing."""
+    one = np.determiner in ("a", "an", "any", "") and not {*np.words} & {"", *THING_NOUNS}
+    return (replace(np, determiner="no"),) if one and np.words else None
 
 
 def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State:
@@ -340,7 +346,8 @@ ENSURE = either(
             (NP_LIST, verbs.MODAL),
             (verbs.WANTED, NP_LIST, _TO_BE),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
-            ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST),
+            (verbs.THERE_BE, NP_LIST),
+            (sequence(verbs.THERE_NOT_BE, noun_phrase, build=_there_is_none),),
         )
     ),
 )

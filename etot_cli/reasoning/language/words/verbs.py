@@ -61,7 +61,10 @@ TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]
 TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
 LOAD = "load[ing] [up]"
-CLEAR = "clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out"
+CLEAR = """
+    clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out,
+    free[ing] up
+"""
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
@@ -71,8 +74,9 @@ ENSURE = """
 """
 ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up)"
 NOTHING_IS = """
-    (nothing (should|must|may|is to|has to)|there should|there must) be
-    (|nothing|left|nothing left) (in|on), nothing (should|must|may) (stay|remain) (in|on),
+    nothing (should|must|may|can|is to|has to) (be|stay|remain) [left] (in|on),
+    there (should|must|has to|needs to|is to) be nothing [left] (in|on),
+    there (should|must|may|can) (not|no longer) be anything [left] (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 _BROUGHT = """
@@ -80,15 +84,21 @@ _BROUGHT = """
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
-MODAL = f"""
-    (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to) (be|end up|go [back]),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
-    ({_BROUGHT}|{_BEING}),
-    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
-    (is|are) supposed to be, go[es] [back], belong[s], live[s],
-    (can|could|may|might|will) (go [back]|be put|be placed)
+_MUST = """
+    should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|
+    (is|are) (supposed|meant) to
 """
+_SIMPLY = "[simply|just|also|please|best]"
+MODAL = f"""
+    ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}]|(end|finish|wind) up [{_BEING}]|get|
+    go [back]|stand|sit|lie|live), (should|must|shall) (finally|then) be,
+    (can|could|may|might|will) {_SIMPLY} (go [back]|be put|be placed),
+    (can|could|may) {_SIMPLY} (stand|sit|lie|live),
+    would (be|look|go) (better [off]|best|nice|nicer),
+    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back], go[es] [back], belong[s], live[s]
+"""
+THERE_BE = f"there ({_MUST}) be"
+THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 _RELATIONS = """
@@ -115,16 +125,15 @@ BE = """
 """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
+    (should|must|shall|may|can) (not|no longer)
+    (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
-CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have), keep[s]"
+CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
-STAY = """
-    [can|may] (stay|remain), (stays|remains),
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
-"""
+STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s])"
+LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
