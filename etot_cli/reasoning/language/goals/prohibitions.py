@@ -223,10 +223,10 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:
-    """Nothing but what was spoken of may be touched or moved; how things are to be with "nothing
+    """Nothing but what was spoken of may be touched or moved; where things are to be with "nothing
     else" says what is to be there.
     """
-    if isinstance(context.last, EnsureClause):
+    if isinstance(context.last, EnsureClause) and not any(s.word for s in context.last.states):
         only = (NounPhrase("only", text="nothing else"),)
         for step in context.done:
             if isinstance(step, Put):

@@ -7,6 +7,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar import text
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -25,6 +26,17 @@ COLON = text.COLON
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
 LIST_COMMA = silent(word(lambda _, text: text == COMMA))
 """No colon stands between things of one list."""
+
+
+def after(*said: str) -> Parser:
+    """Nothing, where any of some words was said before."""
+    return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
+
+
+THEN = either(
+    small_words.THEN_JOINTS, sequence(after("first", "firstly"), small_words.COUNTED_JOINTS)
+)
+"""Before what comes next."""
 LIST = either(small_words.AND, sequence(LIST_COMMA, optional(small_words.AND)))
 
 

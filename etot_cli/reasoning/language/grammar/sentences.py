@@ -15,13 +15,27 @@ from etot_cli.reasoning.language.grammar.clauses import (
     SO,
     Reading,
     excluding,
-    of_the_things,
     plain,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+    THEN,
+)
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.headlines import (
+    HEADLINE,
+    LEFT_SO,
+    PAIRS,
+    PLACED,
+    left_so,
+    taken_out,
+)
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -30,16 +44,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
     complete,
     either,
     optional,
-    quiet,
-    separated,
     sequence,
+    silent,
     some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -48,13 +60,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
     PutClause,
-    PutGroup,
-    RemoveClause,
-    State,
     Things,
     Toward,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -68,13 +78,13 @@ from etot_cli.reasoning.language.grammar.topics import (
     one_of_them,
     set_down,
     shared_out,
-    sources,
 )
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
+
+Joined = tuple[tuple[str, Reading], ...]
+"""What goes on a sentence, each with what joins it."""
 
 
 def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
@@ -88,33 +98,25 @@ def _joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
-def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    return EnsureClause((State(nps, word=word),))
-
-
-_LEFT_SO = sequence(
-    plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
-    optional(small_words.TRAILING_LAST),
-)
-"""How something is to be in the end, without a verb ("drawer shut")."""
 _JOINED = either(
-    _joint("and", either(COMMA, LIST), _LEFT_SO),
-    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
+    _joint("and", either(COMMA, LIST), LEFT_SO),
+    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
     _joint("mere and", "and", LED_CLAUSE),
     _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
+    _joint("then", OPTIONAL_COMMA, THEN, OPTIONAL_COMMA, LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     _joint("after", OPTIONAL_COMMA, EARLIER),
     _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
+    _joint("emptied", LIST, PLACED),
     _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     _joint(
         "then",
         OPTIONAL_COMMA,
-        small_words.THEN_JOINTS,
+        THEN,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=AgainClause), VERBLESS)),
+        either(plain(sequence(THINGS, build=AgainClause)), HEADLINE),
     ),
     _joint(
         "then",
@@ -144,9 +146,13 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 
 
-def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+def _chained(first: Reading, more: Joined) -> Reading | None:
     done = first
     for joint, clause in more:
+        if joint == "listed" and isinstance(done[-1].clause, PutClause):
+            return None  # several things with their places are one clause
+        if joint == "emptied" and not is_emptying(done[-1].clause):
+            return None  # behind another verb that may be said of this, too
         if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if joint == "mere and":
@@ -159,18 +165,23 @@ def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading |
 
 
 CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
+_GOES_ON = some(either(_JOINED, _joint("listed", LIST, HEADLINE)), most=12)
+_BARE_CHAIN = sequence(HEADLINE, _GOES_ON, build=_chained)
 
 
-def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+def _verbless(first: Reading, more: Joined, avoided: tuple[Reading, ...]) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    return None if str(asks).startswith("what") else _chained(first, more)
+    lacking = isinstance(clause, EnsureClause) and clause.far_fetched and not more
+    done = None if lacking or str(asks).startswith("what") else _chained(first, more)
+    return None if done is None else sum(avoided, done)
 
 
-def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+def _first_so(first: Reading, more: Joined, avoided: tuple[Reading, ...]) -> Reading | None:
     """What comes first without a verb, and then more."""
-    return _verbless(first, more) if any(joint == "then" for joint, _ in more) else None
+    then = any(joint == "then" or said[0].order is Order.THEN for joint, said in more)
+    return _verbless(first, more, avoided) if then else None
 
 
 _NOT_THIS = sequence(
@@ -184,51 +195,11 @@ def _without(out: Any, rest: Reading) -> Reading | None:
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
-def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    """Headlines have no articles; "the drawer shut" lacks a verb."""
-    clause = first[0].clause
-    bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return _chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
-
-
-def _taken_out(things: Things) -> RemoveClause | None:
-    """What is taken from somewhere, without a verb."""
-    all_of_them = len(sources(things)) == len(things.phrases)
-    doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
-    return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
-
-
-_PLACED = plain(
-    either(
-        VERBLESS,
-        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
-        sequence(ALL_THINGS, build=_taken_out),
-    )
-)
-
-
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
     """Where the robot goes to put something down is where that goes."""
     return put_to(things, (Destination(Toward.TO, (np,)),))
 
 
-_PAIRS = quiet(
-    sequence(
-        separated(
-            sequence(
-                noun_phrase,
-                noun_phrase,
-                build=lambda np, place: PutGroup(
-                    Things((np,)), (Destination(Toward.TO, (place,)),)
-                ),
-            ),
-            LIST,
-            most=6,
-        ),
-        build=lambda groups: PutClause(groups) if groups[1:] else None,
-    )
-)
-"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
@@ -239,9 +210,11 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=about,
     ),
+    sequence(NAMED, COLON, _BARE_CHAIN, build=about),
+    sequence(NAMED, COMMA, _BARE_CHAIN, build=each_sorted),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence(
-        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason
+        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, PLACED), build=for_a_reason
     ),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
@@ -262,15 +235,15 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=set_down,
     ),
-    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
+    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(
-        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, _PLACED, build=each_sorted
+        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=each_sorted
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
-    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
-    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
-    sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
+    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
+    sequence(verbs.TIDY, NAMED, COMMA, PLACED, build=each_sorted),
+    sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         NAMED,
@@ -288,7 +261,7 @@ _WITH_MORE_BEFORE_IT = either(
         plain(
             either(
                 SO,
-                sequence(ALL_THINGS, build=_taken_out),
+                sequence(ALL_THINGS, build=taken_out),
                 sequence(
                     ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
                 ),
@@ -331,32 +304,27 @@ SENTENCE = either(
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
+_BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
+_GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
-        EMPTY_WORDS,
-        OPTIONAL_COMMA,
-        optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
+        _GREETING,
         optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
-        _PLACED,
-        some(_JOINED, most=12),
-        _END,
+        HEADLINE,
+        _GOES_ON,
+        EMPTY_WORDS,
+        _BUT_NO_MORE,
         build=_verbless,
     ),
     sequence(
         # "First the ball into the box, then the cup"
+        _GREETING,
+        either(sequence("first, firstly", OPTIONAL_COMMA, HEADLINE), sequence(HEADLINE, "first")),
+        _GOES_ON,
         EMPTY_WORDS,
-        either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
-        some(_JOINED, least=1, most=12),
-        _END,
-        build=_first_placed,
-    ),
-    sequence(
-        EMPTY_WORDS,
-        either(_LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
-        some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
-        _END,
-        build=_headline,
+        _BUT_NO_MORE,
+        build=_first_so,
     ),
 )
 

@@ -127,9 +127,17 @@ def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
     return NounPhrase("all", ("objects",), (modifier,), text=text)
 
 
-def _emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
+def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
+    """Things without what is in or on them, which goes somewhere or just away."""
     contents = Things(tuple(_contents_of(np, held) for np in things.phrases))
     return RemoveClause(contents) if where is None else put_to(contents, where)
+
+
+def is_emptying(clause: Clause) -> bool:
+    """Whether things are to be without what is in or on them, wherever that goes."""
+    return isinstance(clause, RemoveClause) and all(
+        [item.words for item in np.modifiers] == [CLEARED] for np in clause.things.phrases
+    )
 
 
 def _tidied(verb: str, things: Things, away: str, where: Any) -> PutClause | None:
@@ -151,14 +159,14 @@ EMPTY = either(
         optional(_CONTENTS_OF),
         THINGS,
         optional(DESTINATIONS, None),
-        build=_emptied,
+        build=emptied,
     ),
     sequence(
         either(verbs.BRING, verbs.REMOVE),
         "[all] (the|its) contents",
         SOURCE,
         optional(DIRECTED, None),
-        build=lambda np, where: _emptied(Things((np,)), where),
+        build=lambda np, where: emptied(Things((np,)), where),
     ),
     sequence(
         phrase(verbs.TIDY), THINGS, optional(phrase("away, up"), ""), DESTINATIONS, build=_tidied
@@ -169,13 +177,13 @@ EMPTY = either(
         DIRECTED,
         build=lambda things, where: put_to(things, where) if things.are_any else None,
     ),
-    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=_emptied),
+    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=emptied),
     sequence(
         "clear[ing], clean[ing], empty[ing]",
         ALL_THINGS,
         "out",
         optional(DESTINATIONS, None),
-        build=_emptied,
+        build=emptied,
     ),
     sequence(
         either(
@@ -186,9 +194,9 @@ EMPTY = either(
         ),
         optional(phrase("both, all"), ""),
         manner.EMPTIED,
-        build=lambda things, said: _emptied(Things(all_of(things.phrases, said))),
+        build=lambda things, said: emptied(Things(all_of(things.phrases, said))),
     ),
-    sequence(verbs.NOTHING_IS, ALL_THINGS, build=_emptied),
+    sequence(verbs.NOTHING_IS, ALL_THINGS, build=emptied),
 )
 
 
@@ -232,5 +240,5 @@ COVER = either(
     sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
     sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
     sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
-    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(_emptied, held=Prep.ON)),
+    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(emptied, held=Prep.ON)),
 )

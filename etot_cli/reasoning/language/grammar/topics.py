@@ -149,7 +149,8 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
             named = [np for state in states for np in state.subjects]
         case _:
             return None
-    told = all(np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"]) for np in named)
+    alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
+    told = all(np.is_elliptic or last for np, last in zip(named, alone, strict=True))
     return (*topic, *rest) if told else None
 
 

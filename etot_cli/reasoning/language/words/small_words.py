@@ -37,18 +37,22 @@ TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
 TASK = """
     [your|the] (task|goal|job|target|aim|objective) ~comma,
-    [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
+    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
+    (state|configuration|arrangement|result|situation|setup) ~comma
 """
-FRAMES = f"""
+GREETINGS = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
-    (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
+    (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP}
+"""
+FRAMES = f"""
+    {GREETINGS}, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
     you (should|must|[will] have to|[will] need to|can|may),
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
-    i would like [that you], i want, let us, try to, please to, {TASK},
+    i would like [that you], i want, let us, try to, please to,
     the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
@@ -58,7 +62,7 @@ FRAMES = f"""
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
-    do me a favour and, {TIDY_UP},
+    do me a favour and,
     i would be (glad|happy|grateful) if you (would|could),
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
@@ -135,6 +139,8 @@ THEN_JOINTS = """
     and last [of all], after which,
     and later
 """
+COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
+"""Before what comes next, where something was said to come first."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
