@@ -72,7 +72,7 @@ _FIXED = """
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour),
-    there (should|must|may|can) not be anything [left]
+    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left]
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")

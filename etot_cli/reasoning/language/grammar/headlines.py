@@ -4,18 +4,26 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.clauses import INSTEAD, LEFT_OUT, of_the_things, plain
+from etot_cli.reasoning.language.grammar.clauses import (
+    INSTEAD,
+    LEFT_OUT,
+    Reading,
+    of_the_things,
+    plain,
+)
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     quiet,
     separated,
     sequence,
 )
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
@@ -56,6 +64,17 @@ def taken_out(things: Things) -> RemoveClause | None:
 
 
 _IS = either(COMMA, "to")
+_INSTEAD = optional(INSTEAD, False)
+_WHEN = optional(
+    one_of({Order.FIRST: small_words.TRAILING_FIRST, Order.LAST: small_words.TRAILING_LAST}),
+    Order.SAID,
+)
+
+
+def _clause(reading: Reading, instead: bool, order: Order) -> Reading:
+    return (replace(reading[0], instead=instead, order=order),)
+
+
 LEFT_SO = sequence(
     plain(
         either(
@@ -64,7 +83,9 @@ LEFT_SO = sequence(
             sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
         )
     ),
-    optional(small_words.TRAILING_LAST),
+    _INSTEAD,
+    _WHEN,
+    build=_clause,
 )
 """How something is to be in the end ("drawer shut")."""
 PLACED = sequence(
@@ -75,8 +96,9 @@ PLACED = sequence(
             sequence(ALL_THINGS, build=taken_out),
         )
     ),
-    optional(INSTEAD, False),
-    build=lambda reading, instead: (replace(reading[0], instead=instead),),
+    _INSTEAD,
+    _WHEN,
+    build=_clause,
 )
 """Where things go, or are taken from."""
 HEADLINE = either(PLACED, LEFT_SO)

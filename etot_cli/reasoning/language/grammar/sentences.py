@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
+    ORDER_WORDS,
     SO,
     Reading,
     excluding,
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.grammar.common import (
     LIST,
     OPTIONAL_COMMA,
     THEN,
+    after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.headlines import (
@@ -120,6 +122,13 @@ _JOINED = either(
     ),
     _joint(
         "then",
+        LIST,
+        after("first"),
+        plain(sequence(THINGS, build=AgainClause)),
+        small_words.COUNTED,
+    ),
+    _joint(
+        "then",
         OPTIONAL_COMMA,
         small_words.ONWARD,
         plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
@@ -169,19 +178,18 @@ _GOES_ON = some(either(_JOINED, _joint("listed", LIST, HEADLINE)), most=12)
 _BARE_CHAIN = sequence(HEADLINE, _GOES_ON, build=_chained)
 
 
-def _verbless(first: Reading, more: Joined, avoided: tuple[Reading, ...]) -> Reading | None:
+def _verbless(
+    order: Order, first: Reading, more: Joined, avoided: tuple[Reading, ...]
+) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
     lacking = isinstance(clause, EnsureClause) and clause.far_fetched and not more
-    done = None if lacking or str(asks).startswith("what") else _chained(first, more)
+    if lacking or str(asks).startswith("what") or Order.SAID not in (order, first[0].order):
+        return None
+    led = first if order is Order.SAID else (replace(first[0], order=order),)
+    done = _chained(led, more)
     return None if done is None else sum(avoided, done)
-
-
-def _first_so(first: Reading, more: Joined, avoided: tuple[Reading, ...]) -> Reading | None:
-    """What comes first without a verb, and then more."""
-    then = any(joint == "then" or said[0].order is Order.THEN for joint, said in more)
-    return _verbless(first, more, avoided) if then else None
 
 
 _NOT_THIS = sequence(
@@ -310,21 +318,12 @@ WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
         _GREETING,
-        optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
+        optional(sequence(ORDER_WORDS, OPTIONAL_COMMA), Order.SAID),
         HEADLINE,
         _GOES_ON,
         EMPTY_WORDS,
         _BUT_NO_MORE,
         build=_verbless,
-    ),
-    sequence(
-        # "First the ball into the box, then the cup"
-        _GREETING,
-        either(sequence("first, firstly", OPTIONAL_COMMA, HEADLINE), sequence(HEADLINE, "first")),
-        _GOES_ON,
-        EMPTY_WORDS,
-        _BUT_NO_MORE,
-        build=_first_so,
     ),
 )
 

@@ -26,7 +26,9 @@ WITHOUT_MEANING = """
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
-    that would be (great|nice|lovely|perfect|all), (much|very much) appreciated
+    that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
+    by (then|tonight|tomorrow|noon|midnight|lunchtime|bedtime|(this|the) (afternoon|evening)),
+    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -66,9 +68,12 @@ FRAMES = f"""
     i would be (glad|happy|grateful) if you (would|could),
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
-END_STATE = """
-    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))] [~comma],
-    in the end [~comma], (when|once) you are [all] (done|finished) [~comma]
+_AT_END = """
+    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
+    experiment|exercise|game|lesson|test|demo|process))], in the end
+"""
+END_STATE = f"""
+    ({_AT_END}) [~comma], (when|once) you are [all] (done|finished) [~comma]
 """
 """Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer"
@@ -99,19 +104,22 @@ SAME_AGAIN = """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
-    first, before (anything|everything) else, firstly, first of all, to begin with, to start with,
+    first, [but] before (anything|everything) else, [but] before all [of] (that|this),
+    firstly, first of all, to begin with, to start with,
     (start|begin) [off] by,
     [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
-LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
-LEADING_LAST = """
-    finally, lastly, last, last of all, in the end, last but not least,
-    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))],
+LEADING_BEFORE = """
+    [but] before [doing] (that|this), [but] before (doing|you do) so, [but] beforehand
+"""
+LEADING_LAST = f"""
+    finally, lastly, last, last of all, last but not least, {_AT_END},
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
 LEADING_THEN = """
-    then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
+    then, next, after [all [of]] (that|this), afterwards, afterward, after which,
+    second, secondly, third, thirdly,
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
@@ -119,8 +127,8 @@ LEADING_THEN = """
     and then, subsequently, later
 """
 TRAILING_FIRST = "first, before, beforehand, before that, before (anything|everything) else"
-TRAILING_LAST = """
-    last, at the end, in the end, finally, at last,
+TRAILING_LAST = f"""
+    last, {_AT_END}, finally, at last,
     (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,
     (by the time|when|once) you (finish|are (done|finished)|have finished),
     (when|once|after) (everything|all) is (done|finished|in place|put away|sorted|set),
@@ -135,12 +143,15 @@ EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and] when (that is|you have) done [that], [and] once that is done,
-    [and|but] [only] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
+    [and|but] [only] then, [and] after [all [of]] (that|this),
+    [and] afterwards, [and] next, [and] (finally|lastly),
     and last [of all], after which,
     and later
 """
 COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
 """Before what comes next, where something was said to come first."""
+COUNTED = "second, third, fourth, next, then, afterwards, last"
+"""Behind what comes next there."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
