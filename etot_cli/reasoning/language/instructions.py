@@ -90,6 +90,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[2])))}
     if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
         raise UnreadableError(said[2], "")
+    if _reads(said[1], scene, vocabulary):
+        raise UnreadableError(said[1], "", "say it in a sentence of its own")
     goal = _read(normalized(said[2]), scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))

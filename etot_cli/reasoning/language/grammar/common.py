@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.words import known, small_words
 from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import PURPOSES
 
 COMMA = text.COMMA
 COLON = text.COLON
@@ -44,6 +45,7 @@ def _is_noun(given: Input, said: str) -> bool:
     if said in given.nouns:
         return said not in known.NEVER_NOUNS
     other = said in known.GRAMMAR_WORDS and not (is_category(said) and said in known.OTHER_VERBS)
+    other = other and not (said in PURPOSES and said.endswith("ing"))  # "the packing table"
     return said[:1].isalnum() and not other and not known.is_adverb(said)
 
 

@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -174,7 +175,7 @@ _level = sequence(
     LEVEL,
     build=lambda owner, toward, level: (
         None
-        if owner.modifiers or owner.pronoun
+        if owner.modifiers or owner.pronoun or owner.head in DESK_NOUNS
         else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
     ),
 )
@@ -223,6 +224,16 @@ destination = Rule(
             OPTIONAL_COMMA,
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
+        ),
+        sequence(
+            # "On the table, left side"
+            either(ONTO, _to, INTO),
+            COMMA,
+            optional("the"),
+            spanned(_REGION_OF_IT, lambda text, found: (found, text)),
+            build=lambda surface, said: replace(
+                surface, beside=tuple(Beside(near, text=said[1]) for near in said[0])
+            ),
         ),
         sequence(
             either(_ABREAST, sequence(BESIDES, COMMA)),

@@ -8,12 +8,10 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import (
-    EARLIER,
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
     ORDER_WORDS,
-    SO,
     Reading,
     excluding,
     plain,
@@ -51,6 +49,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
 )
+from etot_cli.reasoning.language.grammar.past import EARLIER, SO, WISHED
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, SHUT, states
@@ -264,6 +263,10 @@ _WITH_MORE_BEFORE_IT = either(
         f"{small_words.TASK}, {small_words.END_STATE}", plain(sequence(states, build=EnsureClause))
     ),
     plain(IF_NOT_SO),
+    WISHED,
+    sequence(
+        "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
+    ),
     sequence(
         "with",
         plain(

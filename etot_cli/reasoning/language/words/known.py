@@ -6,7 +6,7 @@ from types import ModuleType
 
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.reasoning.language.words.patterns import Begun, words_of
 
 _FUNCTION = """
     the a an any some another these those this that my your its their our it them they of and or
@@ -154,6 +154,6 @@ ALL_WORDS = GRAMMAR_WORDS.union(
 )
 """Every word that the grammar knows."""
 OPENING_WORDS = GRAMMAR_WORDS.union(
-    *(words_of(_patterns(module)) for module in (small_words, verbs))
+    *(Begun.of({None: ", ".join(_patterns(module))}).following for module in (small_words, verbs))
 )
 """Words that a sentence may begin with that is not about a thing of the scene."""

@@ -48,8 +48,15 @@ GREETINGS = f"""
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP}
 """
+WOULD_BE_NICE = """
+    i would (be|feel) [very|really|so] (glad|happy|grateful|pleased|delighted|thankful),
+    i would [really] (like|love|appreciate|prefer) it,
+    (it|that) would be [very|really|so]
+    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best) [of you]
+"""
+"""Before or behind what it would be nice if somebody did."""
 FRAMES = f"""
-    {GREETINGS}, go, go and, go ahead and,
+    ({WOULD_BE_NICE}) if you (would|could), {GREETINGS}, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
     you (should|must|[will] have to|[will] need to|can|may),
@@ -57,15 +64,14 @@ FRAMES = f"""
     i would like [that you], i want, let us, try to, please to,
     the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
-    (how|what) about, why do not you, i (wonder|was wondering) if you could,
+    (how|what) about, why do not you, i (wonder|was wondering) if you (could|would),
+    i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
-    i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and,
-    i would be (glad|happy|grateful) if you (would|could),
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
 _AT_END = """

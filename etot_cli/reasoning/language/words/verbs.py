@@ -80,7 +80,7 @@ NOTHING_IS = """
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
@@ -139,6 +139,12 @@ COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
+PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
+WERE = f"""
+    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}], [could|would] (go|stand|sit|lie),
+    (ended|finished|wound) up, went, stood, lay, sat
+"""
+"""What it would be nice if things were."""
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""

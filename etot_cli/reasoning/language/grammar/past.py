@@ -1,0 +1,101 @@
+"""Rules for what has been done by then, and for what it would be nice if somebody did."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, plain
+from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
+    MoveClause,
+    PickClause,
+    PutClause,
+    RemoveClause,
+    State,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.taking import SOURCE
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+
+SO = sequence(
+    ALL_THINGS,
+    optional(f"{verbs.BE}, (has|have) been"),
+    OPEN_OR_CLOSED,
+    build=lambda things, word: MoveClause(things, word == "open"),
+)
+_SO_BY_THEN = either(
+    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        verbs.BE,
+        OUT_AND_INTO,
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
+        SOURCE,
+        build=RemoveClause,
+    ),
+    SO,
+)
+"""What has been done or is so by then ("once the pear has been put into the bowl")."""
+_HAVING_DONE = either(
+    *(
+        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
+    ),
+    *(
+        sequence(
+            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for said, particle, opens in (
+            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
+            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
+        )
+    ),
+    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        "left, kept",
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=lambda nps, word: EnsureClause((State(nps, word=word, kept=True),)),
+    ),
+    sequence(verbs.PICKED_UP, THINGS, build=PickClause),
+    sequence(
+        "taken, took, removed, moved, cleared",
+        ALL_THINGS,
+        either(SOURCE, phrase("out, off, away", "")),
+        build=lambda things, source: RemoveClause(things, source or None),
+    ),
+)
+EARLIER = either(
+    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+    sequence("[but] [only] (once|after|when|as soon as)", plain(_SO_BY_THEN)),
+)
+"""What comes before the rest of a sentence."""
+WISHED = either(
+    sequence(
+        f"({small_words.WOULD_BE_NICE}) if you",
+        separated(plain(_HAVING_DONE), LIST, most=4),
+        build=lambda said: sum(said, ()),
+    ),
+    plain(
+        sequence(
+            f"({small_words.WOULD_BE_NICE}) if",
+            separated(sequence(NP_LIST, verbs.WERE, PREDICATE, build=state_of), LIST, most=4),
+            build=EnsureClause,
+        )
+    ),
+)
+"""In the past tense of a wish."""
