@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     spanned,
     valued,
+    word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
@@ -36,7 +37,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
+from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -48,6 +49,8 @@ ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
+_THAT = NounPhrase(pronoun="it", text="it")
+"""What is to go there."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
 TARGETS = sequence(
@@ -181,6 +184,40 @@ _level = sequence(
 )
 
 
+def _level_by(noun: str, prep: Prep, text: str) -> Destination:
+    """The next level above or below a thing."""
+    aside = Modifier(prep, (_THAT,), tuple(text.split()))
+    return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
+
+
+_LEVEL_NOUN = word(lambda _, text: text in (*BOARD_NOUNS, "drawer"))
+_next_level = spanned(
+    # "One board up", "to the shelf below"
+    either(
+        sequence(
+            "one, 1, a, [(on|in|to|into|onto)] the next",
+            _LEVEL_NOUN,
+            one_of(
+                {
+                    Prep.ABOVE: "[further] up, higher [up]",
+                    Prep.UNDER: "[further] down, lower [down]",
+                }
+            ),
+        ),
+        sequence(
+            one_of({Prep.ABOVE: "up", Prep.UNDER: "down"}),
+            "one, a",
+            _LEVEL_NOUN,
+            build=lambda prep, noun: (noun, prep),
+        ),
+        sequence(
+            "(on|in|to|into|onto) the",
+            _LEVEL_NOUN,
+            one_of({Prep.ABOVE: "above, higher up", Prep.UNDER: "below, lower down"}),
+        ),
+    ),
+    lambda text, said: _level_by(*said, text),
+)
 _with = spanned(
     either(
         sequence(
@@ -206,6 +243,7 @@ destination = Rule(
         _to,
         _top_of,
         _level,
+        _next_level,
         _with,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(
