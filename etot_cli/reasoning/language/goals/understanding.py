@@ -75,6 +75,7 @@ class Understanding:
         steps = {}
         for spoken in sorted(reading, key=lambda item: item.position):
             _check_instead(spoken, self.context.last)
+            self.context.order = spoken.order
             steps[id(spoken)] = steps_of(spoken.clause, self.context)
             self.context.last = spoken.clause
         check_opposites(self.context.discourse)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, NUMBERS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    NUMBERS,
+    is_descriptive,
+    singular,
+)
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -36,3 +44,31 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
             item = replace(item, words=(*item.words, *noun[-1:]))
         found[index] = item
     return tuple(found)
+
+
+_ARE = re.compile(r"\b(?:that|which) (?:are|stand|lie|sit)\b")
+
+
+def told_together(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+    """In "the cup and the plate that are on the tray" both are: one thing is not "are"."""
+    *before, last = nps
+    single = bool(last.words) and singular(last.head) == last.head and len(last.modifiers) == 1
+    alone = all(np.words and not np.modifiers for np in before)
+    inner = any(_ARE.search(np.text) for item in last.modifiers for np in item.phrases)
+    if not (before and single and alone and _ARE.search(last.text)) or inner:
+        return nps
+    return tuple(replace(np, modifiers=last.modifiers) for np in nps)
+
+
+_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
+
+
+def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
+    """All of them, as a word beside the verb says."""
+    (first, *more) = nps
+    several = not first.determiner and singular(first.head) != first.head  # "pens, all of them"
+    if said and not more and (several or first.determiner in THE_WORDS):
+        return (replace(first, determiner=_QUANTITIES.get(said, said)),)
+    if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
+        return (replace(first, determiner=said),)
+    return nps

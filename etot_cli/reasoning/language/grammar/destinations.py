@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
@@ -45,6 +45,8 @@ from etot_cli.world.spatial import Nearby
 TOP = "top"
 """The word of a destination on top of something: of a shelf, its top board. What is "at the top"
 or the bottom has boards."""
+AS_SAID = "there, as was said"
+"""The word of a destination that is left out, which the clause before says."""
 ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
@@ -184,8 +186,9 @@ _level = sequence(
 )
 
 
-def _level_by(noun: str, prep: Prep, text: str) -> Destination:
+def _level_by(text: str, said: tuple[str, Prep]) -> Destination:
     """The next level above or below a thing."""
+    noun, prep = said
     aside = Modifier(prep, (_THAT,), tuple(text.split()))
     return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
 
@@ -216,7 +219,7 @@ _next_level = spanned(
             one_of({Prep.ABOVE: "above, higher up", Prep.UNDER: "below, lower down"}),
         ),
     ),
-    lambda text, said: _level_by(*said, text),
+    _level_by,
 )
 _with = spanned(
     either(
@@ -249,7 +252,7 @@ destination = Rule(
         valued(
             phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")
         ),
-        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
+        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
         sequence(
             _ABREAST,
@@ -297,7 +300,8 @@ DESTINATIONS = Rule(
 )
 
 
-def _denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Where things are not to be."""
     return tuple(replace(item, denied=True) for item in out)
 
 
@@ -308,7 +312,7 @@ def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any
     def named(np: NounPhrase) -> NounPhrase:
         return np.called(noun) if noun and np.head == "one" else np
 
-    return (*(item.going_to(named) for item in where), *_denied(out))
+    return (*(item.going_to(named) for item in where), *denied(out))
 
 
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
@@ -323,8 +327,9 @@ WHERE = Rule(
             either(
                 f"{nouns.CONTRAST}, anywhere (but|except)", sequence(after("anywhere"), "except")
             ),
+            optional(verbs.BEING),
             separated(destination, "or, nor", most=3),
-            build=lambda where, out: (*where, *_denied(out)),
+            build=lambda where, out: (*where, *denied(out)),
         ),
         sequence("not", INSTEAD),
         quiet(

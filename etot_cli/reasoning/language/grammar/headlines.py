@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
     Destination,
     EnsureClause,
     NounPhrase,
@@ -45,9 +46,7 @@ from etot_cli.reasoning.language.words.patterns import words_of
 
 
 def left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    """How things are to be, without a verb; headlines have no articles, and "the drawer shut" lacks
-    one where nothing else is said.
-    """
+    """How things are to be, without a verb; headlines have no articles."""
     return EnsureClause((State(nps, word=word),), int(nps[0].determiner in THE_WORDS))
 
 
@@ -61,6 +60,16 @@ def taken_out(things: Things) -> RemoveClause | None:
     all_of_them = len(sources(things)) == len(things.phrases)
     doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
     return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
+
+
+def lacks_verb(clause: Clause) -> bool:
+    """Whether a clause says something only beside others ("the drawer shut", "key out")."""
+    match clause:
+        case RemoveClause(things=things):
+            return not any(np.modifiers for np in things.phrases)
+        case EnsureClause(far_fetched=lacking):
+            return bool(lacking)
+    return False
 
 
 _IS = either(COMMA, "to")
@@ -94,6 +103,7 @@ PLACED = sequence(
             VERBLESS,
             sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
             sequence(ALL_THINGS, build=taken_out),
+            sequence(ALL_THINGS, "out", build=RemoveClause),
         )
     ),
     _INSTEAD,

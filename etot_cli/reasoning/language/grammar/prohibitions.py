@@ -67,6 +67,17 @@ AVOID = either(
         _FORBIDDEN,
         build=lambda clause: replace(clause, negated=True, needless=True),
     ),
+    sequence(
+        THINGS,
+        verbs.NEED_NOT_BE,
+        build=partial(AvoidClause, Avoid.MOVE, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
+        verbs.NEED_NOT_GO,
+        DESTINATIONS,
+        build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
 )
 WITHOUT = sequence(

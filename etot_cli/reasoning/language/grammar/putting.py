@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     put_of,
 )
 from etot_cli.reasoning.language.grammar.common import COLON, COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
@@ -36,14 +36,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
-from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIRST_TO_LAST
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
+    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
+    State,
     Things,
     Toward,
     put_to,
@@ -220,6 +221,17 @@ PUT = either(
             sequence(noun_phrase, build=lambda np: (Destination(Toward.TO, (np,)),)),
         ),
         build=put_to,
+    ),
+    sequence(
+        # "The drawer is where the spoon lives"
+        noun_phrase,
+        either(
+            sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
+        ),
+        build=lambda np, things: EnsureClause(
+            (State(things.phrases, (Destination(Toward.TO, (np,)),)),)
+        ),
     ),
     sequence(
         "(finish|complete|top|crown|extend) [off|up]",

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from operator import add
-from typing import Any
 
+from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
-    LEFT_OUT,
     ORDER_WORDS,
     Reading,
-    excluding,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import (
@@ -31,6 +29,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
     LEFT_SO,
     PAIRS,
     PLACED,
+    lacks_verb,
     left_so,
     taken_out,
 )
@@ -58,7 +57,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Destination,
     EnsureClause,
-    Modifier,
     NounPhrase,
     PutClause,
     Things,
@@ -82,7 +80,6 @@ from etot_cli.reasoning.language.grammar.topics import (
 )
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
 """What goes on a sentence, each with what joins it."""
@@ -183,23 +180,12 @@ def _verbless(
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    lacking = isinstance(clause, EnsureClause) and clause.far_fetched and not more
-    if lacking or str(asks).startswith("what") or Order.SAID not in (order, first[0].order):
+    twice = Order.SAID not in (order, first[0].order)
+    if (lacks_verb(clause) and not more) or str(asks).startswith("what") or twice:
         return None
     led = first if order is Order.SAID else (replace(first[0], order=order),)
     done = _chained(led, more)
     return None if done is None else sum(avoided, done)
-
-
-_NOT_THIS = sequence(
-    "instead of, rather than, not", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
-)
-
-
-def _without(out: Any, rest: Reading) -> Reading | None:
-    """A sentence that begins with what is left out."""
-    clause = excluding(rest[0].clause, out)
-    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -282,8 +268,7 @@ _WITH_MORE_BEFORE_IT = either(
         valued(CHAIN, _then),
         build=add,
     ),
-    sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
-    sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
+    not_so(CHAIN),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, _then), build=add),
     sequence(

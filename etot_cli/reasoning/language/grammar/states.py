@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
@@ -107,19 +108,6 @@ def _contains(verb: str) -> Parser:
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
     return State((held,), (Destination(Toward.INSIDE, (np,)),))
-
-
-_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
-
-
-def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
-    """All of them, as a word beside the verb says."""
-    (first, *more) = nps
-    if said and not more and first.determiner in nouns.THE_WORDS:
-        return (replace(first, determiner=_QUANTITIES[said]),)
-    if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
-        return (replace(first, determiner=said),)
-    return nps
 
 
 STATE = either(
@@ -260,6 +248,7 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
 
 
+_THERE = (Destination(Toward.HERE, word=AS_SAID),)
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
     sequence(
@@ -296,10 +285,13 @@ ENSURE = either(
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),
-    sequence(
-        NP_LIST,
-        "(does|do|should|must) not",
-        build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
+    *(
+        # "…, the tape should not", "…, the can should": go there, which was spoken of
+        sequence(NP_LIST, said, build=lambda nps, so=so: _ensured(so(nps, _THERE)))
+        for said, so in (
+            ("(does|do|should|must) not", opposite),
+            ("does, do, should, must, shall", State),
+        )
     ),
     sequence(
         # "The tray should have the cup in it and the box the plate"

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, alternatives
+from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
@@ -20,7 +21,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
     Clause,

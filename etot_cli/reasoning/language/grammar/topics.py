@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import (
+    ADJECTIVES,
+    DESCRIBED,
+    MODIFIERS,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -56,12 +62,30 @@ def _is_unknown(given: Input, text: str) -> bool:
     return not (told or text in ALL_WORDS or text in given.nouns or not text.isalpha())
 
 
+def _identified(
+    np: NounPhrase, words: tuple[str, ...], modifiers: tuple[Modifier, ...]
+) -> Things | None:
+    """What is told from others of its sort by what it is ("my mug is the left one")."""
+    if not np.words or not (words or modifiers):
+        return None
+    return Things((replace(np.told_by(*modifiers), words=(*np.words[:-1], *words, np.head)),))
+
+
 _STATED = either(
     sequence(
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
         build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        # "My mug is the one on the tray", "the left one"
+        noun_phrase,
+        "is the, are the, 's the",
+        optional(ADJECTIVES, ()),
+        "one, ones",
+        MODIFIERS,
+        build=_identified,
     ),
     sequence(
         small_words.SOMEBODY_LEFT,

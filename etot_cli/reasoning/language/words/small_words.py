@@ -141,6 +141,8 @@ TRAILING_LAST = f"""
     (when|once) you have (put everything (in|away)|everything (in|away))
 """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
+NOT_THERE = "instead of, rather than, not"
+"""Before what is not meant, or where something is not to be, ahead of what is."""
 INSTEAD = "instead, instead of (it|them|that|those)"
 """What is asked for takes the place of what is taken away, or is not to be done."""
 AND = "and [also|likewise], as well as, along with, together with, plus"

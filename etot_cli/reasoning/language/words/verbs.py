@@ -84,6 +84,7 @@ _BROUGHT = """
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
+BEING = f"({_BEING}|being)"
 _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|
     (is|are) (supposed|meant) to
@@ -99,6 +100,8 @@ MODAL = f"""
 """
 THERE_BE = f"there ({_MUST}) be"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
+BELONG = "live[s], belong[s], go[es], (is|are) (kept|stored)"
+"""Behind a thing, where something is its place."""
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 _RELATIONS = """
@@ -178,6 +181,12 @@ DO_NOT = """
     but do not, and do not, [but|and] (make|be) sure not to, [but|and] be careful not to,
     [but|and] take care not to
 """
+NEED_NOT_BE = """
+    (does|do) not (need|have) to (move|be moved|be touched|be picked up|go anywhere),
+    need not (move|be moved|be touched|go anywhere)
+"""
+"""Behind what may be left as it is."""
+NEED_NOT_GO = "(does|do) not (need|have) to (go|be|be put), need not (go|be|be put)"
 NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
     [but] do not bother (to|with|), [but|and] (it is|it 's|it s) not necessary to
