@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COM
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
+    Rule,
     either,
     one_of,
     optional,
@@ -84,31 +85,37 @@ def _clause(reading: Reading, instead: bool, order: Order) -> Reading:
     return (replace(reading[0], instead=instead, order=order),)
 
 
-LEFT_SO = sequence(
-    plain(
-        either(
-            sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
-            sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
-            sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
-        )
-    ),
-    _INSTEAD,
-    _WHEN,
-    build=_clause,
+LEFT_SO = Rule(
+    sequence(
+        plain(
+            either(
+                sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
+                sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
+                sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
+            )
+        ),
+        _INSTEAD,
+        _WHEN,
+        build=_clause,
+    )
 )
 """How something is to be in the end ("drawer shut")."""
-PLACED = sequence(
-    plain(
-        either(
-            VERBLESS,
-            sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
-            sequence(ALL_THINGS, build=taken_out),
-            sequence(ALL_THINGS, "out", build=RemoveClause),
-        )
-    ),
-    _INSTEAD,
-    _WHEN,
-    build=_clause,
+PLACED = Rule(
+    sequence(
+        plain(
+            either(
+                VERBLESS,
+                sequence(
+                    VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things
+                ),
+                sequence(ALL_THINGS, build=taken_out),
+                sequence(ALL_THINGS, "out", build=RemoveClause),
+            )
+        ),
+        _INSTEAD,
+        _WHEN,
+        build=_clause,
+    )
 )
 """Where things go, or are taken from."""
 HEADLINE = either(PLACED, LEFT_SO)

@@ -38,7 +38,7 @@ TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) tim
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
 TASK = """
-    [your|the] (task|goal|job|target|aim|objective) ~comma,
+    [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
     (state|configuration|arrangement|result|situation|setup) ~comma
 """
@@ -69,7 +69,7 @@ FRAMES = f"""
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
-    (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
+    (would|could) you be so (kind|good|nice) (as to|and),
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and,
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and

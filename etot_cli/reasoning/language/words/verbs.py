@@ -89,13 +89,13 @@ _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|
     (is|are) (supposed|meant) to
 """
-_SIMPLY = "[simply|just|also|please|best]"
+_SIMPLY = "[simply|[just] as well|just|also|please|best]"
 MODAL = f"""
     ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}]|(end|finish|wind) up [{_BEING}]|get|
     go [back]|stand|sit|lie|live), (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|be put|be placed),
     (can|could|may) {_SIMPLY} (stand|sit|lie|live),
-    would (be|look|go) (better [off]|best|nice|nicer),
+    would (be|look|go) (better [off]|best|nice|nicer), (is|are) best ({_BROUGHT}),
     (want|wants) to (be|go|sit|stand|lie), (is|are) going [back], go[es] [back], belong[s], live[s]
 """
 THERE_BE = f"there ({_MUST}) be"
@@ -186,7 +186,9 @@ NEED_NOT_BE = """
     need not (move|be moved|be touched|go anywhere)
 """
 """Behind what may be left as it is."""
-NEED_NOT_GO = "(does|do) not (need|have) to (go|be|be put), need not (go|be|be put)"
+NEED_NOT_GO = """
+    (does|do) not (need|have) to (go|be [put]|stay|remain), need not (go|be [put]|stay|remain)
+"""
 NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),
     [but] do not bother (to|with|), [but|and] (it is|it 's|it s) not necessary to
