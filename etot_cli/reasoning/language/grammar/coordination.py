@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     NUMBERS,
+    ORDINALS,
     is_descriptive,
     singular,
 )
@@ -40,6 +41,9 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
         if adjectives and following is None and not item.determiner and not named:
             return None
         if adjectives and following is not None:
+            counted = not item.determiner and item.words[-1] in ORDINALS
+            if counted and {*following.words[:1]} - {*ORDINALS}:
+                return None  # "second, red mug": what comes second
             noun = "_".join(following.words).split("_")[1:]  # labels of several words are joined
             item = replace(item, words=(*item.words, *noun[-1:]))
         found[index] = item

@@ -20,7 +20,6 @@ from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
-    THEN,
     after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
@@ -101,7 +100,7 @@ _JOINED = either(
     _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
     _joint("mere and", "and", LED_CLAUSE),
     _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, THEN, OPTIONAL_COMMA, LED_CLAUSE),
+    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     _joint("after", OPTIONAL_COMMA, EARLIER),
     _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
@@ -111,10 +110,25 @@ _JOINED = either(
     _joint(
         "then",
         OPTIONAL_COMMA,
-        THEN,
+        small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
         either(plain(sequence(THINGS, build=AgainClause)), HEADLINE),
+    ),
+    _joint(
+        "then",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        COMMA,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=AgainClause)), HEADLINE),
+    ),
+    _joint(
+        "counted",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=AgainClause)), HEADLINE),
     ),
     _joint(
         "then",
@@ -165,7 +179,9 @@ def _chained(first: Reading, more: Joined) -> Reading | None:
         if joint == "after":
             done = (*clause, *_then(done))
         else:
-            done = (*done, *(_then(clause) if joint == "then" else clause))
+            done = (*done, *(_then(clause) if joint in ("then", "counted") else clause))
+        if joint == "counted":
+            done = (*done[:-1], replace(done[-1], far_fetched=1))
     return done
 
 
@@ -175,16 +191,18 @@ _BARE_CHAIN = sequence(HEADLINE, _GOES_ON, build=_chained)
 
 
 def _verbless(
-    order: Order, first: Reading, more: Joined, avoided: tuple[Reading, ...]
+    when: tuple[Order, int], first: Reading, more: Joined, avoided: tuple[Reading, ...]
 ) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
+    order, far_fetched = when
     twice = Order.SAID not in (order, first[0].order)
     if (lacks_verb(clause) and not more) or str(asks).startswith("what") or twice:
         return None
-    led = first if order is Order.SAID else (replace(first[0], order=order),)
-    done = _chained(led, more)
+    if order is not Order.SAID:
+        first = (replace(first[0], order=order, far_fetched=far_fetched),)
+    done = _chained(first, more)
     return None if done is None else sum(avoided, done)
 
 
@@ -306,7 +324,10 @@ WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
         _GREETING,
-        optional(sequence(ORDER_WORDS, OPTIONAL_COMMA), Order.SAID),
+        either(
+            sequence(ORDER_WORDS, COMMA, build=lambda order: (order, 0)),
+            optional(sequence(ORDER_WORDS, build=lambda order: (order, 1)), (Order.SAID, 0)),
+        ),
         HEADLINE,
         _GOES_ON,
         EMPTY_WORDS,
