@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.moving import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -34,7 +35,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KE
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE
+from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,

@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -15,6 +16,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.verbs import OF_SEVERAL
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -76,3 +78,12 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
         return (replace(first, determiner=said),)
     return nps
+
+
+def disagrees(nps: tuple[NounPhrase, ...], verb: str) -> bool:
+    """Whether a verb is said of several things, and these are one: in "the cup and the pen beside
+    it go in the box" it is not the pen alone that "go".
+    """
+    (np, *more) = nps
+    one = bool(np.words) and singular(np.head) == np.head and np.determiner in ("", *THE_WORDS)
+    return one and not (more or is_category(np.head)) and verb.split()[0] in OF_SEVERAL

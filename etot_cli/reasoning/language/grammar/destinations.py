@@ -51,8 +51,8 @@ ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
-_THAT = NounPhrase(pronoun="it", text="it")
-"""What is to go there."""
+THAT = NounPhrase(pronoun="it", text="where it is")
+"""What is to go to another level, which is counted from where it is."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
 TARGETS = sequence(
@@ -189,7 +189,7 @@ _level = sequence(
 def _level_by(text: str, said: tuple[str, Prep]) -> Destination:
     """The next level above or below a thing."""
     noun, prep = said
-    aside = Modifier(prep, (_THAT,), tuple(text.split()))
+    aside = Modifier(prep, (THAT,), tuple(text.split()))
     return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
 
 

@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
 )
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.moving import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -50,7 +51,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.past import EARLIER, SO, WISHED
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, SHUT, states
+from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -175,6 +176,9 @@ def _chained(first: Reading, more: Joined) -> Reading | None:
         if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if joint == "mere and":
+            said = clause[0].clause
+            if isinstance(said, EnsureClause) and said.far_fetched == OF_SEVERAL:
+                return None  # "the cup on the tray and the pen in it go in the box"
             done = _maybe_denied(done, clause)
         if joint == "after":
             done = (*clause, *_then(done))

@@ -1,16 +1,16 @@
-"""Rules for what is to be open, closed or somewhere, and for opening and closing."""
+"""Rules for what is to be open, closed or somewhere."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
 from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
@@ -26,14 +26,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
-    MoveClause,
     NounPhrase,
     PutGroup,
     State,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 
@@ -135,108 +133,6 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
     return EnsureClause(said)
 
 
-def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
-    """In "if the drawer is closed, open it": what is open already stays so anyway."""
-    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
-    if not again or moved.opens == (word == "open"):
-        return None
-    return MoveClause(Things(subjects), moved.opens, guarded=True)
-
-
-_PLAIN_MOVE = either(
-    *(
-        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
-    ),
-    *(
-        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (
-            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
-            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
-        )
-    ),
-    *(
-        sequence(
-            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for verb, particle, opens in (
-            (verbs.PULL, manner.OPEN_STATE, True),
-            (verbs.PULL, manner.CLOSED_STATE, False),
-            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
-            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
-            (
-                "giv(e|ing)",
-                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
-                f" {manner.A_PUSH} to (close|shut) it",
-                False,
-            ),
-        )
-    ),
-)
-
-
-def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
-    """In "grasp the handle of the drawer and open it" that is the drawer."""
-    again = bool(moved.things.phrases[0].pronoun)
-    if again != bool(handled):
-        return None
-    return replace(moved, things=Things(handled)) if again else moved
-
-
-def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
-    """What has the handle of "the drawer handle" and "the drawer's handle"."""
-    if np.head != "handle":
-        return None
-    return (
-        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
-    )
-
-
-_HANDLED = either(
-    phrase("the handle, its handle", ()),
-    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
-    sequence(noun_phrase, build=_handled),
-)
-_BY_HANDLE = either(
-    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
-    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
-    sequence(
-        verbs.PICK,
-        _HANDLED,
-        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
-        _PLAIN_MOVE,
-        build=_by_handle,
-    ),
-)
-MOVE = either(
-    _PLAIN_MOVE,
-    quiet(_BY_HANDLE),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
-        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
-    ),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        valued(TURN, lambda turn: turns_of((turn,))),
-        build=lambda moved, turns: replace(moved, turns=turns),
-    ),
-)
-IF_NOT_SO = quiet(
-    sequence(
-        "if",
-        NP_LIST,
-        f"{verbs.BE}, 's",
-        OPEN_OR_CLOSED,
-        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
-        EMPTY_WORDS,
-        _PLAIN_MOVE,
-        build=_if_not_so,
-    )
-)
-"""A sentence of its own: what follows it might be asked for in that case only."""
 _EACH = phrase("each, both, all")
 _TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
@@ -248,6 +144,22 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
 
 
+_ALL_SO = sequence(
+    PREDICATE,
+    # "…, the ball in the cup": the verb is left out.
+    some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
+    build=lambda predicate, more: lambda nps: (state_of(nps, predicate), *more),
+)
+
+
+def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
+    """What "go" or "belong" somewhere are several things."""
+    odd = clause is not None and disagrees(clause.states[0].subjects, verb)
+    return replace(clause, far_fetched=OF_SEVERAL) if odd and clause is not None else clause
+
+
+OF_SEVERAL = 2
+"""How far-fetched it is that one thing is meant where several are spoken of."""
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
@@ -326,16 +238,15 @@ ENSURE = either(
             build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
         )
     ),
+    sequence(
+        NP_LIST,
+        phrase(verbs.MODAL),
+        _ALL_SO,
+        build=lambda nps, verb, said: _going(verb, _ensured(*said(nps))),
+    ),
     *(
-        sequence(
-            *said,
-            PREDICATE,
-            # "…, the ball in the cup": the verb is left out.
-            some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
-            build=lambda nps, predicate, more: _ensured(state_of(nps, predicate), *more),
-        )
+        sequence(*said, _ALL_SO, build=lambda nps, said: _ensured(*said(nps)))
         for said in (
-            (NP_LIST, verbs.MODAL),
             (verbs.WANTED, NP_LIST, _TO_BE),
             (verbs.CAN, NP_LIST, verbs.BE_PUT),
             (verbs.THERE_BE, NP_LIST),

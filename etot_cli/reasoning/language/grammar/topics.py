@@ -7,6 +7,7 @@ from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
+from etot_cli.reasoning.language.grammar.destinations import THAT
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import (
     ADJECTIVES,
@@ -136,7 +137,13 @@ def about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
     therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
-    spoken = remark or therein or any(pronouns(rest[0].clause))
+    spoken = (
+        remark
+        or therein
+        or any(
+            isinstance(np, NounPhrase) and np.pronoun and np != THAT for np in nodes(rest[0].clause)
+        )
+    )
     return (*topic, *rest) if spoken else one_of_them(topic, rest)
 
 

@@ -100,6 +100,8 @@ MODAL = f"""
 """
 THERE_BE = f"there ({_MUST}) be"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
+OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
+"""Verbs that are not said of one thing."""
 BELONG = "live[s], belong[s], go[es], (is|are) (kept|stored)"
 """Behind a thing, where something is its place."""
 CAN = "can, could, may"
