@@ -147,6 +147,11 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
+def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
+    """Where things have their place."""
+    return EnsureClause((State(things.phrases, where),))
+
+
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
@@ -220,7 +225,7 @@ PUT = either(
             DESTINATIONS,
             sequence(noun_phrase, build=lambda np: (Destination(Toward.TO, (np,)),)),
         ),
-        build=put_to,
+        build=_belonging,
     ),
     sequence(
         # "The drawer is where the spoon lives"
@@ -229,9 +234,7 @@ PUT = either(
             sequence("is where", ALL_THINGS, verbs.BELONG),
             sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
         ),
-        build=lambda np, things: EnsureClause(
-            (State(things.phrases, (Destination(Toward.TO, (np,)),)),)
-        ),
+        build=lambda np, things: _belonging(things, (Destination(Toward.TO, (np,)),)),
     ),
     sequence(
         "(finish|complete|top|crown|extend) [off|up]",

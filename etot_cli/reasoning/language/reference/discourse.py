@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
-from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.relations import is_inside, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.resolved import Resolved
@@ -170,6 +170,16 @@ class Discourse:
         if not more and 0 < len(now) < len(parts):
             options = tuple((thing,) for thing in now) if len(option) == 1 else (now,)
             self.referents[referent] = replace(self.referents[referent], options=options)
+
+    def rather(self, referent: int, inner: Collection[Thing]) -> None:
+        """Of a chest that is spoken of as "the drawer", keeps the drawer that things are in, else
+        those that are open.
+        """
+        self.as_it_stands(
+            referent,
+            lambda scene, part: any(is_inside(scene, t.name, part.address) for t in inner),
+        )
+        self.as_it_stands(referent, is_open)
 
     def is_spoken(self, referent: int) -> bool:
         """Whether a referent was mentioned more than once."""

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import bearers, is_open
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
@@ -85,8 +85,10 @@ class Places:
         self,
         destinations: Sequence[Destination],
         themes: Sequence[int],
+        *,
+        left: bool = False,
     ) -> tuple[Place, ...]:
-        """Alternative places."""
+        """Alternative places; ``left``: "the drawer" is rather the one that the things are in."""
         places: dict[Place, None] = {}
         for destination in destinations:
             if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
@@ -104,7 +106,7 @@ class Places:
                 found = [
                     place
                     for phrase in self._phrases.one_of(destination.targets, role)
-                    for place in self._targets(destination, phrase, role, themes)
+                    for place in self._targets(destination, phrase, role, themes, left=left)
                 ]
                 within = [place for place in found if place.relation is Relation.INSIDE]
                 inside = bool(within)
@@ -122,7 +124,13 @@ class Places:
         return tuple(places)
 
     def _targets(
-        self, destination: Destination, phrase: NounPhrase, role: Role, themes: Sequence[int]
+        self,
+        destination: Destination,
+        phrase: NounPhrase,
+        role: Role,
+        themes: Sequence[int],
+        *,
+        left: bool,
     ) -> list[Place]:
         toward = destination.toward
         bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
@@ -147,7 +155,7 @@ class Places:
             self._check_carried(phrase, index, themes)
             drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
-                self.discourse.as_it_stands(index, is_open)
+                self.discourse.rather(index, self.discourse.things(*themes) if left else ())
             ways = self.relations_to(toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = self.relations_to(Toward.ON, index, themes)
