@@ -87,7 +87,7 @@ _CLITICS = (
     (r"\bdoesn't\b", "does not"),
     (r"\b(is|are|should|must|would|could|need)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
-    (r"\b(i|it|you|we|they)'d\b", r"\1 would"),
+    (r"\b(i|it|that|you|we|they)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
