@@ -389,6 +389,17 @@ def test_what_is_open_is_closed_once_where_that_is_said() -> None:
     assert plan.index("[CLOSE, chest.lower]") < plan.index("[OPEN, chest.upper]")
 
 
+def test_what_goes_in_where_a_vessel_is_taken_out() -> None:
+    state = scenes.scene(
+        scenes.cabinet("oven", (0.6, -0.2), 0.9),
+        scenes.item("bowl", "bowl", (0.6, -0.2), on="oven", inside="oven"),
+        scenes.ball("plum", (0.4, 0.3)),
+    )
+    for text in ("Take the bowl out and put the plum in.", "Oven open, bowl out, plum in."):
+        with pytest.raises(InstructionError, match=r"it may mean (the )?bowl or oven"):
+            plans(text, state)
+
+
 def test_what_lies_in_a_closed_drawer_is_uncovered() -> None:
     state = scenes.scene(
         scenes.drawers("chest", (0.6, -0.2), {"top": 0.0}),

@@ -83,5 +83,7 @@ def _choice(index: int, goal: Goal, joint: str = " and ") -> str:
     referent = goal.referents[index]
     options = dict.fromkeys(joint.join(t.address for t in item) for item in referent.options)
     before = (goal.referents[other] for other in referent.distinct_from if other < index)
-    again = len(options) > 1 and any(referent.options == other.options for other in before)
+    things = {thing for item in referent.options for thing in item}
+    shared = any(things & {thing for item in other.options for thing in item} for other in before)
+    again = len(options) > 1 and shared
     return " or ".join(options) + (" (another)" if again else "")

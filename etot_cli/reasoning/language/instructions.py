@@ -31,7 +31,9 @@ from etot_cli.world.state import OPEN_AT, SceneState
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
-    "neither nor only instead first last then do t"
+    "neither nor only instead first last then do t "
+    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
+    "initially starting present previous old so far example optional maybe perhaps alternatively"
 )
 """A heading with such a word says something of what stands below it."""
 _REFERRING = word_set(
@@ -88,6 +90,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[2])))}
     if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
         raise UnreadableError(said[2], "")
+    if _reads(said[1], scene, vocabulary):
+        raise UnreadableError(said[1], "", "say it in a sentence of its own")
     goal = _read(normalized(said[2]), scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))

@@ -9,11 +9,12 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.again import again
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.goals.putting import again, ensure, put, remove
+from etot_cli.reasoning.language.goals.putting import ensure, put, remove
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,

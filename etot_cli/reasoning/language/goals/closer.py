@@ -1,4 +1,4 @@
-"""Where exactly some of several things go, said again behind where all of them go."""
+"""Where exactly some of several things go, said again behind where all of them go, or left out."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax import PutGroup
+from etot_cli.reasoning.language.grammar.destinations import AS_SAID
+from etot_cli.reasoning.language.grammar.syntax import Destination, PutGroup, State, Toward
+from etot_cli.reasoning.language.grammar.trees import nodes
 
 
 def set_closer(
@@ -80,3 +82,17 @@ def certain(context: Context, themes: Sequence[int]) -> set[Thing | int]:
     """The things that are moved, and the referents of which it is open which they are."""
     options = {index: context.discourse.referents[index].options for index in themes}
     return {item for i, o in options.items() for item in (o[0] if len(o) == 1 else (i,))}
+
+
+def as_said(context: Context, state: State) -> State:
+    """In "the cup should be on the tray; the plate should not" the tray is left out.
+
+    Raises:
+        ReferenceProblem: nothing of the kind was said by the clause before.
+    """
+    if all(where.word != AS_SAID for where in state.destinations):
+        return state
+    if not any(isinstance(item, Destination) for item in nodes(context.last)):
+        text = " and ".join(np.text for np in state.subjects)
+        raise ReferenceProblem(text, "say where it should be", 3)
+    return replace(state, destinations=(Destination(Toward.HERE, word="there"),))

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -47,6 +48,8 @@ class Context:
         """What is where something is to go instead of it: it has to go elsewhere."""
         self.last: Clause | None = None
         """The clause before."""
+        self.order = Order.SAID
+        """When the clause that is being read is to be done."""
 
     def single(self, thing: Thing, text: str) -> int:
         """A referent for one thing."""

@@ -12,9 +12,11 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import (
     CoverClause,
     Destination,
+    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -26,14 +28,23 @@ from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
 
+_ITS_PLACE = "back to its place"
+
 
 def put_back(
     context: Context, themes: Sequence[int], group: PutGroup, ruled_out: Sequence[Destination] = ()
 ) -> None:
-    """Puts things back to where they are at the start."""
+    """Puts things back to where they are at the start, or were just said to belong."""
     if len(group.destinations) > 1 or ruled_out:
         raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
+    (where,) = group.destinations
+    told = isinstance(context.last, EnsureClause) and context.order is Order.SAID
+    told = told and where.word in ("", "back", _ITS_PLACE)
     for index in themes:
+        if told and any(isinstance(s, Put) and index in s.what for s in context.done):
+            text = context.discourse.referents[index].text
+            context.discourse.notes.append(f"{text!r}: back to where it is said to belong")
+            continue
         things = context.only(index, "say which one goes back")
         if not {*things} & {*context.discourse.things(*context.discourse.put)}:
             text = context.discourse.referents[index].text

@@ -215,7 +215,7 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     assert clause.things is not None
     before = [place.where for place in context.discourse.last_places if place.where is not None]
     indices = context.phrases.things(clause.things, Role.THEME, before)
-    places = rule_out(context, indices, clause.destinations)
+    places = rule_out(context, indices, clause.destinations, left=clause.not_left)
     context.discourse.last_places = places
     where = context.discourse.things(*(p.where for p in places if p.where is not None))
     marks = [thing for thing in where if thing.name != DESK]
@@ -228,10 +228,10 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:
-    """Nothing but what was spoken of may be touched or moved; how things are to be with "nothing
+    """Nothing but what was spoken of may be touched or moved; where things are to be with "nothing
     else" says what is to be there.
     """
-    if isinstance(context.last, EnsureClause):
+    if isinstance(context.last, EnsureClause) and not any(s.word for s in context.last.states):
         only = (NounPhrase("only", text="nothing else"),)
         for step in context.done:
             if isinstance(step, Put):
@@ -251,16 +251,20 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
 
 
 def rule_out(
-    context: Context, themes: Sequence[int], destinations: Sequence[Destination]
+    context: Context,
+    themes: Sequence[int],
+    destinations: Sequence[Destination],
+    *,
+    left: bool = False,
 ) -> tuple[Place, ...]:
-    """Says where things must not be put; returns these places."""
+    """Says where things must not be put, or (``left``) be left; returns these places."""
     for index in themes:
         _is_not_chosen(context, index, which=True)
     names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
     beside = [item.text for where in destinations for item in where.beside]
-    for place in (found := context.places.of(destinations, themes)):
+    for place in (found := context.places.of(destinations, themes, stays=left)):
         if place.beside or place.where is None:
             text = next(iter(beside), text)
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)

@@ -71,6 +71,7 @@ class Understanding:
         before: int | None = None
         for spoken in sorted(reading, key=lambda item: item.position):
             moved = self.context.discourse.things(*self.context.discourse.put)
+            self.context.order = spoken.order
             steps = tuple(steps_of(spoken.clause, self.context))
             further = spoken is not reading[0] or spoken.order is Order.THEN
             room = further and any(

@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import phrase
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     AgainClause,
     AvoidClause,
     Beside,
@@ -68,11 +69,12 @@ _FIXED = """
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of,
     one (on [top of]|in|inside|into) (the other|another),
-    (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
+    (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were) left,
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left,
-    not (before|until)
+    not (before|until),
+    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left]
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
@@ -117,7 +119,7 @@ def _kinds(word: str) -> tuple[str, ...]:
         return (word, _ORDER)
     if word in _QUANTITIES or (word in NUMBERS and word != "one") or word.isdigit():
         return (word,)
-    if is_descriptive(word) or word in LEVELS or (word in STATES and word != "empty"):
+    if is_descriptive(word) or word in LEVELS or word in STATES:
         return (_canonical(word),)
     return ()
 
@@ -150,13 +152,17 @@ def _said(node: object) -> Iterator[str]:
     match node:
         case Spoken(order=order) if order is not Order.SAID:
             yield _ORDER
+        case Modifier(words=words) if words == CLEARED:
+            yield "empty"
         case Modifier(prep=prep, denied=denied):
             if denied or prep in (Prep.EXCEPT, Prep.CONTRAST):
                 yield from (_DENIAL, "other")
             if prep in (Prep.MATCHING, Prep.COLORED):
                 yield "same"
-        case NounPhrase(without=without) | RemoveClause(without=without) if without:
+        case NounPhrase(without=without) if without:
             yield _DENIAL
+        case RemoveClause(without=without):
+            yield from ("empty", *((_DENIAL,) if without else ()))
         case AvoidClause():
             yield from (_DENIAL, "other", "any", "after", "afterwards")
         case Beside(text=text) if "other side of" in text:

@@ -8,17 +8,20 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import NOUN_WORD, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
+    at_end,
     either,
+    one_of,
     optional,
     phrase,
     sequence,
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
-from etot_cli.reasoning.language.grammar.states import SO, all_of, state_of
+from etot_cli.reasoning.language.grammar.states import SO, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
@@ -28,7 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
-from etot_cli.reasoning.language.words import manner
+from etot_cli.reasoning.language.words import manner, nouns
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -66,7 +69,14 @@ EXTRA = sequence(
             build=lambda words: ("apart", words),
         ),
         phrase("each, apiece", ("apart", ())),
-        sequence(phrase("all, both"), "of them", build=lambda said: ("whole", said)),
+        sequence(
+            either(
+                sequence(phrase("all, both"), either("of them", at_end)),
+                sequence(phrase(nouns.ALL_SO_MANY), optional("of them")),
+                one_of({"each of the": "each of them", "every one of the": "every one [of them]"}),
+            ),
+            build=lambda said: ("whole", said),
+        ),
         phrase(manner.NOT_BOTH, ("one", ())),
         sequence(
             either(

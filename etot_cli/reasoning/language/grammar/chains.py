@@ -7,14 +7,14 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import (
-    COLON,
     COMMA,
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
+    after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO_BY_THEN
+from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -24,20 +24,23 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.past import EARLIER, SO_BY_THEN
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
     Destination,
     EnsureClause,
-    NounPhrase,
-    State,
+    PutClause,
     Things,
 )
+from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
+
+Joined = tuple[tuple[str, Reading], ...]
+"""Readings with what joins them."""
 
 
 def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
@@ -61,18 +64,9 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
-def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    return EnsureClause((State(nps, word=word),))
-
-
-LEFT_SO = sequence(
-    plain(sequence(NP_LIST, optional(COLON), OPEN_OR_CLOSED, build=_left_so)),
-    optional(small_words.TRAILING_LAST),
-)
-"""How something is to be in the end, without a verb ("drawer shut")."""
 JOINED = either(
     joint("and", either(COMMA, LIST), LEFT_SO),
-    joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
+    joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
@@ -81,6 +75,7 @@ JOINED = either(
     joint("after", OPTIONAL_COMMA, "[but] not (before|until)", plain(SO_BY_THEN)),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
+    joint("emptied", LIST, PLACED),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(
@@ -89,7 +84,29 @@ JOINED = either(
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=once_more), VERBLESS)),
+        either(plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        COMMA,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "counted",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "then",
+        LIST,
+        after("first"),
+        plain(sequence(THINGS, build=once_more)),
+        small_words.COUNTED,
     ),
     joint(
         "then",
@@ -120,19 +137,31 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 
 
-def chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
+        if said == "listed" and isinstance(done[-1].clause, PutClause):
+            return None  # several things with their places are one clause
+        if said == "emptied" and not is_emptying(done[-1].clause):
+            return None  # behind another verb that may be said of this, too
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if said == "mere and":
+            further = clause[0].clause
+            if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:
+                return None  # "the cup on the tray and the pen in it go in the box"
             done = _maybe_denied(done, clause)
         if said == "after":
             done = (*clause, *then_done(done))
         else:
-            done = (*done, *(then_done(clause) if said == "then" else clause))
+            done = (*done, *(then_done(clause) if said in ("then", "counted") else clause))
+        if said == "counted":
+            done = (*done[:-1], replace(done[-1], far_fetched=1))
     return done
 
 
+GOES_ON = some(either(JOINED, joint("listed", LIST, HEADLINE)), most=12)
+"""What may follow a clause without a verb."""
+BARE_CHAIN = sequence(HEADLINE, GOES_ON, build=chained)
 CHAIN = sequence(LED_CLAUSE, some(JOINED, most=12), build=chained)

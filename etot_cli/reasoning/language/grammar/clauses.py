@@ -108,6 +108,14 @@ WANTED = either(
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
+    sequence(
+        # "The pen I want in the cup"
+        ALL_THINGS,
+        verbs.WANTED,
+        optional("it, them"),
+        DESTINATIONS,
+        build=put_to,
+    ),
     sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
     sequence(
@@ -124,7 +132,12 @@ WANTED = either(
 )
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
-    sequence(THINGS, small_words.ALSO, build=lambda things: AgainClause(things, trailing=True)),
+    sequence(
+        THINGS,
+        optional("(should|must|shall|can|may|does|do) [go|be]"),
+        small_words.ALSO,
+        build=lambda things: AgainClause(things, trailing=True),
+    ),
     sequence("add[ing]", THINGS, optional(small_words.ALSO), build=AgainClause),
 )
 

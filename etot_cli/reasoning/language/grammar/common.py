@@ -7,6 +7,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar import text
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -19,12 +20,24 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.words import known, small_words
 from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import PURPOSES
 
 COMMA = text.COMMA
 COLON = text.COLON
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
 LIST_COMMA = silent(word(lambda _, text: text == COMMA))
 """No colon stands between things of one list."""
+
+
+def after(*said: str) -> Parser:
+    """Nothing, where any of some words was said before."""
+    return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
+
+
+THEN = either(
+    small_words.THEN_JOINTS, sequence(after("first", "firstly"), small_words.COUNTED_JOINTS)
+)
+"""Before what comes next."""
 LIST = either(small_words.AND, sequence(LIST_COMMA, optional(small_words.AND)))
 
 
@@ -32,6 +45,7 @@ def _is_noun(given: Input, said: str) -> bool:
     if said in given.nouns:
         return said not in known.NEVER_NOUNS
     other = said in known.GRAMMAR_WORDS and not (is_category(said) and said in known.OTHER_VERBS)
+    other = other and not (said in PURPOSES and said.endswith("ing"))  # "the packing table"
     return said[:1].isalnum() and not other and not known.is_adverb(said)
 
 

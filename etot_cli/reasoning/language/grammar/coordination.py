@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, NUMBERS, is_descriptive
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
+    LEVELS,
+    NUMBERS,
+    ORDINALS,
+    is_descriptive,
+    singular,
+)
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.verbs import OF_SEVERAL
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
@@ -32,7 +43,47 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
         if adjectives and following is None and not item.determiner and not named:
             return None
         if adjectives and following is not None:
+            counted = not item.determiner and item.words[-1] in ORDINALS
+            if counted and {*following.words[:1]} - {*ORDINALS}:
+                return None  # "second, red mug": what comes second
             noun = "_".join(following.words).split("_")[1:]  # labels of several words are joined
             item = replace(item, words=(*item.words, *noun[-1:]))
         found[index] = item
     return tuple(found)
+
+
+_ARE = re.compile(r"\b(?:that|which) (?:are|stand|lie|sit)\b")
+
+
+def told_together(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+    """In "the cup and the plate that are on the tray" both are: one thing is not "are"."""
+    *before, last = nps
+    single = bool(last.words) and singular(last.head) == last.head and len(last.modifiers) == 1
+    alone = all(np.words and not np.modifiers for np in before)
+    inner = any(_ARE.search(np.text) for item in last.modifiers for np in item.phrases)
+    if not (before and single and alone and _ARE.search(last.text)) or inner:
+        return nps
+    return tuple(replace(np, modifiers=last.modifiers) for np in nps)
+
+
+_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
+
+
+def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
+    """All of them, as a word beside the verb says."""
+    (first, *more) = nps
+    several = not first.determiner and singular(first.head) != first.head  # "pens, all of them"
+    if said and not more and (several or first.determiner in THE_WORDS):
+        return (replace(first, determiner=_QUANTITIES.get(said, said)),)
+    if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
+        return (replace(first, determiner=said),)
+    return nps
+
+
+def disagrees(nps: tuple[NounPhrase, ...], verb: str) -> bool:
+    """Whether a verb is said of several things, and these are one: in "the cup and the pen beside
+    it go in the box" it is not the pen alone that "go".
+    """
+    (np, *more) = nps
+    one = bool(np.words) and singular(np.head) == np.head and np.determiner in ("", *THE_WORDS)
+    return one and not (more or is_category(np.head)) and verb.split()[0] in OF_SEVERAL

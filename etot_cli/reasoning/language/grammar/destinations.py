@@ -6,9 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, OPTIONAL_COMMA, alternatives
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    EXACTLY,
+    OPTIONAL_COMMA,
+    after,
+    alternatives,
+)
 from etot_cli.reasoning.language.grammar.coordination import coordinated
-from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, after, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
@@ -21,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     spanned,
     valued,
+    word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
@@ -29,7 +36,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -37,10 +45,14 @@ from etot_cli.world.spatial import Nearby
 TOP = "top"
 """The word of a destination on top of something: of a shelf, its top board. What is "at the top"
 or the bottom has boards."""
+AS_SAID = "there, as was said"
+"""The word of a destination that is left out, which the clause before says."""
 ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
+THAT = NounPhrase(pronoun="it", text="where it is")
+"""What is to go to another level, which is counted from where it is."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
 TARGETS = sequence(
@@ -168,12 +180,47 @@ _level = sequence(
     LEVEL,
     build=lambda owner, toward, level: (
         None
-        if owner.modifiers or owner.pronoun
+        if owner.modifiers or owner.pronoun or owner.head in DESK_NOUNS
         else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
     ),
 )
 
 
+def _level_by(text: str, said: tuple[str, Prep]) -> Destination:
+    """The next level above or below a thing."""
+    noun, prep = said
+    aside = Modifier(prep, (THAT,), tuple(text.split()))
+    return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
+
+
+_LEVEL_NOUN = word(lambda _, text: text in (*BOARD_NOUNS, "drawer"))
+_next_level = spanned(
+    # "One board up", "to the shelf below"
+    either(
+        sequence(
+            "one, 1, a, [(on|in|to|into|onto)] the next",
+            _LEVEL_NOUN,
+            one_of(
+                {
+                    Prep.ABOVE: "[further] up, higher [up]",
+                    Prep.UNDER: "[further] down, lower [down]",
+                }
+            ),
+        ),
+        sequence(
+            one_of({Prep.ABOVE: "up", Prep.UNDER: "down"}),
+            "one, a",
+            _LEVEL_NOUN,
+            build=lambda prep, noun: (noun, prep),
+        ),
+        sequence(
+            "(on|in|to|into|onto) the",
+            _LEVEL_NOUN,
+            one_of({Prep.ABOVE: "above, higher up", Prep.UNDER: "below, lower down"}),
+        ),
+    ),
+    _level_by,
+)
 _with = spanned(
     either(
         sequence(
@@ -199,12 +246,13 @@ destination = Rule(
         _to,
         _top_of,
         _level,
+        _next_level,
         _with,
         valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
         valued(
             phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")
         ),
-        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
+        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
         valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
         sequence(
             _ABREAST,
@@ -217,6 +265,16 @@ destination = Rule(
             OPTIONAL_COMMA,
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
+        ),
+        sequence(
+            # "On the table, left side"
+            either(ONTO, _to, INTO),
+            COMMA,
+            optional("the"),
+            spanned(_REGION_OF_IT, lambda text, found: (found, text)),
+            build=lambda surface, said: replace(
+                surface, beside=tuple(Beside(near, text=said[1]) for near in said[0])
+            ),
         ),
         sequence(
             either(_ABREAST, sequence(BESIDES, COMMA)),
@@ -242,7 +300,8 @@ DESTINATIONS = Rule(
 )
 
 
-def _denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Where things are not to be."""
     return tuple(replace(item, denied=True) for item in out)
 
 
@@ -253,7 +312,7 @@ def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any
     def named(np: NounPhrase) -> NounPhrase:
         return np.called(noun) if noun and np.head == "one" else np
 
-    return (*(item.going_to(named) for item in where), *_denied(out))
+    return (*(item.going_to(named) for item in where), *denied(out))
 
 
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
@@ -268,8 +327,9 @@ WHERE = Rule(
             either(
                 f"{nouns.CONTRAST}, anywhere (but|except)", sequence(after("anywhere"), "except")
             ),
+            optional(verbs.BEING),
             separated(destination, "or, nor", most=3),
-            build=lambda where, out: (*where, *_denied(out)),
+            build=lambda where, out: (*where, *denied(out)),
         ),
         sequence("not", INSTEAD),
         quiet(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OPTIONAL_COMMA, after
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -207,11 +207,6 @@ QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
 _none_of = valued(
     separated(ADJECTIVE, "or, nor", most=3), lambda words: Modifier(Prep.QUALITY, words=words)
 )
-
-
-def after(*said: str) -> Parser:
-    """Nothing, where any of some words was said before."""
-    return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
 
 
 def _denied(modifier: Modifier) -> Modifier | None:

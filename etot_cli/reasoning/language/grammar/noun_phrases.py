@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     alternatives,
 )
-from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
     NOT_BUT,
@@ -328,7 +328,8 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     )
     if renamed or (apposed and not joined):
         return None
-    return coordinated(first, tuple(np for _, np in more))
+    found = coordinated(first, tuple(np for _, np in more))
+    return None if found is None else told_together(found)
 
 
 def _parts(

@@ -67,6 +67,17 @@ AVOID = either(
         _FORBIDDEN,
         build=lambda clause: replace(clause, negated=True, needless=True),
     ),
+    sequence(
+        THINGS,
+        verbs.NEED_NOT_BE,
+        build=partial(AvoidClause, Avoid.MOVE, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
+        verbs.NEED_NOT_GO,
+        DESTINATIONS,
+        build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
     sequence(
         THINGS,
@@ -95,8 +106,7 @@ KEEP_OUT = sequence(
 )
 _EVERYTHING_ELSE = "everything else, all else, the (rest|others) [of it|of them]"
 _STAYS = sequence(
-    "(should|must|has to|have to|is to|are to|shall|can|may) (stay|remain|be left), "
-    "stay[s], remain[s]",
+    verbs.LEFT_THERE,
     optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
 OTHERS_STILL = sequence(

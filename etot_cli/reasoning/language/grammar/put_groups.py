@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
@@ -21,7 +22,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
-from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     NounPhrase,

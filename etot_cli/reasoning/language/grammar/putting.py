@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     put_of,
 )
 from etot_cli.reasoning.language.grammar.common import COLON, COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
@@ -36,14 +36,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
-from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIRST_TO_LAST
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
+    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
+    State,
     Things,
     Toward,
     put_to,
@@ -155,6 +156,11 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
+def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
+    """Where things have their place."""
+    return EnsureClause((State(things.phrases, where),))
+
+
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
@@ -239,7 +245,16 @@ PUT = either(
             DESTINATIONS,
             sequence(noun_phrase, build=lambda np: (Destination(Toward.TO, (np,)),)),
         ),
-        build=put_to,
+        build=_belonging,
+    ),
+    sequence(
+        # "The drawer is where the spoon lives"
+        noun_phrase,
+        either(
+            sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
+        ),
+        build=lambda np, things: _belonging(things, (Destination(Toward.TO, (np,)),)),
     ),
     sequence(
         "(finish|complete|top|crown|extend) [off|up]",

@@ -1,14 +1,17 @@
-"""Rules for sentences: clauses, their order, and what joins them."""
+"""Rules for sentences: clauses, what stands before them, and sentences without a verb."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from operator import add
 
+from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.chains import (
+    BARE_CHAIN,
     CHAIN,
+    GOES_ON,
     JOINED,
-    LEFT_SO,
+    Joined,
     chained,
     joint,
     once_more,
@@ -17,22 +20,21 @@ from etot_cli.reasoning.language.grammar.chains import (
 from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
-    LEFT_OUT,
+    ORDER_WORDS,
     Reading,
-    changed,
-    of_the_things,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import (
+    COLON,
     COMMA,
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO
+from etot_cli.reasoning.language.grammar.headlines import HEADLINE, PLACED, lacks_verb, taken_out
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -45,23 +47,19 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
 )
+from etot_cli.reasoning.language.grammar.past import EARLIER, SO, WISHED
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
-from etot_cli.reasoning.language.grammar.putting import PUT, VERBLESS
+from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import (
-    ENSURE,
-    states,
-)
+from etot_cli.reasoning.language.grammar.states import ENSURE, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Destination,
     EnsureClause,
-    Modifier,
     NounPhrase,
     PutClause,
     PutGroup,
-    RemoveClause,
     SwapClause,
     Things,
     Toward,
@@ -78,70 +76,24 @@ from etot_cli.reasoning.language.grammar.topics import (
     for_a_reason,
     one_of_them,
     shared_out,
-    sources,
 )
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.places import Prep
 
 
-def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
+def _verbless(
+    when: tuple[Order, int], first: Reading, more: Joined, avoided: tuple[Reading, ...]
+) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    return None if str(asks).startswith("what") else chained(first, more)
-
-
-def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    """What comes first without a verb, and then more."""
-    return _verbless(first, more) if any(said == "then" for said, _ in more) else None
-
-
-_NOT_THIS = sequence(
-    "instead of, rather than, not", noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
-)
-
-
-def _without(out: Modifier, rest: Reading) -> Reading | None:
-    """A sentence that begins with what is left out; "it" behind that is what is not meant ("not the
-    tray, the cup on it").
-    """
-    (first, *more) = out.phrases
-
-    def told(np: NounPhrase) -> NounPhrase:
-        upon = (
-            replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
-            for item in np.modifiers
-        )
-        contrasted = out.prep is Prep.CONTRAST and not more
-        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
-
-    clause = changed(rest[0].clause, told)
-    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
-
-
-def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    """Headlines have no articles; "the drawer shut" lacks a verb."""
-    clause = first[0].clause
-    bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
-
-
-def _taken_out(things: Things) -> RemoveClause | None:
-    """What is taken from somewhere, without a verb."""
-    all_of_them = len(sources(things)) == len(things.phrases)
-    doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
-    return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
-
-
-_PLACED = plain(
-    either(
-        VERBLESS,
-        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
-        sequence(ALL_THINGS, build=_taken_out),
-    )
-)
+    order, far_fetched = when
+    twice = Order.SAID not in (order, first[0].order)
+    if (lacks_verb(clause) and not more) or str(asks).startswith("what") or twice:
+        return None
+    if order is not Order.SAID:
+        first = (replace(first[0], order=order, far_fetched=far_fetched),)
+    done = chained(first, more)
+    return None if done is None else sum(avoided, done)
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -182,9 +134,11 @@ _WITH_MORE_BEFORE_IT = either(
             sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
         ),
         COMMA,
-        either(CHAIN, _PLACED),
+        either(CHAIN, PLACED),
         build=add,
     ),
+    sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
@@ -197,20 +151,20 @@ _WITH_MORE_BEFORE_IT = either(
             build=_placed_there,
         )
     ),
-    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
+    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(
-        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, _PLACED, build=each_sorted
+        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=each_sorted
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
-    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
-    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
+    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
+    sequence(verbs.TIDY, NAMED, COMMA, PLACED, build=each_sorted),
     sequence(
         verbs.SWAP,
         THINGS,
         silent(optional("around, over")),
         COMMA,
-        either(_PLACED, plain(either(PUT, ENSURE))),
+        either(PLACED, plain(either(PUT, ENSURE))),
         build=_swapped,
     ),
     sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
@@ -230,12 +184,16 @@ _WITH_MORE_BEFORE_IT = either(
         optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
         build=add,
     ),
+    WISHED,
+    sequence(
+        "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
+    ),
     sequence(
         "with",
         plain(
             either(
                 SO,
-                sequence(ALL_THINGS, build=_taken_out),
+                sequence(ALL_THINGS, build=taken_out),
                 sequence(
                     ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
                 ),
@@ -245,8 +203,7 @@ _WITH_MORE_BEFORE_IT = either(
         valued(CHAIN, then_done),
         build=add,
     ),
-    sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
-    sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
+    not_so(CHAIN),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(
@@ -278,42 +235,31 @@ SENTENCE = either(
     ),
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
+_BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
+_GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(SENTENCE, _END, optional(QUESTION)),
     sequence(
+        _GREETING,
+        either(
+            sequence(ORDER_WORDS, COMMA, build=lambda order: (order, 0)),
+            optional(sequence(ORDER_WORDS, build=lambda order: (order, 1)), (Order.SAID, 0)),
+        ),
+        HEADLINE,
+        GOES_ON,
         EMPTY_WORDS,
-        OPTIONAL_COMMA,
-        optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
-        optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
-        _PLACED,
-        some(JOINED, most=12),
-        _END,
+        _BUT_NO_MORE,
         build=_verbless,
-    ),
-    sequence(
-        # "First the ball into the box, then the cup"
-        EMPTY_WORDS,
-        either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
-        some(JOINED, least=1, most=12),
-        _END,
-        build=_first_placed,
     ),
     sequence(
         # "The plate stays where it is, spoon to the right of it"
         EMPTY_WORDS,
         plain(either(KEEP_STILL, ENSURE)),
         some(JOINED, most=6),
-        joint("and", LIST, _PLACED),
+        joint("and", LIST, PLACED),
         some(JOINED, most=6),
         _END,
         build=lambda first, more, placed, rest: chained(first, (*more, placed, *rest)),
-    ),
-    sequence(
-        EMPTY_WORDS,
-        either(LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
-        some(either(JOINED, joint("and", LIST, _PLACED)), most=6),
-        _END,
-        build=_headline,
     ),
 )
 

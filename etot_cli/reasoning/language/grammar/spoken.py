@@ -28,3 +28,5 @@ class Spoken:
     order: Order = Order.SAID
     instead: bool = False
     """In place of what was taken away before, or is not to be done."""
+    far_fetched: int = 0
+    """What says when ("first", "second") may rather say which ("the second drawer")."""

@@ -1,14 +1,14 @@
-"""Rules for what is to be open, closed or somewhere, and for opening and closing."""
+"""Rules for what is to be open, closed or somewhere."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
+from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
@@ -46,7 +46,7 @@ _NOT_SO = sequence(
 )
 SO = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
+PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, sequence(optional("somewhere, anywhere"), WHERE))
 """How things are to be."""
 
 
@@ -72,6 +72,12 @@ def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None
         subjects = tuple(replace(np, determiner="all") for np in subjects)
         return EnsureClause((_opposite(subjects, word),))
     return _ensured(opposite(subjects, word))
+
+
+def _there_is_none(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """What there should not be ("a cup", "any cups", "cups"): no such thing."""
+    one = np.determiner in ("a", "an", "any", "") and not {*np.words} & {"", *THING_NOUNS}
+    return (replace(np, determiner="no"),) if one and np.words else None
 
 
 def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State:
@@ -102,19 +108,6 @@ def _contains(verb: str) -> Parser:
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
     return State((held,), (Destination(Toward.INSIDE, (np,)),))
-
-
-_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
-
-
-def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
-    """All of them, as a word beside the verb says."""
-    (first, *more) = nps
-    if said and not more and first.determiner in nouns.THE_WORDS:
-        return (replace(first, determiner=_QUANTITIES[said]),)
-    if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
-        return (replace(first, determiner=said),)
-    return nps
 
 
 def _each_so(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> State | None:
@@ -159,14 +152,29 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
 
 
-def _all_so(
-    cost: int, nps: tuple[NounPhrase, ...], predicate: Any, more: Sequence[State | None]
-) -> EnsureClause | None:
+_ALL_SO = sequence(
+    PREDICATE,
+    # "…, the ball in the cup": the verb is left out.
+    some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
+    build=lambda predicate, more: lambda nps: (state_of(nps, predicate), *more),
+)
+
+
+def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
+    """What "go" or "belong" somewhere are several things."""
+    odd = clause is not None and disagrees(clause.states[0].subjects, verb)
+    return replace(clause, far_fetched=OF_SEVERAL) if odd and clause is not None else clause
+
+
+def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClause | None:
     """How things are to be; "I want the plate on the right" is rather about the plate there."""
-    said = _ensured(state_of(nps, predicate), *more)
-    return None if said is None else replace(said, far_fetched=cost)
+    clause = _ensured(*said(nps))
+    return None if clause is None else replace(clause, far_fetched=cost)
 
 
+OF_SEVERAL = 2
+"""How far-fetched it is that one thing is meant where several are spoken of."""
+_THERE = (Destination(Toward.HERE, word=AS_SAID),)
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
     sequence(
@@ -210,10 +218,13 @@ ENSURE = either(
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),
-    sequence(
-        NP_LIST,
-        "(does|do|should|must) not",
-        build=lambda nps: _ensured(opposite(nps, (Destination(Toward.HERE, word="there"),))),
+    *(
+        # "…, the tape should not", "…, the can should": go there, which was spoken of
+        sequence(NP_LIST, said, build=lambda nps, so=so: _ensured(so(nps, _THERE)))
+        for said, so in (
+            ("(does|do|should|must) not", opposite),
+            ("does, do, should, must, shall", State),
+        )
     ),
     sequence(
         # "The tray should have the cup in it and the box the plate"
@@ -256,20 +267,20 @@ ENSURE = either(
             build=lambda *said: _ensured(_each_so(*said)),
         )
     ),
+    sequence(
+        NP_LIST,
+        phrase(verbs.MODAL),
+        _ALL_SO,
+        build=lambda nps, verb, said: _going(verb, _ensured(*said(nps))),
+    ),
     *(
-        sequence(
-            *said,
-            PREDICATE,
-            # "…, the ball in the cup": the verb is left out.
-            some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
-            build=partial(_all_so, cost),
-        )
+        sequence(*said, _ALL_SO, build=partial(_so_wanted, cost))
         for cost, said in (
-            (0, (NP_LIST, verbs.MODAL)),
             (0, (verbs.WANTED, NP_LIST, silent(phrase(_TO_BE)))),
             (1, (verbs.WANTED, NP_LIST)),
             (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
-            (0, ("there (should|must|has to|have to|needs to|need to|shall) be", NP_LIST)),
+            (0, (verbs.THERE_BE, NP_LIST)),
+            (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=_there_is_none),)),
         )
     ),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, THEN
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -41,9 +41,8 @@ FIRST_THEN = sequence(
     some(
         either(
             sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
-            sequence(
-                OPTIONAL_COMMA, small_words.THEN_JOINTS, noun_phrase, build=lambda np: (True, np)
-            ),
+            sequence(OPTIONAL_COMMA, THEN, noun_phrase, build=lambda np: (True, np)),
+            sequence(LIST, noun_phrase, small_words.COUNTED, build=lambda np: (True, np)),
         ),
         least=1,
         most=4,

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, alternatives
+from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
@@ -20,7 +21,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import all_of
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
     Clause,
@@ -132,6 +132,13 @@ def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Cla
     """What takes all out of things, and brings it somewhere."""
     contents = Things(tuple(_contents_of(np, held) for np in things.phrases))
     return RemoveClause(contents) if where is None else put_to(contents, where)
+
+
+def is_emptying(clause: Clause) -> bool:
+    """Whether things are to be without what is in or on them, wherever that goes."""
+    return isinstance(clause, RemoveClause) and all(
+        [item.words for item in np.modifiers] == [CLEARED] for np in clause.things.phrases
+    )
 
 
 def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutClause | None:

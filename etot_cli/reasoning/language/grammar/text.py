@@ -105,7 +105,7 @@ _CLITICS = (
     (r"\b(is|are|was|were|has|have|should|must|would|could|need)n't\b", r"\1 not"),
     (r"\b(?:can't|cannot)\b", "can not"),
     (r"'d(?= better\b)", " had"),
-    (r"\b(i|it|we|you|they)'d\b", r"\1 would"),
+    (r"\b(i|it|that|we|you|they)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
     (r"\b(i|you|we)'ll\b", r"\1 will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),

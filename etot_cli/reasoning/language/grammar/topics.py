@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
+from etot_cli.reasoning.language.grammar.destinations import THAT
+from etot_cli.reasoning.language.grammar.modifiers import (
+    ADJECTIVES,
+    DESCRIBED,
+    MODIFIERS,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -44,12 +51,30 @@ def sources(things: Things) -> list[Modifier]:
     return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
 
 
+def _identified(
+    np: NounPhrase, words: tuple[str, ...], modifiers: tuple[Modifier, ...]
+) -> Things | None:
+    """What is told from others of its sort by what it is ("my mug is the left one")."""
+    if not np.words or not (words or modifiers):
+        return None
+    return Things((replace(np.told_by(*modifiers), words=(*np.words[:-1], *words, np.head)),))
+
+
 _STATED = either(
     sequence(
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
         build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        # "My mug is the one on the tray", "the left one"
+        noun_phrase,
+        "is the, are the, 's the",
+        optional(ADJECTIVES, ()),
+        "one, ones",
+        MODIFIERS,
+        build=_identified,
     ),
     sequence(
         small_words.SOMEBODY_LEFT,
@@ -91,7 +116,13 @@ def about(topic: Reading, rest: Reading) -> Reading | None:
     """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
     remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
     therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
-    spoken = remark or therein or any(pronouns(rest[0].clause))
+    spoken = (
+        remark
+        or therein
+        or any(
+            isinstance(np, NounPhrase) and np.pronoun and np != THAT for np in nodes(rest[0].clause)
+        )
+    )
     return (*topic, *rest) if spoken else one_of_them(topic, rest)
 
 
@@ -128,7 +159,8 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
             named = [np for state in states for np in state.subjects]
         case _:
             return None
-    told = all(np.is_elliptic or np.text.split()[-1:] in (["one"], ["other"]) for np in named)
+    alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
+    told = all(np.is_elliptic or last for np, last in zip(named, alone, strict=True))
     return (*topic, *rest) if told else None
 
 

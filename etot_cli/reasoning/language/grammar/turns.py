@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, THEN
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -34,7 +34,8 @@ _FIRST_OF_THEM = either(
 )
 _LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)
 SWEEP = one_of(manner.SWEEPS)
-_THEN = either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS))
+_THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))
+_NEXT = sequence(_THEN, noun_phrase, optional(small_words.COUNTED))
 _ONE_BY_ONE = either(
     sequence(
         "in (the|this) [following] order [of]",
@@ -45,8 +46,7 @@ _ONE_BY_ONE = either(
     ),
     sequence(
         either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
-        some(sequence(_THEN, noun_phrase), least=1, most=5),
-        optional("last"),
+        some(_NEXT, least=1, most=5),
         build=lambda first, more: _named_ones((first, *more)),
     ),
 )

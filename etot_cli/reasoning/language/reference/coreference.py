@@ -111,8 +111,19 @@ def meant_by_it(
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):
-                others = [i for i in landmarks if not own & {t.name for t in discourse.things(i)}]
                 last = [p.where for p in discourse.last_places if p.where is not None]
+                known = {*discourse.things(*landmarks)}
+                rooms = [
+                    index
+                    for index in last
+                    if role is Role.CONTAINER and _fits(discourse, index, role)
+                    if not known & {*discourse.things(index)}
+                ]
+                others = [
+                    index
+                    for index in (*landmarks, *rooms)
+                    if not own & {thing.name for thing in discourse.things(index)}
+                ]
                 left = [i for i in others if {*discourse.things(i)} <= {*discourse.things(*last)}]
                 rather = [i for i in left if _bears_rather(discourse, i, acted_on[0])]
                 if role is Role.SURFACE and len(rather) == len(others) == 1 and not rivals:

@@ -217,10 +217,16 @@ class Discourse:
         return all(thing.name == DESK for thing in self.things(referent))
 
     def mentioned_like(self, noun: str | None) -> tuple[Thing, ...]:
-        """Single things spoken of by a noun, or put somewhere: "the other" is none of them."""
+        """Single things spoken of by a noun, or put somewhere: "the other" is none of them, but one
+        of several that were but named before one of these was spoken of.
+        """
         found: dict[Thing, None] = {}
-        for mention in self.mentions:
+        for at, mention in enumerate(self.mentions):
             options = self.referents[mention.referent].options
+            later = (self.referents[item.referent].options for item in self.mentions[at + 1 :])
+            since = any({*own} < {*options[0]} for several in later for own in several)
+            if since and mention.referent not in self.put:
+                continue
             said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
             alike = mention.referent in self.put or any(
                 same_noun(word, noun or "") for word in said

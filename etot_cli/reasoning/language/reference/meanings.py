@@ -283,32 +283,36 @@ class Meanings:
             parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
             pronoun=self.pronoun_things,
         )
-        left_out = noun is not None and (elliptic or leaves_out) and not other
+        left_out = noun is not None and (elliptic or leaves_out or not phrase.words)
+        among = self._named_before(noun or "") if left_out else ()
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
         narrower: Resolved | None = None
         with suppress(ReferenceProblem):
             narrower = None if alike is None else resolve(alike)
         try:
-            resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
+            resolved = resolve(phrase, among=among)
         except ReferenceProblem:
             if narrower is None:
                 raise
             return narrower
         return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
 
-    def _named_before(self, phrase: NounPhrase, noun: str | None) -> tuple[Thing, ...]:
-        """Several things that were but named by a noun ("there are two red cups"): "the left one"
-        is one of these. Of what has been moved "the big one" may be another.
+    def _named_before(self, noun: str) -> tuple[Thing, ...]:
+        """Several things that were but named by a noun ("there are two red cups"): "the left one",
+        "one" and "the other" are of these. Of what has been moved "the big one" may be another.
         """
-        quantity = quantity_of(phrase.determiner)
-        if not quantity.definite or quantity.every or quantity.count not in (None, 1):
-            return ()
-        said = [item for item in self.discourse.mentions if same_noun(item.noun, noun or "")]
-        last = [item.referent for item in said if item.clause == said[-1].clause]
-        sets = [self.discourse.referents[index].options for index in last]
-        known = all(len(options) == 1 for options in sets) and not {*last} & self.discourse.put
-        several = any(len(options[0]) > 1 for options in sets)
-        return self.discourse.things(*last) if known and several else ()
+        since: set[Thing] = set()
+        mentions = (item for item in self.discourse.mentions if item.role is not Role.ANY)
+        said = [item for item in mentions if same_noun(item.noun, noun)]
+        for clause in dict.fromkeys(item.clause for item in reversed(said)):
+            last = {item.referent for item in said if item.clause == clause}
+            things = self.discourse.things(*last)
+            sets = [self.discourse.referents[index].options for index in last]
+            if any(len(options[0]) > 1 for options in sets):
+                known = all(len(options) == 1 for options in sets) and not last & self.discourse.put
+                return things if known and since <= {*things} else ()
+            since |= {*things}
+        return ()
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
         """All that a pronoun in a modifier may mean, or "the other brush" there."""

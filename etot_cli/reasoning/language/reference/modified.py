@@ -21,11 +21,16 @@ from etot_cli.reasoning.language.reference.landmarks import (
 )
 from etot_cli.reasoning.language.reference.nouns import with_quality
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
+    SIDES,
+    SIZES,
     STATES,
     basic_color,
+    singular,
 )
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
@@ -133,6 +138,14 @@ def _check_cleared(
             raise ReferenceProblem(modifier.phrases[0].text, "say where it is to go", 3)
 
 
+def _is_one(phrase: NounPhrase) -> bool:
+    """Whether a phrase means one thing by its looks alone, and of several none rather."""
+    compares = any(word in table for word in phrase.words for table in (SIZES, SIDES))
+    single = bool(phrase.words) and singular(phrase.head) == phrase.head
+    plain = single and not (compares or phrase.modifiers or is_category(phrase.head))
+    return plain and phrase.determiner in THE_WORDS
+
+
 def left_out(
     things: list[Thing],
     phrase: NounPhrase,
@@ -163,6 +176,10 @@ def left_out(
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = set(landmarks(item, words[-1]))
+                several = [thing for thing in things if thing in named]
+                if several[1:] and _is_one(item):
+                    why = f"{names_of_things(several)} would be left out"
+                    raise ReferenceProblem(item.text, why, 1)
                 if modifier.denied:
                     named = {*things} - named  # "but only the red one"
                 out |= named

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -78,7 +79,8 @@ class Referents(Meanings):
         if role is Role.THEME and not phrase.modifiers and phrase.words[-1:] == (resolved.noun,):
             resolved = self._as_before(resolved)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
-        several = resolved.every and not whole
+        one = phrase.head == singular(phrase.head) and len(things_in(resolved.options)) == 1
+        several = resolved.every and not (whole or one)  # "no lemon" where there is one is "it"
         index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
         self._note_landmarks(phrase, resolved.options)
         return (index,)

@@ -34,6 +34,9 @@ _OTHERS = frozenset(
 )
 """The others of what was spoken of before."""
 
+_ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
+"""Of "the contents" of what was spoken of."""
+
 
 def is_robot(phrase: NounPhrase) -> bool:
     """Whether a phrase means the robot itself, as a landmark."""
@@ -94,9 +97,9 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         named = replace(out, phrases=tuple(_named(item, last) for item in out.phrases))
         modifiers = tuple(named if item is out else item for item in phrase.modifiers)
         phrase = replace(phrase, modifiers=modifiers)
-    if last == "contents" and phrase.owner is not None:
-        of = Modifier(Prep.OF, (phrase.owner,))
-        phrase = replace(phrase, owner=None, modifiers=(of, *phrase.modifiers))
+    if last == "contents" and not phrase.modifiers:
+        of = Modifier(Prep.OF, (phrase.owner or _ITS_OWNER,))
+        phrase = replace(phrase, owner=None, modifiers=(of,))
     if not last or of is None:
         return phrase
     rest = phrase.without_modifier(of).modifiers

@@ -6,7 +6,7 @@ from types import ModuleType
 
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.reasoning.language.words.patterns import Begun, words_of
 
 _FUNCTION = """
     the a an any some another these those this that my your its their our his her it them they
@@ -35,7 +35,7 @@ VERB_WORDS = words_of(
         verbs.DO_NOT, verbs.NEED_NOT,
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
-    "back", "places", "positions", "position", "us", "him", "her", "them"}  # fmt: skip
+    "back", "free", "places", "positions", "position", "us", "him", "her", "them"}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
     """
@@ -154,6 +154,6 @@ ALL_WORDS = GRAMMAR_WORDS.union(
 )
 """Every word that the grammar knows."""
 OPENING_WORDS = GRAMMAR_WORDS.union(
-    *(words_of(_patterns(module)) for module in (small_words, verbs))
+    *(Begun.of({None: ", ".join(_patterns(module))}).following for module in (small_words, verbs))
 )
 """Words that a sentence may begin with that is not about a thing of the scene."""

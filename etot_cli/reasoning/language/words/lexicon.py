@@ -88,7 +88,8 @@ PURPOSES = word_set(
     """
     coffee tea water milk beer wine juice soup salad fruit cereal sugar salt pepper flower
     plant pencil pen tennis golf ping pong billiard base basket bouncy play toy kitchen desk
-    office storage writing drinking mixing serving dinner breakfast cookie candy soda cola
+    office storage writing drinking mixing serving packing working work lab laboratory dining sewing
+    potting ironing reading drawing craft picnic dinner breakfast cookie candy soda cola
     """
 )
 """What a thing may be for or made for, before its noun ("a pencil cup")."""

@@ -15,7 +15,7 @@ _UNLESS = """
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
 UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
-EMPTIED = "empty, emptied [out], cleared [out], clear"
+EMPTIED = "empty, emptied [out], cleared [out], clear, free [again]"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
     loose

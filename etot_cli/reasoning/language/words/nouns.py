@@ -27,6 +27,7 @@ DETERMINERS = f"""
     a couple of, a pair of, several, a few, many, most of the,
     whichever, any
 """
+ALL_SO_MANY = f"all ({_COUNT})"
 GENERAL_NOUNS = """
     everything, anything, something, everything else, all else, the (rest|others|other ones),
     all (others|the others|the rest)

@@ -171,7 +171,7 @@ _QUARTERS = {
 }
 """How they are called, and how their corners are called besides: "far left" alone is a side,
 and "the top left" of a shelf is on its top."""
-REGION_OF_IT = {
+REGION_OF_IT: dict[tuple[Nearby, ...], str] = {
     **{
         (side, *edge): f"{said} ({named})"
         for side, (said, _) in _SIDES.items()
@@ -179,6 +179,10 @@ REGION_OF_IT = {
     },
     (Nearby.AT_CENTRE,): "middle, centre, center",
     (Nearby.AT_EDGE,): "edge, border, rim",
+    **{
+        (*sides, Nearby.AT_CORNER): f"({plain}|{besides}) corner"
+        for sides, (plain, besides) in _QUARTERS.items()
+    },
 }
 """Behind "the desk's"."""
 REGIONS: dict[tuple[Nearby, ...], str] = {

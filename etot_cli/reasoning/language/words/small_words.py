@@ -33,7 +33,9 @@ WITHOUT_MEANING = f"""
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma (my dear|my friend|dear|love|darling|honey|sweetie|sweetheart|friend|dude|man|bro),
     ~comma (sir|madam|folks),
-    (it is|that is) up to you, [it is] your choice, you (choose|decide|pick)
+    (it is|that is) up to you, [it is] your choice, you (choose|decide|pick),
+    by (then|tonight|tomorrow|noon|midnight|lunchtime|bedtime|(this|the) (afternoon|evening)),
+    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -48,37 +50,51 @@ TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
 TASK = f"""
     {ANNOUNCED} ~comma,
-    [your|the] (task|goal|job|target|aim|objective) ~comma,
-    [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
+    [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
+    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
+    (state|configuration|arrangement|result|situation|setup) ~comma
 """
-FRAMES = f"""
+GREETINGS = f"""
     [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um, [my] dear ~comma, now then, come on,
-    (i|we) (think|believe|guess|suppose|feel|reckon) [that],
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
-    (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
+    (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP}
+"""
+WOULD_BE_NICE = """
+    i would (be|feel) [very|really|so] (glad|happy|grateful|pleased|delighted|thankful),
+    i would [really] (like|love|appreciate|prefer) it,
+    (it|that) would be [very|really|so]
+    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best) [of you]
+"""
+"""Before or behind what it would be nice if somebody did."""
+FRAMES = f"""
+    ({WOULD_BE_NICE}) if you (would|could), {GREETINGS}, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
-    i would like [that you], i want, let us, try to, please to, {TASK},
+    (i|we) (think|believe|guess|suppose|feel|reckon) [that],
+    i would like [that you], i want, let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
-    (how|what) about, why do not you, i (wonder|was wondering) if you could,
+    (how|what) about, why do not you, i (wonder|was wondering) if you (could|would),
+    i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
     i would (appreciate|like|love) it if you (would|could),
     it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
-    (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
+    (would|could) you be so (kind|good|nice) (as to|and),
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
-    do me a favour and, {TIDY_UP},
-    i would be (glad|happy|grateful) if you (would|could),
+    do me a favour and,
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
-END_STATE = """
-    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))] [~comma],
-    in the end [~comma], (when|once) you are [all] (done|finished) [~comma]
+_AT_END = """
+    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
+    experiment|exercise|game|lesson|test|demo|process))], in the end
+"""
+END_STATE = f"""
+    ({_AT_END}) [~comma], (when|once) you are [all] (done|finished) [~comma]
 """
 """Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer"
@@ -111,19 +127,22 @@ SAME_AGAIN = """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
-    first, before (anything|everything) else, firstly, first of all, to begin with, to start with,
+    first, [but] before (anything|everything) else, [but] before all [of] (that|this),
+    firstly, first of all, to begin with, to start with,
     (start|begin) [off] by,
     [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
-LEADING_BEFORE = "before that, before doing so, before you do so, beforehand, but before that"
-LEADING_LAST = """
-    finally, lastly, last, last of all, in the end, last but not least,
-    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn))],
+LEADING_BEFORE = """
+    [but] before [doing] (that|this), [but] before (doing|you do) so, [but] beforehand
+"""
+LEADING_LAST = f"""
+    finally, lastly, last, last of all, last but not least, {_AT_END},
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
 LEADING_THEN = """
-    then, next, after that, afterwards, afterward, after which, second, secondly, third, thirdly,
+    then, next, after [all [of]] (that|this), afterwards, afterward, after which,
+    second, secondly, third, thirdly,
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
@@ -131,14 +150,16 @@ LEADING_THEN = """
     and then, subsequently, later
 """
 TRAILING_FIRST = "first, before, beforehand, before that, before (anything|everything) else"
-TRAILING_LAST = """
-    last, at the end, in the end, finally, at last,
+TRAILING_LAST = f"""
+    last, {_AT_END}, finally, at last,
     (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,
     (by the time|when|once) you (finish|are (done|finished)|have finished),
     (when|once|after) (everything|all) is (done|finished|in place|put away|sorted|set),
     (when|once) you have (put everything (in|away)|everything (in|away))
 """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
+NOT_THERE = "instead of, rather than, not"
+"""Before what is not meant, or where something is not to be, ahead of what is."""
 INSTEAD = "instead, instead of (it|them|that|those)"
 """What is asked for takes the place of what is taken away, or is not to be done."""
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
@@ -147,10 +168,15 @@ EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and] when (that is|you have) done [that], [and] once that is done,
-    [and|but] [only] then, [and] after that, [and] afterwards, [and] next, [and] (finally|lastly),
+    [and|but] [only] then, [and] after [all [of]] (that|this),
+    [and] afterwards, [and] next, [and] (finally|lastly),
     and last [of all], after which,
     and later
 """
+COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
+"""Before what comes next, where something was said to come first."""
+COUNTED = "second, third, fourth, next, then, afterwards, last"
+"""Behind what comes next there."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"

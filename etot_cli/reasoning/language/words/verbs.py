@@ -71,7 +71,10 @@ TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]
 TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
 LOAD = "load[ing] [up]"
-CLEAR = "clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out"
+CLEAR = """
+    clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out,
+    free[ing] up
+"""
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
@@ -81,28 +84,38 @@ ENSURE = """
 """
 ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up)"
 NOTHING_IS = """
-    (nothing (should|must|may|is to|has to)|there should|there must) be
-    (|nothing|left|nothing left) (in|on), nothing (should|must|may) (stay|remain) (in|on),
+    nothing (should|must|may|can|is to|has to) (be|stay|remain) [left] (in|on),
+    there (should|must|has to|needs to|is to) be nothing [left] (in|on),
+    there (should|must|may|can) (not|no longer) be anything [left] (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
-_GO = "end up|go [back]|live|belong|stand|sit|lie|rest"
-_OUGHT = """
+BEING = f"({_BEING}|being)"
+_MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
-    (is|are) supposed to
+    (is|are) (supposed|meant) to
 """
+_SIMPLY = "[simply|[just] as well|just|also|please|best]"
 MODAL = f"""
-    ({_OUGHT}) ({_GO}|get|[finally|then] be [{_BROUGHT}|{_BEING}]),
-    (want|wants) to (be|{_GO}), (is|are) going [back], [then|next|finally|afterwards] go[es] [back],
-    belong[s], live[s],
-    (can|could|may|might|will) ({_GO}|be ({_BROUGHT})), get[s] ({_BROUGHT}),
-    (would (be|look|do|go)|look[s]) (better|best|nicer|tidier|neater|safer),
-    would (be|look|do|go) (good|nice|lovely|great|fine)
+    ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}]|(end|finish|wind) up [{_BEING}]|get|
+    go [back]|stand|sit|lie|rest|live|belong), (should|must|shall) (finally|then) be,
+    (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
+    (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
+    (would (be|look|do|go)|look[s]) (better [off]|best|nicer|tidier|neater|safer),
+    would (be|look|do|go) (good|nice|lovely|great|fine), (is|are) best ({_BROUGHT}),
+    get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
+    [then|next|finally|afterwards] go[es] [back], belong[s], live[s]
 """
+THERE_BE = f"there ({_MUST}) be"
+THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
+OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
+"""Verbs that are not said of one thing."""
+BELONG = "live[s], belong[s], go[es], (is|are) (kept|stored)"
+"""Behind a thing, where something is its place."""
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 RELATIONS = """
@@ -137,21 +150,26 @@ BE = """
 """
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can|had better) (not|no longer) (be|stay|remain|go|lie|stand|end up|get)
+    (should|must|shall|may|can|had better) (not|no longer)
+    (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
-CONTAIN = "(should|must|shall|has to|have to|needs to|need to) (contain|hold|have), keep[s]"
+CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
-STAY = """
-    ([can|may] (stay|remain)|stays|remains) [put],
-    (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain) [put]
-"""
+STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
+LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
+PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
+WERE = f"""
+    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}], [could|would] (go|stand|sit|lie),
+    (ended|finished|wound) up, went, stood, lay, sat
+"""
+"""What it would be nice if things were."""
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
@@ -185,6 +203,14 @@ DO_NOT = """
     do not, don t, never, you must not, you may not, you should not, must not, avoid,
     [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
     [but|and] be careful not to, [but|and] take care not to
+"""
+NEED_NOT_BE = """
+    (does|do) not (need|have) to (move|be moved|be touched|be picked up|go anywhere),
+    need not (move|be moved|be touched|go anywhere)
+"""
+"""Behind what may be left as it is."""
+NEED_NOT_GO = """
+    (does|do) not (need|have) to (go|be [put]|stay|remain), need not (go|be [put]|stay|remain)
 """
 NEED_NOT = """
     [but|and] [there is] no need to, [but|and] you (need not|do not (need|have) to),

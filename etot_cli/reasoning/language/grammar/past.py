@@ -1,17 +1,28 @@
-"""Rules for what has been done, or is so, before the rest of a sentence is done."""
+"""Rules for what has been done by then, and for what it would be nice if somebody did."""
 
 from __future__ import annotations
 
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, plain
+from etot_cli.reasoning.language.grammar.common import LIST
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, silent
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+)
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
     MoveClause,
+    PickClause,
     PutClause,
     RemoveClause,
+    State,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
@@ -67,7 +78,14 @@ _HAVING_DONE = either(
     ),
     sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
-        "taken, removed, moved, cleared",
+        "left, kept",
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=lambda nps, word: EnsureClause((State(nps, word=word, kept=True),)),
+    ),
+    sequence(verbs.PICKED_UP, THINGS, build=PickClause),
+    sequence(
+        "taken, took, removed, moved, cleared",
         ALL_THINGS,
         either(SOURCE, phrase("out, off, away", "")),
         build=lambda things, source: RemoveClause(things, source or None),
@@ -79,3 +97,18 @@ EARLIER = either(
     sequence("[but] [only] (once|after|when|as soon as)", plain(SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""
+WISHED = either(
+    sequence(
+        f"({small_words.WOULD_BE_NICE}) if you",
+        separated(plain(_HAVING_DONE), LIST, most=4),
+        build=lambda said: sum(said, ()),
+    ),
+    plain(
+        sequence(
+            f"({small_words.WOULD_BE_NICE}) if",
+            separated(sequence(NP_LIST, verbs.WERE, PREDICATE, build=state_of), LIST, most=4),
+            build=EnsureClause,
+        )
+    ),
+)
+"""In the past tense of a wish."""

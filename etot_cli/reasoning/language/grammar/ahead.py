@@ -1,0 +1,67 @@
+"""Rules for what is said ahead of a request: what is left out, and where something is not to be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading, changed
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import Parser, either, optional, sequence, valued
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    EnsureClause,
+    Modifier,
+    NounPhrase,
+    PutClause,
+    State,
+)
+from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
+
+_NOT_THIS = sequence(
+    small_words.NOT_THERE, noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
+)
+
+
+def _elsewhere(out: tuple[Destination, ...], rest: Reading) -> Reading | None:
+    """A sentence that begins with where something is not to be."""
+    match rest[0].clause:
+        case PutClause(groups=(group,)) as clause:
+            group = replace(group, destinations=(*group.destinations, *out))
+            return (replace(rest[0], clause=replace(clause, groups=(group,))), *rest[1:])
+        case EnsureClause(states=(State(destinations=(_, *_)) as state,)) as clause:
+            state = replace(state, destinations=(*state.destinations, *out))
+            return (replace(rest[0], clause=replace(clause, states=(state,))), *rest[1:])
+    return None
+
+
+def _without(out: Modifier, rest: Reading) -> Reading | None:
+    """A sentence that begins with what is left out; "it" behind that is what is not meant ("not the
+    tray, the cup on it").
+    """
+    (first, *more) = out.phrases
+
+    def told(np: NounPhrase) -> NounPhrase:
+        upon = (
+            replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
+            for item in np.modifiers
+        )
+        contrasted = out.prep is Prep.CONTRAST and not more
+        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
+
+    clause = changed(rest[0].clause, told)
+    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
+
+
+def not_so(chain: Parser) -> Parser:
+    """What is not meant, or not to be, and then what is asked for."""
+    there = sequence(
+        small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
+    )
+    return either(
+        sequence(LEFT_OUT, COMMA, chain, build=_without),
+        sequence(_NOT_THIS, OPTIONAL_COMMA, chain, build=_without),
+        sequence(there, chain, build=_elsewhere),
+    )

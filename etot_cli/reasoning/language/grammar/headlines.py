@@ -1,0 +1,138 @@
+"""Rules for clauses without a verb: what goes where or comes from where, how things are to be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.clauses import (
+    INSTEAD,
+    LEFT_OUT,
+    Reading,
+    of_the_things,
+    plain,
+)
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
+from etot_cli.reasoning.language.grammar.parsing import (
+    Rule,
+    either,
+    one_of,
+    optional,
+    quiet,
+    separated,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
+from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.grammar.taking import emptied
+from etot_cli.reasoning.language.grammar.topics import sources
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.patterns import words_of
+
+
+def left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+    """How things are to be, without a verb; headlines have no articles."""
+    return EnsureClause((State(nps, word=word),), int(nps[0].determiner in THE_WORDS))
+
+
+def _tabled(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+    """The same in a table ("drawer: shut", "drawer -> shut")."""
+    return EnsureClause((State(nps, word=word),))
+
+
+def taken_out(things: Things) -> RemoveClause | None:
+    """What is taken from somewhere, without a verb."""
+    all_of_them = len(sources(things)) == len(things.phrases)
+    doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
+    return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
+
+
+def lacks_verb(clause: Clause) -> bool:
+    """Whether a clause says something only beside others ("the drawer shut", "key out")."""
+    match clause:
+        case RemoveClause(things=things):
+            return not any(np.modifiers for np in things.phrases)
+        case EnsureClause(far_fetched=lacking):
+            return bool(lacking)
+    return False
+
+
+_IS = either(COMMA, "to")
+_INSTEAD = optional(INSTEAD, False)
+_WHEN = optional(
+    one_of({Order.FIRST: small_words.TRAILING_FIRST, Order.LAST: small_words.TRAILING_LAST}),
+    Order.SAID,
+)
+
+
+def _clause(reading: Reading, instead: bool, order: Order) -> Reading:
+    return (replace(reading[0], instead=instead, order=order),)
+
+
+LEFT_SO = Rule(
+    sequence(
+        plain(
+            either(
+                sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
+                sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
+                sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
+            )
+        ),
+        _INSTEAD,
+        _WHEN,
+        build=_clause,
+    )
+)
+"""How something is to be in the end ("drawer shut")."""
+PLACED = Rule(
+    sequence(
+        plain(
+            either(
+                VERBLESS,
+                sequence(
+                    VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things
+                ),
+                sequence(ALL_THINGS, build=taken_out),
+                sequence(ALL_THINGS, "out", build=RemoveClause),
+            )
+        ),
+        _INSTEAD,
+        _WHEN,
+        build=_clause,
+    )
+)
+"""Where things go, or are taken from."""
+HEADLINE = either(PLACED, LEFT_SO)
+PAIRS = quiet(
+    sequence(
+        separated(
+            sequence(
+                noun_phrase,
+                noun_phrase,
+                build=lambda np, place: PutGroup(
+                    Things((np,)), (Destination(Toward.TO, (place,)),)
+                ),
+            ),
+            LIST,
+            most=6,
+        ),
+        build=lambda groups: PutClause(groups) if groups[1:] else None,
+    )
+)
+"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
