@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.goals.plausibility import (
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.syntax import PickClause
 from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.protocol import ReasonerStopped
@@ -85,6 +86,11 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     if not found:
         assert problem is not None  # a sentence has at least one reading
         raise problem
+    if any(
+        isinstance(a.context.last, PickClause) and a.context.last.wanted for a in found.values()
+    ):
+        # "I need the cup on the left" is about that one, where "the cup" alone leaves it open.
+        found = {w: a for w, a in found.items() if len(a.context.discourse.undecided) == undecided}
     doubts = {way: guesses(attempt.context, attempt.timed) for way, attempt in found.items()}
     found = {way: found[way] for way in found if doubts[way] == min(doubts.values())}
     if len(found) == 1:

@@ -55,11 +55,11 @@ def _check_told(context: Context, things: Things) -> None:
         ReferenceProblem: "the laptop in the middle" is the only one.
     """
     for np in things.phrases:
-        placed = any(item.prep in _PLACES for item in np.modifiers)
-        if placed and not _RELATIVE_PLACE.search(np.text):
+        told = tuple(item for item in np.modifiers if item.prep not in _PLACES)
+        if told != np.modifiers and not _RELATIVE_PLACE.search(np.text):
             options: tuple[tuple[Thing, ...], ...] = ()
             with suppress(ReferenceProblem):
-                options = context.phrases.meaning(replace(np, modifiers=()), Role.THEME).options
+                options = context.phrases.meaning(replace(np, modifiers=told), Role.THEME).options
             if [len(option) for option in options] == [1]:
                 raise ReferenceProblem(np.text, "say whether it is to be held", 1)
 
