@@ -250,4 +250,5 @@ def _says_several(asked: Asked) -> bool:
         and len(words) == len(match.entries) == 1
         and is_object(match.entries[0])
     )
-    return match.loose or lone
+    packed = lone and match.entries[0].is_box_of(words[-1])
+    return (match.loose or lone) and not packed

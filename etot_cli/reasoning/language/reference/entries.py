@@ -37,6 +37,8 @@ what is called so from others, but names nothing where the noun is for it."""
 
 
 SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
+PORTIONS = frozenset({"roll", "pack", "bundle", "stick", "bar", "sheet", "bag", "reel", "spool"})
+"""Nouns for so much of what stands before them, which is what the thing is."""
 _VESSELS = frozenset(
     noun
     for kind, groups in KIND_GROUPS.items()
@@ -127,9 +129,17 @@ class Entry:
         vessel, holder or tool for that, and the word no adjective.
         """
         heads = {*map(singular, self.heads)}
-        # A key of a car is no car; a cube of sponge is a sponge.
+        # A key of a car is no car; a cube of sponge is a sponge, and a roll of tape is tape.
         other = heads & (COMMON_NOUNS - SHAPES) and singular(word) in COMMON_NOUNS
-        return not self.holds() and not other
+        vessel = self.info is not None and self.info.container
+        portion = bool(heads) and heads <= PORTIONS and not vessel
+        return portion or not (self.holds() or other)
+
+    def is_box_of(self, noun: str) -> bool:
+        """Whether its label is for a pack of several such things ("pill box" of the pills)."""
+        solid = self.info is not None and not self.info.container
+        (*said, pack) = self.called[0]
+        return solid and said == [singular(noun)] != [noun] and pack in PACKS
 
     def is_pack_of(self, before: str, word: str) -> bool:
         """Whether its label is for a pack of that ("soy sauce bottle", "coke can")."""

@@ -115,7 +115,7 @@ class Vocabulary:
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
         kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
-        packed = [entry for entry in told if entry.is_pack_of(kind, word)]
+        packed = [e for e in told if e.is_pack_of(kind, word) or (not kind and e.is_box_of(noun))]
         said = is_descriptive(word) or word in STATES or word in MATERIALS
         if said or (word in PURPOSES and not packed):
             return []
