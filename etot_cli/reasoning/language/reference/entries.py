@@ -131,9 +131,12 @@ class Entry:
         heads = {*map(singular, self.heads)}
         # A key of a car is no car; a cube of sponge is a sponge, and a roll of tape is tape.
         other = heads & (COMMON_NOUNS - SHAPES) and singular(word) in COMMON_NOUNS
+        return self.is_portion() or not (self.holds() or other)
+
+    def is_portion(self) -> bool:
+        """Whether its noun is for so much of something ("tape roll") and it holds nothing."""
         vessel = self.info is not None and self.info.container
-        portion = bool(heads) and heads <= PORTIONS and not vessel
-        return portion or not (self.holds() or other)
+        return not vessel and any(singular(head) in PORTIONS for head in self.heads)
 
     def is_box_of(self, noun: str) -> bool:
         """Whether its label is for a pack of several such things ("pill box" of the pills)."""

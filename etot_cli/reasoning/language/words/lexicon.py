@@ -24,7 +24,7 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
         ("box", "carton", "crate", "package", "packet", "parcel", "case"),
     ),
     "cylinder": (("cylinder",), ("can", "tin"), ("bottle", "flask"), ("jar",)),
-    "capsule": (("capsule", "pill"),),
+    "capsule": (("capsule",),),
     "pen": (("pen", "pencil", "marker", "crayon"), ("rod", "stick")),
     "cup": (
         ("cup", "mug", "holder", "beaker", "tumbler", "vessel"), ("glass",), ("pot",), ("vase",),
