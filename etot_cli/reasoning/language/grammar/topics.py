@@ -122,16 +122,21 @@ def for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
 
 
 def one_of_them(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are named before a clause speaks of one of them ("of the cups take the left
-    one").
+    """Several things are named before a clause speaks of some of them ("of the cups take the left
+    one", "… put one on the tray and the other in the sink").
     """
-    one = _are_several(topic[0].clause) and any(
-        isinstance(item, NounPhrase)
-        and item.determiner in ("the", "only the")
-        and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
-        for item in nodes(rest[0].clause)
-    )
-    return (*topic, *rest) if one else None
+    nps = [item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)]
+    some = _are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
+    return (*topic, *rest) if some else None
+
+
+def _is_one_of_them(np: NounPhrase) -> bool:
+    """Whether a phrase takes up a noun that was said before, or speaks of another one."""
+    adjectives = np.words and all(map(is_descriptive, np.words))
+    if np.determiner in ("the", "only the") and adjectives:
+        return True
+    noun_left_out = np.is_elliptic or not (np.words or np.pronoun)
+    return noun_left_out or "other" in np.determiner.split()
 
 
 def _are_several(topic: Clause) -> bool:

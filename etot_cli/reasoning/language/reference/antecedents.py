@@ -49,3 +49,5 @@ class Mention:
     """Its words for a side or size that tell one thing from no other."""
     either: bool = False
     """It is one of several phrases ("the apple or the pear")."""
+    collective: bool = False
+    """It speaks of ``several`` in the singular ("the fruit", "each cup"), as "it" may do again."""

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
+_TARGETS = (Role.SURFACE, Role.CONTAINER, Role.PLACE)
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
 
@@ -70,6 +71,8 @@ def meant_by_it(
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]
         acted_on, places, landmarks = _mentioned_in(discourse, clause, role, excluded)
+        if any(_are_several(discourse, i) for i in acted_on if role in _TARGETS):
+            raise ReferenceProblem(text, UNCLEAR, 2)  # "take each cup off its saucer, and …"
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
@@ -135,7 +138,7 @@ def _whatever(discourse: Discourse, clause: int) -> tuple[int, ...]:
         for mention in discourse.mentions
         if mention.clause == clause
         and mention.whatever
-        and any(len(option) > 1 for option in discourse.referents[mention.referent].options)
+        and _are_several(discourse, mention.referent)
     )
 
 
@@ -176,8 +179,8 @@ def _mentioned_in(
     for mention in discourse.mentions:
         referent = mention.referent
         single = any(len(option) == 1 for option in discourse.referents[referent].options)
-        target = role in (Role.SURFACE, Role.CONTAINER, Role.PLACE)
-        single = single and not mention.several and not (mention.whatever and target)
+        single = single and not mention.several and not (mention.whatever and role in _TARGETS)
+        single |= mention.collective
         fits = single and referent not in excluded and _fits(discourse, referent, role)
         if mention.clause != clause or not fits:
             continue
@@ -190,6 +193,11 @@ def _mentioned_in(
         tuple(index for index in places if index not in acted_on),
         tuple(index for index in landmarks if index not in {**acted_on, **places}),
     )
+
+
+def _are_several(discourse: Discourse, referent: int) -> bool:
+    """Whether a referent stands for several things at once."""
+    return any(len(option) > 1 for option in discourse.referents[referent].options)
 
 
 def _fits(discourse: Discourse, referent: int, role: Role) -> bool:
@@ -237,9 +245,7 @@ def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
             bottom, top = discourse.stacks[clause]
             return (bottom if role in (Role.THEME, Role.ANY) else top,)
         found = _acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
-        several = len(found) > 1 or any(
-            len(option) > 1 for index in found for option in discourse.referents[index].options
-        )
+        several = len(found) > 1 or any(_are_several(discourse, index) for index in found)
         emptied = _emptied(discourse, clause, role) if found else ()
         if emptied:
             # "Empty the bins and put them on the rack": what was in them, or these.

@@ -81,8 +81,10 @@ class Discourse:
         *,
         several: bool = False,
         whatever: bool = False,
+        collective: bool = False,
     ) -> int:
-        """Notes what a phrase means and returns its referent; ``several``: no "it" means that.
+        """Notes what a phrase means and returns its referent; ``several``: no "it" means that,
+        unless it is ``collective``.
 
         A definite phrase with the same meaning as an earlier one speaks of the same choice.
         """
@@ -90,7 +92,7 @@ class Discourse:
         index = len(self.referents)
         mention = Mention(
             index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever,
-            resolved.idle, resolved.either,
+            resolved.idle, resolved.either, collective,
         )  # fmt: skip
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
@@ -177,8 +179,13 @@ class Discourse:
 
     def mention_again(self, referent: int, role: Role) -> None:
         """Notes that a pronoun spoke of a referent."""
-        noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
-        self.mentions.append(Mention(referent, role, self.clause, noun))
+        said = [item for item in self.mentions if item.referent == referent]
+        last = said[-1] if said else Mention(referent, role, self.clause, "object")
+        again = Mention(
+            referent, role, self.clause, last.noun, last.collective, last.adjectives,
+            collective=last.collective,
+        )  # fmt: skip
+        self.mentions.append(again)
 
     def is_about(self, topic: Collection[int]) -> None:
         """Of what a clause mentions "it" is what that is about, rather than what tells where."""
@@ -227,7 +234,32 @@ class Discourse:
             )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
-        return tuple(found)
+        left = self.left_of_named(noun or "")
+        return tuple(thing for thing in found if thing not in left)
+
+    def is_landmark(self, noun: str) -> bool:
+        """Whether a noun was last said of what but told something else ("the can in the box")."""
+        roles = [mention.role for mention in self.mentions if same_noun(mention.noun, noun)]
+        return roles[-1:] == [Role.ANY]
+
+    def but_named(self, noun: str) -> tuple[Thing, ...]:
+        """Several things that were spoken of together by a noun last, and not moved so: of what has
+        been moved "the big one" may be another.
+        """
+        said = [item for item in self.mentions if same_noun(item.noun, noun)]
+        options = {item.referent: self.referents[item.referent].options for item in said}
+        several = [item.clause for item in said if len(options[item.referent][0]) > 1]
+        last = [item.referent for item in said if item.clause in several[-1:]]
+        known = all(len(options[index]) == 1 for index in last)
+        return self.things(*last) if known and not {*last} & self.put else ()
+
+    def left_of_named(self, noun: str) -> tuple[Thing, ...]:
+        """Those of such things that have not been spoken of by themselves, where others have."""
+        named = {*self.but_named(noun)}
+        ways = [self.referents[item.referent].options for item in self.mentions]
+        apart = [way for way in ways if all({*option} < named for option in way)]
+        known = {*things_in(option for way in apart if len(way) == 1 for option in way)}
+        return tuple(thing for thing in named if thing not in known) if apart else ()
 
     def is_about_parts(self, noun: str | None) -> bool:
         """Whether what was spoken of last by a noun is part of something ("one drawer")."""

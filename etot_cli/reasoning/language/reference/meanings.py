@@ -222,8 +222,10 @@ class Meanings:
                     way = self.resolved_as(phrase, role, other)
                     if not self._is_single(phrase, role, other):
                         found.setdefault(way.options, way)
-        # "The two wrenches on the vise and the nut on the big one": of those that were several.
-        sure = [way for way in found.values() if problem or singular(way.noun) != way.noun]
+        # "The two wrenches on the vise and the nut on the big one": of those that were several;
+        # "the can from the fridge on the one on the desk" is about another can.
+        told = problem is not None or phrase.modifiers
+        sure = [way for way in found.values() if told or singular(way.noun) != way.noun]
         if len(found) == len(sure) == 1:
             return sure[0]
         if problem is not None:
@@ -232,12 +234,17 @@ class Meanings:
             said = (*found, *([resolved.options] if resolved else ()))
             ways = [thing.name for options in said for thing in things_in(options)]
             raise AmbiguousReference(phrase.text, ways)
+        if phrase.modifiers:
+            raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         return resolved
 
     def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
-        """Whether "the big one" would tell one thing by its size or side of which there is one."""
+        """Whether "the big one" would tell one thing by its size or side of which there is one, or
+        "the one on the desk" what but told by its place where something else is.
+        """
         words = phrase.words
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
+        told = told or (bool(phrase.modifiers) and self.discourse.is_landmark(noun or ""))
         if phrase.head != "one" or not told or noun is None:
             return False
         every = replace(phrase, determiner="all", words=("ones",), modifiers=())
@@ -269,27 +276,24 @@ class Meanings:
             parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
             pronoun=self.pronoun_things,
         )
-        left_out = noun is not None and (elliptic or leaves_out) and not other
-        resolved = resolve(phrase, among=self._named_before(phrase, noun) if left_out else ())
+        resolved = resolve(phrase, among=self._named_before(phrase, own or phrase.head))
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
         narrower = resolved
         with suppress(ReferenceProblem):
             narrower = resolve(alike) if alike is not None else resolved
         return narrowed_to(narrower, resolved, phrase, self.discourse)
 
-    def _named_before(self, phrase: NounPhrase, noun: str | None) -> tuple[Thing, ...]:
+    def _named_before(self, phrase: NounPhrase, noun: str) -> tuple[Thing, ...]:
         """Several things that were but named by a noun ("there are two red cups"): "the left one"
-        is one of these. Of what has been moved "the big one" may be another.
+        is one of these, and so is "the right one" that comes next; "a cup" may be.
         """
         quantity = quantity_of(phrase.determiner)
-        if not quantity.definite or quantity.every or quantity.count not in (None, 1):
-            return ()
-        said = [item for item in self.discourse.mentions if same_noun(item.noun, noun or "")]
-        last = [item.referent for item in said if item.clause == said[-1].clause]
-        sets = [self.discourse.referents[index].options for index in last]
-        known = all(len(options) == 1 for options in sets) and not {*last} & self.discourse.put
-        several = any(len(options[0]) > 1 for options in sets)
-        return self.discourse.things(*last) if known and several else ()
+        if quantity.other:
+            return self.discourse.left_of_named(noun)
+        any_one = not quantity.definite and not phrase.modifiers
+        known = phrase.is_elliptic or not phrase.words or leaves_noun_out(phrase)
+        single = not quantity.every and quantity.count in (None, 1) and (known or any_one)
+        return self.discourse.but_named(noun) if single else ()
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
         """All that a pronoun in a modifier may mean, or "the other brush" there."""

@@ -18,7 +18,8 @@ from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
+from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, is_robot, usual_form
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -79,7 +80,11 @@ class Referents(Meanings):
             resolved = self._as_before(resolved)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
         several = resolved.every and not whole
-        index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
+        mass = several and phrase.head not in ("", *GENERAL)
+        mass = mass and singular(phrase.head) == phrase.head
+        index = self.discourse.add(
+            resolved, phrase.text, role, several=several, whatever=whole, collective=mass
+        )
         self._note_landmarks(phrase, resolved.options)
         return (index,)
 
