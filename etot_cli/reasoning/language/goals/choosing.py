@@ -195,6 +195,23 @@ def leave_among(context: Context, themes: Sequence[int]) -> None:
             referents[index] = replace(referents[index], options=options, distinct_from=apart)
 
 
+def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+    """What is left somewhere is there already, or is put there.
+
+    Raises:
+        ReferenceProblem: it lies on something that lies there, which may be meant to stay so.
+    """
+    at = [place.where for place in places if place.where is not None and not place.beside]
+    for thing in context.discourse.things(*(i for i in themes if i not in context.discourse.put)):
+        upon = carriers(context.scene, thing.name)
+        for surface in context.discourse.things(*at):
+            between = {name for name in upon if touches(Thing(name), surface, context.scene)}
+            if between and not touches(thing, surface, context.scene):
+                why = f"it is on {min(between)}, which is there; say whether it is to go off that"
+                raise ReferenceProblem(thing.name, why, 3)
+    leave_among(context, themes)
+
+
 def tell_apart(
     context: Context, group: PutGroup, before: Sequence[int], themes: Sequence[int]
 ) -> None:

@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
-    leave_among,
+    leave_there,
     note_described,
     tell_apart,
     without_riders,
@@ -153,7 +153,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         for index in () if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
         if clause.stays:
-            leave_among(context, themes)
+            leave_there(context, themes, places)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.moving import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -34,7 +35,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KE
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, MOVE, OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import ENSURE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
@@ -63,6 +64,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     REMOVE,
     SOURCE,
 )
+from etot_cli.reasoning.language.grammar.wishes import THOUGHT, TOLD_APART, WISHED
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 
 
@@ -191,7 +193,7 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, THOUGHT, TOLD_APART),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
@@ -202,7 +204,7 @@ CLAUSE = located(
             _ASKED,
             variants(sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT), _excluding_some),
             sequence(
-                either(PUT, ENSURE, AGAIN),
+                either(PUT, ENSURE, AGAIN, WISHED, TOLD_APART),
                 OPTIONAL_COMMA,
                 either(CONTRASTED, APPOSED),
                 build=of_the_things,

@@ -56,7 +56,6 @@ from etot_cli.reasoning.language.grammar.word_order import (
     FOLLOWING,
     FRONTED,
     NAMED_BEHIND,
-    ONLY_ONE_THERE,
     SAID_AHEAD,
 )
 from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
@@ -235,7 +234,6 @@ PUT = either(
     FOLLOWING,
     NAMED_BEHIND,
     ALONG_WITH,
-    ONLY_ONE_THERE,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,

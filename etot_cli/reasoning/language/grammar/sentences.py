@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST,
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.moving import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -39,7 +40,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IF_NOT_SO, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -332,7 +333,7 @@ SENTENCE = either(
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
 WHOLE = either(
-    sequence(SENTENCE, _END, optional(QUESTION)),
+    sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
     sequence(
         EMPTY_WORDS,
         OPTIONAL_COMMA,

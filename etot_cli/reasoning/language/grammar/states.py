@@ -1,19 +1,20 @@
-"""Rules for what is to be open, closed or somewhere, and for opening and closing."""
+"""Rules for what is to be open, closed or somewhere."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import LIST
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -25,14 +26,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
-    MoveClause,
     NounPhrase,
     PutGroup,
     State,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 
@@ -116,17 +115,24 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     return nps
 
 
-STATE = either(
-    sequence(
+def being(verb: str) -> Parser:
+    """How things are, by a verb for that."""
+    return sequence(
         NP_LIST,
-        verbs.BE,
+        verb,
         optional(phrase("both, all"), ""),
         PREDICATE,
         build=lambda nps, said, predicate: state_of(all_of(nps, said), predicate),
-    ),
-    _STAYS,
-    _contains("contains, holds"),
+    )
+
+
+_NOT_FALLING = sequence(
+    either(sequence(NP_LIST, verbs.NOT_FALL), sequence(verbs.DO_NOT, "let", NP_LIST, verbs.FALL)),
+    one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
+    noun_phrase,
+    build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
+STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds"))
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
@@ -141,108 +147,6 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
     return EnsureClause(said)
 
 
-def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
-    """In "if the drawer is closed, open it": what is open already stays so anyway."""
-    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
-    if not again or moved.opens == (word == "open"):
-        return None
-    return MoveClause(Things(subjects), moved.opens, guarded=True)
-
-
-_PLAIN_MOVE = either(
-    *(
-        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
-    ),
-    *(
-        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for verb, opens in (
-            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
-            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
-        )
-    ),
-    *(
-        sequence(
-            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for verb, particle, opens in (
-            (verbs.PULL, manner.OPEN_STATE, True),
-            (verbs.PULL, manner.CLOSED_STATE, False),
-            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
-            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
-            (
-                "giv(e|ing)",
-                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
-                f" {manner.A_PUSH} to (close|shut) it",
-                False,
-            ),
-        )
-    ),
-)
-
-
-def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
-    """In "grasp the handle of the drawer and open it" that is the drawer."""
-    again = bool(moved.things.phrases[0].pronoun)
-    if again != bool(handled):
-        return None
-    return replace(moved, things=Things(handled)) if again else moved
-
-
-def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
-    """What has the handle of "the drawer handle" and "the drawer's handle"."""
-    if np.head != "handle":
-        return None
-    return (
-        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
-    )
-
-
-_HANDLED = either(
-    phrase("the handle, its handle", ()),
-    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
-    sequence(noun_phrase, build=_handled),
-)
-_BY_HANDLE = either(
-    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
-    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
-    sequence(
-        verbs.PICK,
-        _HANDLED,
-        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
-        _PLAIN_MOVE,
-        build=_by_handle,
-    ),
-)
-MOVE = either(
-    _PLAIN_MOVE,
-    quiet(_BY_HANDLE),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
-        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
-    ),
-    sequence(
-        _PLAIN_MOVE,
-        OPTIONAL_COMMA,
-        valued(TURN, lambda turn: turns_of((turn,))),
-        build=lambda moved, turns: replace(moved, turns=turns),
-    ),
-)
-IF_NOT_SO = quiet(
-    sequence(
-        "if",
-        NP_LIST,
-        f"{verbs.BE}, 's",
-        OPEN_OR_CLOSED,
-        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
-        EMPTY_WORDS,
-        _PLAIN_MOVE,
-        build=_if_not_so,
-    )
-)
-"""A sentence of its own: what follows it might be asked for in that case only."""
 _EACH = phrase("each, both, all")
 _TO_BE = optional(f"to (be|end up|go|stand|sit|lie), {verbs.DONE}")
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
@@ -310,7 +214,7 @@ ENSURE = either(
         build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
     ),
     valued(
-        either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),
+        either(sequence(optional("let"), _STAYS), _NOT_FALLING, _contains(verbs.CONTAIN)),
         lambda state: EnsureClause((state,)),
     ),
     quiet(

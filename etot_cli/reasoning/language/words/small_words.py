@@ -39,6 +39,14 @@ TASK = """
     [your|the] (task|goal|job|target|aim|objective) ~comma,
     [the] (desired|final|goal|target|end) (state|configuration|arrangement|result) ~comma
 """
+I_THINK = "(i (think|believe|guess|suppose) [that]|i was thinking [that])"
+"""Before what would be good to do."""
+WISH_IF = """
+    [(it|that)] would (be|make me) (nice|good|great|better|best|lovely|perfect|ideal|happy) if,
+    (i|we) would be [very|really|so] (happy|glad|grateful|delighted|pleased|thankful) if,
+    (i|we) would (like|love|prefer|appreciate) it if, (i|we) wish [that]
+"""
+"""Before how things are to be."""
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um,
@@ -46,20 +54,19 @@ FRAMES = f"""
     (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
-    you (should|must|[will] have to|[will] need to|can|may),
+    [{I_THINK}] you (should|must|[will] have to|[will] need to|can|may|could),
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
-    i would like [that you], i want, let us, try to, please to, {TASK},
+    i would like [that you], i want, ({WISH_IF}) you [would|could|can|might], let us, try to,
+    please to, {TASK},
     the robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you could,
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
-    i would appreciate it if you could, it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so kind as to, (would|could) you be so (good|nice) as to,
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
     do me a favour and, {TIDY_UP},
-    i would be (glad|happy|grateful) if you (would|could),
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
 END_STATE = """

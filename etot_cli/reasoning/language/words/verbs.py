@@ -80,15 +80,23 @@ _BROUGHT = """
     put away|put down|put back|set down|laid down
 """
 _BEING = "standing|lying|sitting|located|resting"
-MODAL = f"""
+WOULD_BE = f"""
+    (is|are|was|were|would be|could be) [{_BROUGHT}|{_BEING}], (went|could go), (ended|could end) up
+"""
+"""How things are wished to be."""
+_BETTER = "better|best|nice|nicer|nicest|nicely|good|great|perfect|perfectly|fine|well"
+OUGHT = f"""
     (should|must|shall) (be|end up|get|finally be|then be|go [back]|stand|sit|lie),
-    (has to|have to|needs to|need to|ought to|is to|are to) (be|end up|go [back]),
+    (has to|have to|needs to|need to|ought to|is to|are to)
+    (be|end up|go [back]|stand|sit|lie|rest),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) be
     ({_BROUGHT}|{_BEING}),
-    (want|wants) to (be|go|sit|stand|lie), (is|are) going [back],
-    (is|are) supposed to be, go[es] [back], belong[s], live[s],
-    (can|could|may|might|will) (go [back]|be put|be placed)
+    (want|wants) to (be|go|sit|stand|lie), (is|are) supposed to be,
+    (can|could|may|might|will) (go [back]|be put|be placed|sit|stand|lie|rest),
+    (would|might|could|will) (be|look|go|fit|sit|stand) ({_BETTER}) [off],
+    (is|are|looks|look|goes|fits) (better|best) [off]
 """
+MODAL = f"{OUGHT}, (is|are) going [back], go[es] [back], belong[s], live[s]"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 _RELATIONS = """
@@ -125,6 +133,9 @@ STAY = """
     [can|may] (stay|remain), (stays|remains),
     (should|must|shall|has to|have to|needs to|need to|ought to|is to|are to) (stay|remain)
 """
+FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
+NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
+"""Before where something is to stay."""
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"

@@ -1,0 +1,124 @@
+"""Rules for opening and closing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    phrase,
+    quiet,
+    sequence,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.syntax import MoveClause, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+
+
+def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
+    """In "if the drawer is closed, open it": what is open already stays so anyway."""
+    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
+    if not again or moved.opens == (word == "open"):
+        return None
+    return MoveClause(Things(subjects), moved.opens, guarded=True)
+
+
+_PLAIN_MOVE = either(
+    *(
+        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
+        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
+    ),
+    *(
+        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for verb, opens in (
+            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
+            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
+        )
+    ),
+    *(
+        sequence(
+            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for verb, particle, opens in (
+            (verbs.PULL, manner.OPEN_STATE, True),
+            (verbs.PULL, manner.CLOSED_STATE, False),
+            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
+            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
+            (
+                "giv(e|ing)",
+                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
+                f" {manner.A_PUSH} to (close|shut) it",
+                False,
+            ),
+        )
+    ),
+)
+
+
+def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
+    """In "grasp the handle of the drawer and open it" that is the drawer."""
+    again = bool(moved.things.phrases[0].pronoun)
+    if again != bool(handled):
+        return None
+    return replace(moved, things=Things(handled)) if again else moved
+
+
+def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """What has the handle of "the drawer handle" and "the drawer's handle"."""
+    if np.head != "handle":
+        return None
+    return (
+        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
+    )
+
+
+_HANDLED = either(
+    phrase("the handle, its handle", ()),
+    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
+    sequence(noun_phrase, build=_handled),
+)
+_BY_HANDLE = either(
+    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
+    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
+    sequence(
+        verbs.PICK,
+        _HANDLED,
+        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
+        _PLAIN_MOVE,
+        build=_by_handle,
+    ),
+)
+MOVE = either(
+    _PLAIN_MOVE,
+    quiet(_BY_HANDLE),
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
+        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
+    ),
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        valued(TURN, lambda turn: turns_of((turn,))),
+        build=lambda moved, turns: replace(moved, turns=turns),
+    ),
+)
+IF_NOT_SO = quiet(
+    sequence(
+        "if",
+        NP_LIST,
+        f"{verbs.BE}, 's",
+        OPEN_OR_CLOSED,
+        either(COMMA, sequence(OPTIONAL_COMMA, "then")),
+        EMPTY_WORDS,
+        _PLAIN_MOVE,
+        build=_if_not_so,
+    )
+)
+"""A sentence of its own: what follows it might be asked for in that case only."""
