@@ -64,6 +64,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     STRANGE,
     about,
     all_put,
+    any_of_them,
     each_sorted,
     for_a_reason,
     one_of_them,
@@ -239,6 +240,13 @@ _WITH_MORE_BEFORE_IT = either(
         either(COMMA, "[~comma] and, and then, then, [~comma] so"),
         CHAIN,
         build=about,
+    ),
+    sequence(
+        noun_phrase,
+        small_words.ANY_WILL_DO,
+        either(COMMA, "so, ~comma so"),
+        CHAIN,
+        build=any_of_them,
     ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence(

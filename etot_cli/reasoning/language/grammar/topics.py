@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
     word,
 )
+from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     EnsureClause,
@@ -50,6 +51,18 @@ def sources(things: Things) -> list[Modifier]:
     return [m for np in things.phrases for m in np.modifiers[-1:] if m.prep is Prep.FROM]
 
 
+def _all_of_any(np: NounPhrase) -> Things | None:
+    """All of which any will do."""
+    any_one = np.determiner in ("any", "either") and np.words
+    return Things((np.called(f"{np.head}s"),)) if any_one else None
+
+
+def _remark(said: str, things: Things) -> ReorientClause | None:
+    """What is said of things and asked of none; "any cup is fine" leaves a choice open."""
+    open_choice = any(np.determiner in ("any", "either") for np in things.phrases)
+    return None if open_choice else ReorientClause(things, only_named=True, remark=said)
+
+
 def _is_unknown(given: Input, text: str) -> bool:
     """Whether a word is neither the grammar's nor one of something in the scene."""
     told = is_descriptive(text) or text in LEVELS or text in COMMON_NOUNS
@@ -68,6 +81,11 @@ _STATED = either(
         noun_phrase,
         DESCRIBED,
         build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        noun_phrase,
+        small_words.ANY_WILL_DO,
+        build=_all_of_any,
     ),
     sequence(
         f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS
@@ -100,7 +118,7 @@ AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=Tru
 """How things are by now, before what is asked for in that case."""
 SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),
-    spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
+    spanned(_REMARK, _remark),
     sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
 
@@ -143,6 +161,12 @@ def _are_several(topic: Clause) -> bool:
     """Whether several things are named."""
     nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
     return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
+
+
+def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
+    """Any of some things will do for what is to be done with "it"."""
+    put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
+    return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
 
 
 def each_sorted(topic: Reading, rest: Reading) -> Reading | None:

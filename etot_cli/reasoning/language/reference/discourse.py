@@ -237,6 +237,14 @@ class Discourse:
         left = self.left_of_named(noun or "")
         return tuple(thing for thing in found if thing not in left)
 
+    def left_open(self) -> tuple[tuple[Thing, ...], ...]:
+        """What may be meant by what was but named last, where that is one of several phrases ("the
+        apple or the pear: put one of them …").
+        """
+        last = self.mentions[-1] if self.mentions else None
+        choice = last is not None and last.either and last.referent not in self.put
+        return self.referents[last.referent].options if last is not None and choice else ()
+
     def is_landmark(self, noun: str) -> bool:
         """Whether a noun was last said of what but told something else ("the can in the box")."""
         roles = [mention.role for mention in self.mentions if same_noun(mention.noun, noun)]

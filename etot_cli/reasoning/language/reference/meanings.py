@@ -81,13 +81,15 @@ class Meanings:
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             # "One of it" is one of them.
             said = "them" if phrase.determiner else phrase.pronoun
+            noun = discourse.last_noun(role) or ""
+            if quantity_of(phrase.determiner).count == 1 and (ways := discourse.left_open()):
+                return Resolved(ways, noun=noun, again=True, either=True)
             indices = antecedents(discourse, said, role, phrase.text)
             if any(len(discourse.referents[index].options) > 1 for index in indices):
                 names = [thing.name for thing in discourse.things(*indices)]
                 raise AmbiguousReference(phrase.text, names)
             things = discourse.things(*indices)
             options = tuple((thing,) for thing in things)
-            noun = discourse.last_noun(role) or ""
             return Resolved(options, noun=noun, again=True)
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"

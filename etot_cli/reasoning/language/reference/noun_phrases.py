@@ -169,7 +169,7 @@ class Resolver:
         single = quantity.every or phrase.determiner == "one" or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
-        if match.plural and phrase.words and phrase.determiner == "any":
+        if match.plural and phrase.words and phrase.determiner in ("any", "either"):
             quantity = Quantity(every=True)
         return Asked(phrase, role, words, noun, quantity, match)
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-WITHOUT_MEANING = """
+_WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
+ANY_WILL_DO = f"({_WILL_DO}) [for me]"
+"""Behind any of several things, before what is to be done with one of them."""
+WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
     again,
@@ -12,12 +15,13 @@ WITHOUT_MEANING = """
     pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
+    (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
+    [it is] up to you, you (choose|decide), the choice is yours,
+    wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter which [one],
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|any one|each|both) [of (them|these|those)]
-    ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
+    (either|any|any one|each|both) [of (them|these|those)] ({_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     i (do not|don t) (care|mind) [which] [one], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
