@@ -170,7 +170,8 @@ def _said(node: object) -> Iterator[str]:
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
-        case TowerClause():
+        case TowerClause(things=Things(phrases=phrases)):
+            yield from (said for said, count in NUMBERS.items() if count == len(phrases))
             yield from ("stacked", _ORDER, "top", "middle", "bottom", "biggest", "largest",
                         "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:

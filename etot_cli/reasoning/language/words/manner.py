@@ -25,7 +25,7 @@ UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
     (in|into) a [vertical|single] (tower|stack|pile), onto each other
 """
-UPON_THAT = "on [top of] (that|it|this) [one], on which, upon (that|it)"
+UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that|it)"
 """Behind what comes next in a tower."""
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
