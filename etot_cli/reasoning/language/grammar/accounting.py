@@ -70,7 +70,8 @@ _FIXED = """
     (to|at) the end, all the rest, (nothing|be|is|remains) left (in|on),
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
-    only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left
+    only (then|once|after|when), not (before|until), any [one] but, any (color|colour),
+    (been|was|were) left, a little open
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {_FIXED}")
@@ -189,6 +190,7 @@ def _said(node: object) -> Iterator[str]:
         case Things(phrases=phrases, either=either):
             yield from ("either", "any", "both") if either else ()
             yield from ("both", _ORDER) if len(phrases) > 1 else ()
+            yield from ("all",) if len(phrases) > 2 else ()  # "the cup, the jar and the tin all"
         case _:
             return
 

@@ -291,6 +291,7 @@ def _exchanged(
 REPLACING = sequence(
     noun_phrase,
     optional(either(INTO, ONTO), None),
+    optional("[in|on] there"),
     either(
         sequence("in [the] place of", noun_phrase),
         phrase("in its place", NounPhrase(pronoun="it", text="its")),

@@ -7,7 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
@@ -97,6 +97,7 @@ WANTED = either(
         build=RemoveClause,
     ),
     sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
+    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down, over", DIRECTED, build=put_to),
     sequence(
         verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
     ),
@@ -383,6 +384,6 @@ _HAVING_DONE = either(
 )
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("[but] [only] (once|after|when|as soon as)", plain(_SO_BY_THEN)),
+    sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""

@@ -62,7 +62,7 @@ def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
 
 
 BETWEEN = sequence(
-    "[in] between",
+    places.BETWEEN,
     noun_phrase,
     optional(sequence("and", noun_phrase), None),
     build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
@@ -104,6 +104,11 @@ PLAIN_MODIFIER = either(
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
     sequence(BETWEEN, build=_between),
+    sequence(
+        "outside [of]",
+        noun_phrase,
+        build=lambda np: Modifier(Prep.IN, (np,), ("outside",), denied=True),
+    ),
     sequence(nouns.SAME_COLOR, noun_phrase, build=lambda np: Modifier(Prep.COLORED, (np,))),
     valued(SIDE, _at_side),
     spanned(either(one_of(places.AREAS), _NEAREST_AREA), _in_area),
@@ -213,8 +218,8 @@ def after(*said: str) -> Parser:
 
 
 def _denied(modifier: Modifier) -> Modifier | None:
-    """What is not so; "the right not of the cup" is no English."""
-    return None if modifier.prep is Prep.OF else replace(modifier, denied=True)
+    """What is not so; "the right not of the cup" is no English, "not without a lid" is with one."""
+    return None if modifier.prep is Prep.OF else replace(modifier, denied=not modifier.denied)
 
 
 def _is_adjective(word: str) -> bool:

@@ -291,7 +291,11 @@ noun_phrase.define(
                 build=lambda pronoun, det: NounPhrase(det, pronoun=pronoun),
             ),
             sequence(
-                DETERMINER, PRONOUN, build=lambda det, pronoun: NounPhrase(det, pronoun=pronoun)
+                DETERMINER,
+                PRONOUN,
+                build=lambda det, pronoun: (
+                    None if det in nouns.THE_WORDS else NounPhrase(det, pronoun=pronoun)
+                ),
             ),
         ),
         lambda text, np: replace(np, text=text),

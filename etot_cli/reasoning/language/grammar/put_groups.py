@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words.lexicon import singular
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
@@ -44,6 +45,8 @@ _PARTICLE = """
 def _quantified(things: Things, said: str) -> Things | None:
     """Things of which it is said before the place that each of them, or all, go there."""
     nps = tuple(all_of((np,), said) for np in things.phrases)
+    if len(nps) > 1 and all(singular(np.head) == np.head for np in things.phrases):
+        nps = tuple((np,) for np in things.phrases)  # "the cup and the jar both"
     several = len(nps) > 1 or nps[0] != things.phrases[:1]
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
@@ -65,7 +68,7 @@ _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
     _ASIDE,
-    optional("somewhere, anywhere"),
+    optional("(somewhere|anywhere) [safe] [~comma]"),
     WHERE,
     silent(optional(manner.LET_GO, "")),
     silent(optional(sequence(OPTIONAL_COMMA, "contents and all"), "")),

@@ -145,7 +145,7 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
-OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
+OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
@@ -157,7 +157,10 @@ PUT = either(
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
-        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
+        either(
+            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
+            sequence(verbs.WANTED, ALL_THINGS),
+        ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),

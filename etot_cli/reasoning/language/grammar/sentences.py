@@ -96,7 +96,7 @@ def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
 
 _LEFT_SO = sequence(
     plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
-    optional(small_words.TRAILING_LAST),
+    optional(f"{small_words.TRAILING_LAST}, {small_words.TRAILING_THEN}"),
 )
 """How something is to be in the end, without a verb ("drawer shut")."""
 _JOINED = either(

@@ -71,17 +71,18 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
+BETWEEN = "[in|in the gap|in the space] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
-    Nearby.FRONT: "in front of, (on|at|to) the near side of",
-    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the rear of",
+    Nearby.FRONT: "in front of, (on|at|to) the near side of, to the front of",
+    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the (rear|back) of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
-    Nearby.AWAY: "[far] away from, far from",
+    Nearby.AWAY: "[far|well|a safe distance] away from, far from, [well] clear of",
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
 GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"

@@ -93,7 +93,8 @@ REMARKS = """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 FOUND = """
     (is|are|was|were|has been|have been|got|seem[s] to be)
-    [still|just|now|currently|again|all] [left|standing|lying|sitting|resting|wide]
+    [still|just|now|currently|again|all]
+    [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
 SOMEBODY_LEFT = "(i|we|you|they|he|she|someone|somebody) [have|has|had] [just] left"
@@ -151,7 +152,11 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
-AFTER = "[but] [only] (once|after|when|as soon as) [you have|having|you]"
+AFTER = """
+    [but] [only] (once|after|when|as soon as) [you have|having|you],
+    [but] not (before|until) [you have|having|you]
+"""
+BY_THEN = "[but] [only] (once|after|when|as soon as), [but] not (before|until)"
 GONE = """
     (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
     (is|are) (put|set|laid) down
