@@ -311,7 +311,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     themes = context.phrases.things(things, Role.THEME, around)
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index, stacked=clause.stacked)
-    context.discourse.last_places = context.source(themes)
+    discourse.last_places = discourse.vacated[discourse.clause] = context.source(themes)
     for place in context.discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)

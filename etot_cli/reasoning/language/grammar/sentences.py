@@ -6,7 +6,7 @@ from dataclasses import replace
 from operator import add
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.arrangements import REPLACING
+from etot_cli.reasoning.language.grammar.chains import CHAIN, JOINED, chained, joint, then
 from etot_cli.reasoning.language.grammar.clauses import (
     EARLIER,
     LEAD,
@@ -15,43 +15,35 @@ from etot_cli.reasoning.language.grammar.clauses import (
     SO,
     Reading,
     excluding,
-    of_the_things,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.headlines import LEFT_SO, OUT, PAIRS, PLACED, TAKEN_FROM
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.moving import IF_NOT_SO
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
-    Parser,
-    Part,
     complete,
     either,
     optional,
-    quiet,
-    separated,
     sequence,
     some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
-    AvoidClause,
     Destination,
     EnsureClause,
     Modifier,
     NounPhrase,
     PutClause,
-    PutGroup,
     RemoveClause,
-    State,
     Things,
     Toward,
     put_to,
@@ -70,104 +62,16 @@ from etot_cli.reasoning.language.grammar.topics import (
     one_of_them,
     set_down,
     shared_out,
-    sources,
 )
-from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
-
-
-def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
-    """What was put somewhere goes on to another place; "on top" says no such thing."""
-    named = all(item.targets and not item.targets[0].pronoun for item in where)
-    return AgainClause(None, destinations=where) if named else None
-
-
-def _joint(name: str, *parts: Part) -> Parser:
-    """What goes on a sentence, with a name for what joins it."""
-    return sequence(*parts, build=lambda reading: (name, reading))
-
-
-def _left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
-    return EnsureClause((State(nps, word=word),))
-
-
-_LEFT_SO = sequence(
-    plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=_left_so)),
-    optional(f"{small_words.TRAILING_LAST}, {small_words.TRAILING_THEN}"),
-)
-"""How something is to be in the end, without a verb ("drawer shut")."""
-_JOINED = either(
-    _joint("and", either(COMMA, LIST), _LEFT_SO),
-    _joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=_left_so))),
-    _joint("mere and", "and", LED_CLAUSE),
-    _joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
-    _joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
-    _joint("after", OPTIONAL_COMMA, EARLIER),
-    _joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
-    _joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
-    _joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.THEN_JOINTS,
-        OPTIONAL_COMMA,
-        EMPTY_WORDS,
-        plain(either(sequence(THINGS, build=AgainClause), VERBLESS)),
-    ),
-    _joint(
-        "then",
-        OPTIONAL_COMMA,
-        small_words.ONWARD,
-        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
-    ),
-)
-
-
-def _then(clause: Reading) -> Reading:
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
-
-
-def _maybe_denied(done: Reading, clause: Reading) -> Reading:
-    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
-    before = done[-1].clause
-    if (
-        not isinstance(before, AvoidClause)
-        or not before.negated
-        or isinstance(clause[0].clause, AvoidClause)
-    ):
-        return done
-    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
-
-
-def _chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
-    done = first
-    for joint, clause in more:
-        if joint == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
-            return None  # "keep it open while you …"; else the hand would do two things
-        if joint == "mere and":
-            done = _maybe_denied(done, clause)
-        if joint == "after":
-            done = (*clause, *_then(done))
-        else:
-            done = (*done, *(_then(clause) if joint == "then" else clause))
-    return done
-
-
-CHAIN = sequence(LED_CLAUSE, some(_JOINED, most=12), build=_chained)
 
 
 def _verbless(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
     """A sentence without a verb; one that begins like a question is none."""
     clause = first[0].clause
     asks = isinstance(clause, PutClause) and clause.groups[0].things.phrases[0].text
-    return None if str(asks).startswith("what") else _chained(first, more)
+    return None if str(asks).startswith("what") else chained(first, more)
 
 
 def _first_placed(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | None:
@@ -190,23 +94,7 @@ def _headline(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading 
     """Headlines have no articles; "the drawer shut" lacks a verb."""
     clause = first[0].clause
     bare = isinstance(clause, EnsureClause) and not clause.states[0].subjects[0].determiner
-    return _chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
-
-
-def _taken_out(things: Things) -> RemoveClause | None:
-    """What is taken from somewhere, without a verb."""
-    all_of_them = len(sources(things)) == len(things.phrases)
-    doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
-    return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
-
-
-_PLACED = plain(
-    either(
-        VERBLESS,
-        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
-        sequence(ALL_THINGS, build=_taken_out),
-    )
-)
+    return chained(first, more) if bare or (isinstance(clause, RemoveClause) and more) else None
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -214,23 +102,6 @@ def _placed_there(np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.TO, (np,)),))
 
 
-_PAIRS = quiet(
-    sequence(
-        separated(
-            sequence(
-                noun_phrase,
-                noun_phrase,
-                build=lambda np, place: PutGroup(
-                    Things((np,)), (Destination(Toward.TO, (place,)),)
-                ),
-            ),
-            LIST,
-            most=6,
-        ),
-        build=lambda groups: PutClause(groups) if groups[1:] else None,
-    )
-)
-"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
@@ -250,7 +121,7 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence(
-        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, _PLACED), build=for_a_reason
+        plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, PLACED), build=for_a_reason
     ),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
@@ -271,15 +142,15 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=set_down,
     ),
-    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, _PLACED, build=add),
+    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(
-        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, _PLACED, build=each_sorted
+        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=each_sorted
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
-    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, _PLACED, build=for_a_reason),
-    sequence(verbs.TIDY, NAMED, COMMA, _PLACED, build=each_sorted),
-    sequence(verbs.TIDY_AWAY, COMMA, plain(_PAIRS)),
+    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
+    sequence(verbs.TIDY, NAMED, COMMA, PLACED, build=each_sorted),
+    sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         NAMED,
@@ -297,26 +168,26 @@ _WITH_MORE_BEFORE_IT = either(
         plain(
             either(
                 SO,
-                sequence(ALL_THINGS, build=_taken_out),
+                TAKEN_FROM,
                 sequence(
                     ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
                 ),
             )
         ),
         COMMA,
-        valued(CHAIN, _then),
+        valued(CHAIN, then),
         build=add,
     ),
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
     sequence(_NOT_THIS, OPTIONAL_COMMA, CHAIN, build=_without),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
-    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, _then), build=add),
+    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then), build=add),
     sequence(
         small_words.BEFORE,
         LED_CLAUSE,
         OPTIONAL_COMMA,
         CHAIN,
-        build=lambda later, rest: rest + _then(later),
+        build=lambda later, rest: rest + then(later),
     ),
 )
 SENTENCE = either(
@@ -347,23 +218,23 @@ WHOLE = either(
         OPTIONAL_COMMA,
         optional(f"{small_words.TIDY_UP}, {small_words.TASK}"),
         optional(sequence(small_words.LEADING_THEN, OPTIONAL_COMMA)),
-        _PLACED,
-        some(_JOINED, most=12),
+        PLACED,
+        some(JOINED, most=12),
         _END,
         build=_verbless,
     ),
     sequence(
         # "First the ball into the box, then the cup"
         EMPTY_WORDS,
-        either(sequence("first, firstly", OPTIONAL_COMMA, _PLACED), sequence(_PLACED, "first")),
-        some(_JOINED, least=1, most=12),
+        either(sequence("first, firstly", OPTIONAL_COMMA, PLACED), sequence(PLACED, "first")),
+        some(JOINED, least=1, most=12),
         _END,
         build=_first_placed,
     ),
     sequence(
         EMPTY_WORDS,
-        either(_LEFT_SO, plain(sequence(ALL_THINGS, build=_taken_out))),
-        some(either(_JOINED, _joint("and", LIST, _PLACED)), most=6),
+        either(LEFT_SO, plain(OUT)),
+        some(either(JOINED, joint("and", LIST, PLACED)), most=6),
         _END,
         build=_headline,
     ),

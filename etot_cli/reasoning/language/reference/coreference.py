@@ -89,6 +89,9 @@ def meant_by_it(
                 )
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
+            if role is Role.CONTAINER:  # "take the bowl out and put the plum in it"
+                source = [place.where for place in discourse.vacated.get(clause, ())]
+                rivals += [i for i in source if i is not None and i not in (*landmarks, *rivals)]
             if role in (Role.SURFACE, Role.CONTAINER):
                 others = [i for i in landmarks if not own & {t.name for t in discourse.things(i)}]
                 last = [p.where for p in discourse.last_places if p.where is not None]

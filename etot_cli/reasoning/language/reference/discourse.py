@@ -30,6 +30,8 @@ class Discourse:
     mentions: list[Mention] = field(default_factory=list)
     clause: int = 0
     last_places: tuple[Place, ...] = ()
+    vacated: dict[int, tuple[Place, ...]] = field(default_factory=dict)
+    """Number of a clause → the place that it takes something out of or off."""
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)
@@ -56,6 +58,7 @@ class Discourse:
             self,
             referents=list(self.referents),
             mentions=list(self.mentions),
+            vacated=dict(self.vacated),
             put_into=dict(self.put_into),
             notes=list(self.notes),
             stacks=dict(self.stacks),

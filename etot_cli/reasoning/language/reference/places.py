@@ -314,6 +314,9 @@ class Places:
             return (self.on_the_desk(),)
         if word in ("there", "the same place") and discourse.last_places:
             return discourse.last_places
+        source = discourse.vacated.get(discourse.clause - 1, ())
+        if word == "in" and any(place.relation is Relation.INSIDE for place in source):
+            return source  # "take the bowl out and put the plum in"
         if word == "the same place":
             raise ReferenceProblem(word, UNCLEAR, 3)
         if word in (ON_IT, "on top") and discourse.put_into:
