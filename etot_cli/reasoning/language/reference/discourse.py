@@ -232,9 +232,9 @@ class Discourse:
         for mention in self.mentions:
             options = self.referents[mention.referent].options
             said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
-            alike = mention.referent in self.put or any(
-                same_noun(word, noun or "") for word in said
-            )
+            here = mention.role is Role.THEME and mention.clause == self.clause
+            moved = here or mention.referent in self.put  # "the apple and another fruit"
+            alike = moved or any(same_noun(word, noun or "") for word in said)
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         left = self.left_of_named(noun or "")

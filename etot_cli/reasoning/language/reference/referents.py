@@ -194,7 +194,8 @@ class Referents(Meanings):
         for prep, landmark in (*owner, *named):
             if "one" in (landmark.determiner, *landmark.words[:-1]):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
-            if landmark.words and not is_robot(landmark):
+            packed = prep is Prep.OF and prep not in {m.prep for m in usual_form(phrase).modifiers}
+            if landmark.words and not is_robot(landmark) and not packed:
                 if quantity_of(landmark.determiner).other:
                     continue
                 resolved = self.resolver.resolve(

@@ -110,6 +110,7 @@ SORTS: dict[str, frozenset[str]] = {
     "sweet": _SWEETS,
     "snack": _SWEETS | _PASTRIES | _SNACKS,
     "drink beverage": _DRINKS,
+    "soda soft_drink": word_set("soda cola coke pepsi sprite fanta lemonade 7up drpepper"),
     "spice seasoning": _SPICES,
     "condiment": _SPICES | _SAUCES,
     "food": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD,
@@ -168,6 +169,7 @@ CALLED = {
     "cutlery": "(?:eating|table) utensils",
     "stationery": "office supplies",
     "citrus": "citrus fruits?",
+    "soft_drink": "(?:soft|fizzy) drink",
 }
 """Several words for such a word."""
 
