@@ -57,6 +57,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     about,
     all_put,
     any_of_them,
+    done_there,
     each_sorted,
     for_a_reason,
     one_of_them,
@@ -105,6 +106,9 @@ def _placed_there(np: NounPhrase, things: Things) -> PutClause:
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 _WITH_MORE_BEFORE_IT = either(
+    sequence(
+        small_words.LOOK_FOR, NAMED, either(COMMA, "and, and then, then"), CHAIN, build=done_there
+    ),
     sequence(
         optional(small_words.LOOK_FOR),
         NAMED,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
@@ -23,8 +24,10 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     EnsureClause,
     Modifier,
+    MoveClause,
     NounPhrase,
     PutClause,
+    RemoveClause,
     ReorientClause,
     Things,
     Toward,
@@ -34,8 +37,10 @@ from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
+    JOINT_NOUNS,
     LEVELS,
     is_descriptive,
+    matches_any,
     singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
@@ -132,6 +137,24 @@ def about(topic: Reading, rest: Reading) -> Reading | None:
     therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
     spoken = remark or therein or any(pronouns(rest[0].clause))
     return (*topic, *rest) if spoken else one_of_them(topic, rest)
+
+
+def done_there(topic: Reading, rest: Reading) -> Reading | None:
+    """What is taken out of, or opened of, what the robot goes to ("go to the fridge, take out the
+    cup").
+    """
+    named, clause = topic[0].clause, rest[0].clause
+    place, *more = named.things.phrases if isinstance(named, ReorientClause) else ()
+    match clause:
+        case RemoveClause(source=None) if not (more or sources(clause.things)):
+            there: Clause = replace(clause, source=place)
+        case MoveClause(things=Things(phrases=(part,))) if not (more or part.owner):
+            if not (part.words and matches_any(part.head, sum(JOINT_NOUNS.values(), ()))):
+                return None
+            there = replace(clause, things=Things((replace(part, owner=place),)))
+        case _:
+            return None
+    return (*topic, replace(rest[0], clause=there), *rest[1:])
 
 
 def for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
