@@ -9,7 +9,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, after, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import LEVEL
+from etot_cli.reasoning.language.grammar.naming import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,

@@ -8,7 +8,8 @@ from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COM
 from etot_cli.reasoning.language.grammar.destinations import WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, WORDS
+from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
