@@ -9,10 +9,10 @@ from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State
+from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
@@ -120,7 +120,12 @@ def check_describes(
     subjects: Sequence[int],
     places_of: dict[int, tuple[Place, ...]],
 ) -> None:
-    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there."""
+    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there.
+
+    Raises:
+        ReferenceProblem: it does, or (AmbiguousReference) "the cup on the tray with the pen in it"
+            may also be about the cup.
+    """
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
     below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
@@ -129,6 +134,15 @@ def check_describes(
         for thing in context.discourse.things(index):
             if below & bearers(context.scene, thing.name):
                 text = context.discourse.referents[index].text
+                inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
+                vessels = [
+                    item
+                    for item in context.discourse.things(*places_of)
+                    if inside and can_be(item, Role.CONTAINER, context.scene)
+                ]
+                if vessels:
+                    named = [item.name for item in vessels]
+                    raise AmbiguousReference("in it", [*named, *sorted(below)])
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)
 
 

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
+from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
@@ -194,7 +195,7 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, THOUGHT, TOLD_APART),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, THOUGHT, TOLD_APART, BOTH_SO),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

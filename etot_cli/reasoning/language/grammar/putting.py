@@ -150,8 +150,10 @@ OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(
-        ALL_THINGS,
-        verbs.MODAL,
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
+        ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
