@@ -12,7 +12,7 @@ from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Toward
+from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
@@ -266,6 +266,18 @@ def without_riders(context: Context, themes: list[int]) -> list[int]:
         for index in step.what
     }
     return [index for index in themes if index not in riders]
+
+
+def is_off_desk(context: Context, things: Things) -> bool:
+    """Whether it is everything on the desk that is to be taken away."""
+    sources = [m for np in things.phrases for m in np.modifiers if m.prep is Prep.FROM]
+    marks = [mark for item in sources if not item.denied for mark in item.phrases]
+    every = any(np.head in ("objects", *GENERAL) for np in things.phrases)
+    for mark in marks if every else ():
+        with suppress(ReferenceProblem):
+            if things_in(context.phrases.meaning(mark, Role.ANY).options) == (Thing(DESK),):
+                return True
+    return False
 
 
 def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False) -> None:

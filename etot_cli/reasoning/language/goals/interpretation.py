@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_kept,
     check_run,
     check_shut,
+    check_swept_away,
     check_turns,
 )
 from etot_cli.reasoning.language.goals.left_out import (
@@ -59,6 +60,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     goal = without_ruled_out(without_places(goal, state.context.discourse), scene)
     goal = settled(goal, scene, state.context.turned)
     check_held(state.timed, goal, scene)
+    check_swept_away(goal, state.context.discourse.swept)
     _check_decided(goal, state.context.discourse)
     last = state.context.last
     named = isinstance(last, ReorientClause) and last.only_named

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
+    is_off_desk,
     leave_there,
     note_described,
     tell_apart,
@@ -309,6 +310,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
     ]
     themes = context.phrases.things(things, Role.THEME, around)
+    if is_off_desk(context, things):
+        discourse.swept |= {*themes}
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index, stacked=clause.stacked)
     discourse.last_places = discourse.vacated[discourse.clause] = context.source(themes)

@@ -49,6 +49,8 @@ class Discourse:
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
+    swept: frozenset[int] = frozenset()
+    """Referents of everything that is to be taken off the desk, which needs another place."""
     remarked: frozenset[int] = frozenset()
     """Referents of which something was said that is neither known of a thing nor asked for."""
 
