@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.goals.putting import again, ensure, put, remove
+from etot_cli.reasoning.language.goals.putting import ensure, put, remove
+from etot_cli.reasoning.language.goals.repeating import again
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -27,6 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
+from etot_cli.reasoning.language.reference.by_now import note_placed
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
@@ -71,6 +73,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             avoid(context, clause)
         case _:
             reorient(context, clause)
+    for step in context.steps:
+        if isinstance(step, Put):
+            note_placed(context.discourse, step.what, step.places)
     context.done = tuple(context.steps) or context.done
     return context.steps
 

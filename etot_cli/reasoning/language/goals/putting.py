@@ -10,10 +10,8 @@ from etot_cli.reasoning.builtin.goal import (
     Close,
     Grouping,
     Open,
-    Pick,
     Place,
     Put,
-    Step,
     Thing,
     things_in,
 )
@@ -40,7 +38,6 @@ from etot_cli.reasoning.language.goals.pairing import (
     distributed,
     elsewhere,
     is_different,
-    is_matching,
 )
 from etot_cli.reasoning.language.goals.placing import (
     add_put,
@@ -62,10 +59,8 @@ from etot_cli.reasoning.language.goals.prohibitions import (
 )
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
-    AgainClause,
     Avoid,
     AvoidClause,
-    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -73,16 +68,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
     State,
     Things,
     Toward,
-    TowerClause,
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.trees import nodes
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
@@ -227,67 +219,6 @@ def _made(index: int, *, opens: bool) -> Open | Close:
     return Open(index, final=True) if opens else Close(index, final=True)
 
 
-def again(context: Context, clause: AgainClause) -> None:
-    """Adds the step that was asked for last once more, for other things."""
-    before = context.done
-    if clause.things is None:
-        _onward(context, clause, before)
-        return
-    text = clause.things.text
-    if not before:
-        raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
-    step = before[-1]
-    last = context.last
-    if isinstance(last, PutClause | EnsureClause) and any(
-        isinstance(item, NounPhrase) and is_matching(item) for item in nodes(last)
-    ):
-        # A cup of its own colour is another one for something else.
-        if not isinstance(last, PutClause) or len(last.groups) > 1:
-            raise ReferenceProblem(text, "say where it goes", 3)
-        put(context, replace(last, groups=(replace(last.groups[0], things=clause.things),)))
-        return
-    if isinstance(step, Put):
-        if any(not isinstance(item, Put) or item.places != step.places for item in before):
-            raise ReferenceProblem(text, "say again what is to be done", 2)
-        themes = context.phrases.things(clause.things, Role.THEME)
-        if set(themes) & {index for place in step.places for index in place.referents()}:
-            raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
-        if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
-            why = "say whether it goes there, too, or is one more place to go to"
-            raise ReferenceProblem(text, why, 4)
-        if isinstance(context.last, TowerClause):
-            raise ReferenceProblem(text, "say where in the stack it goes", 3)
-        add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
-        return
-    role = Role.THEME if isinstance(step, Pick) else Role.PART
-    for index in context.phrases.things(clause.things, role):
-        context.steps.append(replace(step, what=index))
-
-
-def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:
-    """Adds a step that brings what was put somewhere on to another place."""
-    named = [np.text for item in clause.destinations for np in item.targets]
-    named += [near.text for item in clause.destinations for near in item.beside]
-    text = " or ".join(named)
-    if not (len(before) == 1 and isinstance(before[0], Put)):
-        raise ReferenceProblem(text, "say what goes there", 2)
-    if clause.trailing and not before[0].removal:
-        raise ReferenceProblem(text, "another place was said before", 2)
-    themes = before[0].what
-    places = context.places.of(clause.destinations, themes)
-    add_put(context, themes, places, Grouping.ANY)
-    context.discourse.last_places = places
-
-
-def _like_a_place(context: Context, step: Put, theme: int) -> bool:
-    """Whether "A on B and C, too" may say that A goes on B and C: they share their noun."""
-    discourse = context.discourse
-    places = {index for place in step.places for index in place.referents()}
-    nouns = [mention.noun for mention in discourse.mentions if mention.referent in places]
-    own = [mention.noun for mention in discourse.mentions if mention.referent == theme]
-    return any(same_noun(one, other) for one in nouns for other in own)
-
-
 def remove(context: Context, clause: RemoveClause) -> None:
     """Adds the steps that take things from where they are to the desk."""
     if clause.without and clause.source is not None:
@@ -309,7 +240,10 @@ def remove(context: Context, clause: RemoveClause) -> None:
         for index in (*discourse.put_into.values(), *places)
         if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
     ]
-    themes = context.phrases.things(things, Role.THEME, around)
+    try:
+        themes = context.phrases.things(things, Role.THEME, around)
+    except NothingThere:
+        return  # "put the pen in the cup to free the tray"
     if is_off_desk(context, things):
         discourse.swept |= {*themes}
     for index in themes if clause.source is None else ():

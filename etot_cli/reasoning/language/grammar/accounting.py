@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import phrase
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     AgainClause,
     AvoidClause,
     Beside,
@@ -147,6 +148,8 @@ def _said(node: object) -> Iterator[str]:
     match node:
         case Spoken(order=order) if order is not Order.SAID:
             yield _ORDER
+        case Modifier(words=words) if words == CLEARED:
+            yield _canonical("free")
         case Modifier(prep=prep, denied=denied):
             if denied or prep in (Prep.EXCEPT, Prep.CONTRAST):
                 yield from (_DENIAL, "other")

@@ -106,7 +106,12 @@ WANTED = either(
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
     sequence(THINGS, small_words.ALSO, build=lambda things: AgainClause(things, trailing=True)),
-    sequence("add[ing]", THINGS, optional(small_words.ALSO), build=AgainClause),
+    sequence(
+        "add[ing]",
+        THINGS,
+        optional(small_words.ALSO),
+        build=lambda things: AgainClause(things, added=True),
+    ),
 )
 
 

@@ -51,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
+    MAKING_ROOM,
     NAMED,
     SAID,
     STRANGE,
@@ -127,6 +128,8 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, PLACED), build=for_a_reason
     ),
+    sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
+    sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(

@@ -114,6 +114,11 @@ STRANGE = spanned(
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )
 """Before what is to be done with it ("the stopper is cracked, so bin it")."""
+MAKING_ROOM = spanned(
+    sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on", noun_phrase)))),
+    lambda said, things: ReorientClause(things, only_named=True, remark=said),
+)
+"""What something else is done for."""
 _ALREADY = sequence(
     noun_phrase,
     "is already, are already, 's already",

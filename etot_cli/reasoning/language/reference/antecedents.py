@@ -31,6 +31,10 @@ class UnclearLandmark(AmbiguousReference):
     """
 
 
+class NothingThere(ReferenceProblem):
+    """Words for all that is somewhere, from where it has been moved."""
+
+
 @dataclass(frozen=True, slots=True)
 class Mention:
     """A referent spoken of in a clause, in a role."""

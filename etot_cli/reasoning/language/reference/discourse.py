@@ -32,6 +32,8 @@ class Discourse:
     last_places: tuple[Place, ...] = ()
     vacated: dict[int, tuple[Place, ...]] = field(default_factory=dict)
     """Number of a clause → the place that it takes something out of or off."""
+    placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
+    """Where things have been put, one of several places; None is where one was at the start."""
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)
@@ -61,6 +63,7 @@ class Discourse:
             referents=list(self.referents),
             mentions=list(self.mentions),
             vacated=dict(self.vacated),
+            placed=dict(self.placed),
             put_into=dict(self.put_into),
             notes=list(self.notes),
             stacks=dict(self.stacks),

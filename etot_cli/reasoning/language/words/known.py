@@ -34,7 +34,7 @@ VERB_WORDS = words_of(
         verbs.SWAP, verbs.TOUCH, verbs.UNSTACK, verbs.DISTURB, verbs.TIDY, verbs.CLEAR,
         verbs.DO_NOT, verbs.NEED_NOT,
     )
-) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
+) - {"open", "closed", "shut", "empty", "free", "top", "the", "tower", "hand", "of", "on", "onto",
     "back", "places", "positions", "position"}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(

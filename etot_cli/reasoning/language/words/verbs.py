@@ -61,7 +61,12 @@ TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]
 TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
 LOAD = "load[ing] [up]"
-CLEAR = "clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out"
+CLEAR = """
+    clear[ing] [off], free[ing] [up], tidy[ing] [up], clean[ing] (off|up), clear[ing] out,
+    empty[ing] out
+"""
+MAKE_ROOM = "mak(e|ing) [some|more|enough|a little] (room|space) (in|on|for)"
+"""It is made by what else is asked for."""
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"

@@ -1,0 +1,102 @@
+"""What was asked for last, asked for of other things, or where the same things go next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import (
+    Grouping,
+    Pick,
+    Put,
+    Step,
+)
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.pairing import (
+    is_matching,
+)
+from etot_cli.reasoning.language.goals.placing import (
+    add_put,
+)
+from etot_cli.reasoning.language.goals.putting import put
+from etot_cli.reasoning.language.grammar.syntax import (
+    AgainClause,
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    PutClause,
+    Toward,
+    TowerClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.trees import nodes
+from etot_cli.reasoning.language.words.lexicon import same_noun
+
+
+def again(context: Context, clause: AgainClause) -> None:
+    """Adds the step that was asked for last once more, for other things; what is ``added`` after
+    something was taken out goes in there.
+    """
+    before = context.done
+    if clause.things is None:
+        _onward(context, clause, before)
+        return
+    text = clause.things.text
+    removed = bool(before) and isinstance(before[-1], Put) and before[-1].removal
+    if clause.added and (removed or not (before and isinstance(before[-1], Put))):
+        where = Destination(Toward.HERE, word="there" if removed else "in")
+        put(context, put_to(clause.things, (where,)))
+        return
+    if not before:
+        raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
+    step = before[-1]
+    last = context.last
+    if isinstance(last, PutClause | EnsureClause) and any(
+        isinstance(item, NounPhrase) and is_matching(item) for item in nodes(last)
+    ):
+        # A cup of its own colour is another one for something else.
+        if not isinstance(last, PutClause) or len(last.groups) > 1:
+            raise ReferenceProblem(text, "say where it goes", 3)
+        put(context, replace(last, groups=(replace(last.groups[0], things=clause.things),)))
+        return
+    if isinstance(step, Put):
+        if any(not isinstance(item, Put) or item.places != step.places for item in before):
+            raise ReferenceProblem(text, "say again what is to be done", 2)
+        themes = context.phrases.things(clause.things, Role.THEME)
+        if set(themes) & {index for place in step.places for index in place.referents()}:
+            raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
+        if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
+            why = "say whether it goes there, too, or is one more place to go to"
+            raise ReferenceProblem(text, why, 4)
+        if isinstance(context.last, TowerClause):
+            raise ReferenceProblem(text, "say where in the stack it goes", 3)
+        add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
+        return
+    role = Role.THEME if isinstance(step, Pick) else Role.PART
+    for index in context.phrases.things(clause.things, role):
+        context.steps.append(replace(step, what=index))
+
+
+def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:
+    """Adds a step that brings what was put somewhere on to another place."""
+    named = [np.text for item in clause.destinations for np in item.targets]
+    named += [near.text for item in clause.destinations for near in item.beside]
+    text = " or ".join(named)
+    if not (len(before) == 1 and isinstance(before[0], Put)):
+        raise ReferenceProblem(text, "say what goes there", 2)
+    if clause.trailing and not before[0].removal:
+        raise ReferenceProblem(text, "another place was said before", 2)
+    themes = before[0].what
+    places = context.places.of(clause.destinations, themes)
+    add_put(context, themes, places, Grouping.ANY)
+    context.discourse.last_places = places
+
+
+def _like_a_place(context: Context, step: Put, theme: int) -> bool:
+    """Whether "A on B and C, too" may say that A goes on B and C: they share their noun."""
+    discourse = context.discourse
+    places = {index for place in step.places for index in place.referents()}
+    nouns = [mention.noun for mention in discourse.mentions if mention.referent in places]
+    own = [mention.noun for mention in discourse.mentions if mention.referent == theme]
+    return any(same_noun(one, other) for one in nouns for other in own)
