@@ -64,7 +64,8 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_decided(goal, state.context.discourse)
     last = state.context.last
     named = isinstance(last, ReorientClause) and last.only_named
-    wished = isinstance(last, ReorientClause) and " for " in last.remark  # to be put there?
+    remark = last.remark if isinstance(last, ReorientClause) else ""
+    wished = " is for " in remark or " are for " in remark  # to be put there?
     if wished or not (goal.steps or state.asked or not (goal.constraints or named)):
         said = "how things are" if named else "what not to do"
         text = sentences[-1 if wished else 0].text

@@ -120,6 +120,7 @@ PLAIN_MODIFIER = either(
 )
 _INSIDE_IT = "inside, in there, in, (inside|in) (it|them|which)"
 _UPON_IT = "on [top of] (it|them), on top"
+_POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"
 
 
@@ -180,15 +181,14 @@ _contents = either(
             optional("that, which"),
             noun_phrase,
             either(
-                phrase("is, are, stands, stand, lies, lie, sits, sit", ()),
-                phrase("was, were, stood, lay, sat", (HERE_BEFORE,)),
+                phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
+                phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
             ),
-            optional("currently"),
             optional(phrase("not", True), False),
-            one_of({Prep.CONTAINING: "in", Prep.BEARING: "on"}),
+            spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
             # "The cup that is not on" is one that nothing is said of.
-            build=lambda np, words, denied, prep: (
-                None if np.text == "that" else Modifier(prep, (np,), words, denied)
+            build=lambda np, words, denied, at: (
+                None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
             ),
         )
     ),

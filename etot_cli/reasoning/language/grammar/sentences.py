@@ -129,7 +129,12 @@ _WITH_MORE_BEFORE_IT = either(
         plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, PLACED), build=for_a_reason
     ),
     sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
-    sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
+    sequence(
+        CHAIN,
+        "to, in order to, so as to",
+        plain(MAKING_ROOM),
+        build=add,
+    ),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(

@@ -95,6 +95,17 @@ IT_HAS: dict[Prep, str] = {
     Prep.NEAR: "(near|close to) (it|them)",
 }
 """Behind what a thing has beside it: where that thing is to it."""
+STANDS_AT: dict[Prep, str] = {
+    Prep.CONTAINING: "in",
+    Prep.BEARING: "on",
+    Prep.FRONT: NEARBY[Nearby.BEHIND],
+    Prep.BEHIND: NEARBY[Nearby.FRONT],
+    Prep.RIGHT: _LEFT,
+    Prep.LEFT: _RIGHT,
+    Prep.NEXT_TO: f"[right] ({NEARBY[Nearby.NEXT_TO]})",
+    Prep.NEAR: NEARBY[Nearby.NEAR],
+}
+"""Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
