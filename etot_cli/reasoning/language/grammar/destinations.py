@@ -190,6 +190,7 @@ _with = spanned(
     ),
     lambda text, np: Destination(Toward.WITH, (np,), text),
 )
+_SOMEWHERE = "somewhere, anywhere, some place"
 destination = Rule(
     either(
         INTO,
@@ -205,7 +206,11 @@ destination = Rule(
             phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")
         ),
         valued(phrase(places.HOME), lambda text: Destination(Toward.HOME)),
-        valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
+        sequence(
+            optional(_SOMEWHERE),
+            BESIDES,
+            build=lambda found: Destination(Toward.BESIDE, beside=found),
+        ),
         sequence(
             _ABREAST,
             BESIDES,
@@ -215,6 +220,7 @@ destination = Rule(
         sequence(
             either(ONTO, _to, INTO),
             OPTIONAL_COMMA,
+            optional(_SOMEWHERE),
             BESIDES,
             build=lambda surface, found: replace(surface, beside=found),
         ),

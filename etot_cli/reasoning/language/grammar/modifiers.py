@@ -314,6 +314,12 @@ _modifier = either(
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(
+        # "The cup that is standing there"
+        nouns.RELATIVE,
+        "there",
+        build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
+    ),
+    sequence(
         # "That is red and on the left"
         after("that", "which"),
         "and [(that|which) is|is] [also]",

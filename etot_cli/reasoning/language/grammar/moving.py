@@ -97,6 +97,12 @@ MOVE = either(
     _PLAIN_MOVE,
     quiet(_BY_HANDLE),
     sequence(
+        # "Put the pen in and shut the door behind it"
+        _PLAIN_MOVE,
+        "behind (it|them)",
+        build=lambda moved: None if moved.opens else moved,
+    ),
+    sequence(
         _PLAIN_MOVE,
         OPTIONAL_COMMA,
         either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),

@@ -6,6 +6,7 @@ from dataclasses import replace
 from operator import add
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
 from etot_cli.reasoning.language.grammar.chains import CHAIN, JOINED, chained, joint, then
 from etot_cli.reasoning.language.grammar.clauses import (
     EARLIER,
@@ -21,7 +22,7 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST,
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.headlines import LEFT_SO, OUT, PAIRS, PLACED, TAKEN_FROM
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.moving import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -29,9 +30,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     complete,
     either,
     optional,
+    phrase,
     sequence,
     some,
     valued,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -128,6 +131,26 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         plain(STRANGE), "[~comma] [and] so, ~comma", either(CHAIN, PLACED), build=for_a_reason
     ),
+    sequence(
+        f"{verbs.SET_DOWN}, {verbs.FETCH}",
+        ALL_THINGS,
+        "out of the way",
+        either(COMMA, "and, and then, then"),
+        CHAIN,
+        build=out_of_the_way,
+    ),
+    variants(
+        sequence(
+            CHAIN,
+            COMMA,
+            optional(small_words.BY_NOW),
+            phrase("it is, they are"),
+            optional(small_words.BY_NOW),
+            DESCRIBED,
+            optional(small_words.BY_NOW),
+        ),
+        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
+    ),
     sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
     sequence(
         CHAIN,
@@ -157,7 +180,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(
-        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=each_sorted
+        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=shared_out
     ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),

@@ -82,7 +82,9 @@ NEARBY: dict[Nearby, str] = {
     Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the (rear|back) of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
-    Nearby.AWAY: "[far|well|a safe distance] away from, far from, [well] clear of",
+    Nearby.AWAY: (
+        "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of"
+    ),
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
 GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"

@@ -97,6 +97,8 @@ FOUND = """
     [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
+BY_NOW = "right now, now, at the moment, currently, still, already, just"
+"""With how things are."""
 SOMEBODY_LEFT = "(i|we|you|they|he|she|someone|somebody) [have|has|had] [just] left"
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
