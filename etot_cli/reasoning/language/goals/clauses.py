@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.goals.putting import ensure, put, remove
 from etot_cli.reasoning.language.goals.repeating import again
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     AgainClause,
     AvoidClause,
     Clause,
@@ -73,11 +74,22 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             avoid(context, clause)
         case _:
             reorient(context, clause)
-    for step in context.steps:
-        if isinstance(step, Put):
-            note_placed(context.discourse, step.what, step.places)
+    _note_placed(clause, context)
     context.done = tuple(context.steps) or context.done
     return context.steps
+
+
+def _note_placed(clause: Clause, context: Context) -> None:
+    """Notes where things are by now. Of what a clause empties the next one may say where all that
+    is in there goes ("clear the tray: whatever is on it goes into the bin").
+    """
+    puts = [step for step in context.steps if isinstance(step, Put)]
+    cleared = isinstance(clause, RemoveClause) and any(
+        item.words == CLEARED for np in clause.things.phrases for item in np.modifiers
+    )
+    for step in (*context.cleared, *(() if cleared else puts)):
+        note_placed(context.discourse, step.what, step.places)
+    context.cleared = puts if cleared else []
 
 
 def _all_of(context: Context, index: int) -> int:

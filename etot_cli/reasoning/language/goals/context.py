@@ -6,7 +6,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Constraint,
+    Near,
+    Place,
+    Put,
+    Referent,
+    Relation,
+    Step,
+    Thing,
+)
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
@@ -43,6 +52,8 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
+        self.cleared: list[Put] = []
+        """What the clause before took out of what it empties."""
         self.last: Clause | None = None
         """The clause before."""
 

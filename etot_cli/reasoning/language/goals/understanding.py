@@ -63,7 +63,7 @@ class Understanding:
         """An independent copy, for trying a reading."""
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
-        other.context.done = self.context.done
+        other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.sentence, other.context.last = self.sentence, self.context.last
