@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Part,
     either,
     optional,
+    remembered,
     sequence,
     some,
 )
@@ -111,4 +112,4 @@ def chained(first: Reading, more: tuple[tuple[str, Reading], ...]) -> Reading | 
     return done
 
 
-CHAIN = sequence(LED_CLAUSE, some(JOINED, most=12), build=chained)
+CHAIN = remembered(sequence(LED_CLAUSE, some(JOINED, most=12), build=chained))
