@@ -6,13 +6,13 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import (
-    EARLIER,
     LED_CLAUSE,
     Reading,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.earlier import EARLIER
 from etot_cli.reasoning.language.grammar.headlines import LEFT_SO, left_so
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (

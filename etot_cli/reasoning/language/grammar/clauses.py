@@ -34,9 +34,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, PUT, brought
+from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Avoid,
@@ -341,55 +341,3 @@ LED_CLAUSE = Rule(
         ),
     )
 )
-
-
-SO = sequence(
-    ALL_THINGS,
-    optional(f"{verbs.BE}, (has|have) been"),
-    OPEN_OR_CLOSED,
-    build=lambda things, word: MoveClause(things, word == "open"),
-)
-_SO_BY_THEN = either(
-    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
-    sequence(
-        ALL_THINGS,
-        verbs.BE,
-        OUT_AND_INTO,
-        build=lambda things, moved: PutClause((brought(things, *moved),)),
-    ),
-    sequence(
-        ALL_THINGS,
-        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
-        SOURCE,
-        build=RemoveClause,
-    ),
-    SO,
-)
-"""What has been done or is so by then ("once the pear has been put into the bowl")."""
-_HAVING_DONE = either(
-    *(
-        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
-        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
-    ),
-    *(
-        sequence(
-            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
-        )
-        for said, particle, opens in (
-            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
-            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
-        )
-    ),
-    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
-    sequence(
-        "taken, removed, moved, cleared",
-        ALL_THINGS,
-        either(SOURCE, phrase("out, off, away", "")),
-        build=lambda things, source: RemoveClause(things, source or None),
-    ),
-)
-EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
-)
-"""What comes before the rest of a sentence."""

@@ -9,17 +9,16 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
 from etot_cli.reasoning.language.grammar.chains import CHAIN, JOINED, chained, joint, then
 from etot_cli.reasoning.language.grammar.clauses import (
-    EARLIER,
     LEAD,
     LED_CLAUSE,
     LEFT_OUT,
-    SO,
     Reading,
     excluding,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.earlier import EARLIER, SO
 from etot_cli.reasoning.language.grammar.headlines import LEFT_SO, OUT, PAIRS, PLACED, TAKEN_FROM
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase

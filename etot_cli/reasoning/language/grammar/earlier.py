@@ -1,0 +1,76 @@
+"""Rules for what comes before the rest of a sentence: "once the pen is in the box, …"."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, plain
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.syntax import (
+    MoveClause,
+    PutClause,
+    RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.taking import (
+    SOURCE,
+)
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+
+SO = sequence(
+    ALL_THINGS,
+    optional(f"{verbs.BE}, (has|have) been"),
+    OPEN_OR_CLOSED,
+    build=lambda things, word: MoveClause(things, word == "open"),
+)
+_SO_BY_THEN = either(
+    sequence(ALL_THINGS, f"{verbs.BE}, {small_words.GONE}", DESTINATIONS, build=put_to),
+    sequence(
+        ALL_THINGS,
+        verbs.BE,
+        OUT_AND_INTO,
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)",
+        SOURCE,
+        build=RemoveClause,
+    ),
+    SO,
+)
+"""What has been done or is so by then ("once the pear has been put into the bowl")."""
+_HAVING_DONE = either(
+    *(
+        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
+    ),
+    *(
+        sequence(
+            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for said, particle, opens in (
+            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
+            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
+        )
+    ),
+    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        "taken, removed, moved, cleared",
+        ALL_THINGS,
+        either(SOURCE, phrase("out, off, away", "")),
+        build=lambda things, source: RemoveClause(things, source or None),
+    ),
+)
+EARLIER = either(
+    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+    sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
+)
+"""What comes before the rest of a sentence."""
