@@ -26,12 +26,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import SHUT, states
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
     Destination,
     EnsureClause,
+    NounPhrase,
 )
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
@@ -48,6 +49,18 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+_IT = (NounPhrase(pronoun="it", text="which"),)
+_SO = sequence(
+    "(should|must|has to|needs to|is to) [then] be [left|kept]",
+    OPEN_OR_CLOSED,
+    build=lambda word: left_so(_IT, word),
+)
+_WHICH_IS_TO_BE = (
+    plain(_SO),
+    sequence(plain(_SO, Order.LAST), small_words.TRAILING_LAST),
+    sequence(plain(_SO, Order.THEN), small_words.TRAILING_THEN),
+)
+"""How what was named last is to be ("…, which should be closed afterwards")."""
 JOINED = either(
     joint("and", either(COMMA, LIST), LEFT_SO),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, LEFT_SO),
@@ -59,6 +72,7 @@ JOINED = either(
     joint("after", OPTIONAL_COMMA, EARLIER),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    joint("and", COMMA, "which [then]", either(*_WHICH_IS_TO_BE)),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(
         "then",

@@ -50,7 +50,8 @@ WISHED = sequence(
 _THING = "(thing|things|one|ones|object|objects|item|items)"
 _WHAT_GOES = either(
     sequence(
-        phrase(f"the only {_THING}", True), optional(f"[that|which] ({verbs.MODAL}), that, which")
+        phrase(f"the only {_THING}", True),
+        optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
     ),
     sequence(
         phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"

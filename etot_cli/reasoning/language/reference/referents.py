@@ -176,7 +176,8 @@ class Referents(Meanings):
         unmoved = not discourse.put & {*themes} and all(
             len(discourse.referents[index].options) == 1 for index in themes
         )
-        if not unmoved or not phrase.words or self.spoken_of(phrase, role, themes) is not None:
+        named = phrase.words and not phrase.is_elliptic
+        if not unmoved or not named or self.spoken_of(phrase, role, themes) is not None:
             return
         moved = discourse.things(*themes)
         for parts_first in (True, False):

@@ -163,7 +163,7 @@ MASS_NOUNS = word_set(
 """Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""
 
 CALLED = {
-    "writing_utensil": "writing (?:utensil|implement|instrument|tool)",
+    "writing_utensil": "writing (?:utensil|implement|instrument|tool|thing)",
     "utensil": "(?:kitchen|cooking) (?:utensil|tool|implement)",
     "tool": "hand tool",
     "cutlery": "(?:eating|table) utensils",

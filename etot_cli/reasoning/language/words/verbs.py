@@ -109,7 +109,7 @@ _RELATIONS = """
     colleague|teacher|student|neighbor|neighbour
 """
 WANT = """
-    i want, i would like, i d like, i need, we want, we need, i would love,
+    i want, [i think] i would like, i d like, i need, we want, we need, i would love,
     [i would|i d] prefer, i prefer, we would like, i would like to find,
     (can|could|may) (i|we) have, let us have, i would (like|love) to (have|see),
     i want to (have|see), i would rather (have|see)
