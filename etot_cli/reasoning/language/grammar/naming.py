@@ -138,6 +138,7 @@ def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhras
     return NounPhrase("both" if said == "both" else "all the", words, modifiers)
 
 
+_INSIDE = Modifier(Prep.IN, (NounPhrase(pronoun="it", text="inside"),))
 _THEREIN = sequence(
     one_of({Prep.IN: "in there, inside", Prep.ON: "on there, on top"}),
     build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="there"),)),
@@ -232,7 +233,7 @@ noun_phrase.define(
             ),
             sequence(
                 phrase(nouns.FREE_RELATIVE),
-                either(PLAIN_MODIFIER, quality_alone),
+                either(PLAIN_MODIFIER, quality_alone, sequence("inside", build=lambda: _INSIDE)),
                 MODIFIERS,
                 build=lambda said, first, more: NounPhrase(
                     "all other" if "else" in said else "all", ("objects",), (first, *more)

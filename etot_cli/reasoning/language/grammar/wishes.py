@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import EMPTY_WORDS, LIST
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -71,7 +71,7 @@ def _there(things: Things, only: bool, where: tuple[Destination, ...]) -> Clause
 
 
 def _at(place: NounPhrase, things: Things) -> Clause:
-    return put_to(things, (Destination(Toward.TO, (place,)),))
+    return put_to(things, (Destination(Toward.TO, (place,), FILLED),))
 
 
 THOUGHT = sequence(small_words.I_THINK, ALL_THINGS, verbs.OUGHT, DESTINATIONS, build=put_to)
