@@ -10,10 +10,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
-from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
 
 _BEFORE_THINGS = word_set(
     "the a an my your its their our this that these those both all every each another"
@@ -26,6 +26,7 @@ _BEFORE_PLACES = {
         )
     )
 } - {"left", "right"}
+_SETTING = words_of((verbs.SET_DOWN,))
 _VERBS = VERB_WORDS | {"open", "shut", "empty"}
 _SEQUEL = word_set("first before then after afterwards last finally also too as")
 """With such a word a whole sentence takes back none."""
@@ -84,6 +85,12 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
+    if (
+        said[1:2] in (("it",), ("them",))
+        and {*said[:1]} & _SETTING
+        and {*said[2:3]} & _BEFORE_PLACES
+    ):
+        said = said[2:]  # "on the tray. Actually, put it in the box"
     sentence = after[:stop]
     everything = bool(_ALL_OF_IT.search(mark[0]))
     whole = not start and (everything or "instead" in sentence)
@@ -99,6 +106,9 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         noun = said[-1] in ("one", "ones") and len(said) > 1
         new = (*said[:-1], taken[-1]) if noun else said
         new = new[:-1] if new[-1] == "instead" else new
+        mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
+        if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
+            new = (*new[:-1], *taken[mark_at:])
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = " ".join((*before[:start], *tail[:first], *new, *kept, *more))
             yield TakenBack(" ".join(taken), " ".join(new), re.sub(r" (?=[,.!?;])", "", words))

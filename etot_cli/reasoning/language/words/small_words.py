@@ -53,7 +53,7 @@ WISH_IF = """
 """Before how things are to be."""
 FRAMES = f"""
     robot, hey robot, hello robot, hi robot, hey, ok, okay, hello, hi, sorry, excuse me, well, oh,
-    great, um,
+    great, um, actually,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
