@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.destinations import WHERE
+from etot_cli.reasoning.language.grammar.destinations import FILLED, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.naming import WORDS
@@ -91,7 +91,7 @@ PUT_GROUP = either(
             THINGS,
             COLON,
             noun_phrase,
-            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,)),)),
+            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,), FILLED),)),
         )
     ),
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),

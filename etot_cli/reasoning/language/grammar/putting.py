@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
+    FILLED,
     INSTEAD,
     INTO,
     ONTO,
@@ -298,7 +299,7 @@ def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
 
 def _listed(place: NounPhrase, things: Things) -> PutClause:
     """What a table says of a place; "teapot: tray" rather says where the teapot goes."""
-    return replace(put_to(things, (Destination(Toward.TO, (place,)),)), far_fetched=1)
+    return replace(put_to(things, (Destination(Toward.TO, (place,), FILLED),)), far_fetched=1)
 
 
 VERBLESS = either(

@@ -154,7 +154,7 @@ class Places:
             ways = self.relations_to(toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = self.relations_to(Toward.ON, index, themes)
-            found += self._on_first(phrase, ways)
+            found += ways if destination.word == FILLED else self._on_first(phrase, ways)
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found
