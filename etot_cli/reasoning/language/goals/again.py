@@ -13,22 +13,32 @@ from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
+    Destination,
     EnsureClause,
     NounPhrase,
     PutClause,
+    Toward,
     TowerClause,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.words.lexicon import same_noun
 
 
 def again(context: Context, clause: AgainClause) -> None:
-    """Adds the step that was asked for last once more, for other things."""
+    """Adds the step that was asked for last once more, for other things; what is ``added`` after
+    something was taken out goes in there.
+    """
     before = context.done
     if clause.things is None:
         _onward(context, clause, before)
         return
     text = clause.things.text
+    removed = bool(before) and isinstance(before[-1], Put) and before[-1].removal
+    if clause.added and (removed or not (before and isinstance(before[-1], Put))):
+        where = Destination(Toward.HERE, word="there" if removed else "in")
+        put(context, put_to(clause.things, (where,)))
+        return
     if not before:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]

@@ -145,6 +145,10 @@ def _upward(
     rest = [thing for thing in ordered if thing not in named.values()]
     if rest and clause.middle:
         raise ReferenceProblem(text, f"say where {rest[0].name} goes", 2)
+    lowest, uppermost = named.get("bottom"), named.get("top")
+    if rest and not listed and lowest and uppermost and carries(lowest, uppermost, context.scene):
+        # What these two are already, nobody asks for; or are they meant alone?
+        raise AmbiguousReference(text, [t.name for t in (lowest, *rest, uppermost)])
     if len(rest) > 1 or (rest and not named):
         # The widest below, and of equals the one that is named first.
         rest.sort(key=lambda thing: -max(context.scene.infos[thing.name].size[:2]))

@@ -5,7 +5,7 @@ Each raises a ReferenceProblem that names the words.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
@@ -173,3 +173,16 @@ def check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
         if item.order in (Order.FIRST, Order.LAST) and put[number] & others:
             why = "it was asked for already; say there what goes first or last"
             raise ReferenceProblem(str(item.order), why, 4)
+
+
+def check_swept_away(goal: Goal, swept: Collection[int]) -> None:
+    """Whether everything that is to be taken off the desk goes elsewhere.
+
+    Raises:
+        ReferenceProblem: nobody says where to.
+    """
+    for step in goal.steps:
+        for index in step.what if isinstance(step, Put) and step.removal else ():
+            if index in swept:
+                why = "it stands on the desk; say where it is to go"
+                raise ReferenceProblem(goal.referents[index].text, why, 2)

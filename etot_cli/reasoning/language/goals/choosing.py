@@ -9,10 +9,10 @@ from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State
+from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
@@ -133,6 +133,10 @@ def check_describes(
 ) -> None:
     """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there, or
     beside it.
+
+    Raises:
+        ReferenceProblem: it does, or (AmbiguousReference) "the cup on the tray with the pen in it"
+            may also be about the cup.
     """
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
     below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
@@ -150,6 +154,15 @@ def check_describes(
             there = any(holds(item, thing.name, context.scene) for item in beside)
             if there or below & bearers(context.scene, thing.name):
                 text = context.discourse.referents[index].text
+                inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
+                vessels = [
+                    item
+                    for item in context.discourse.things(*places_of)
+                    if inside and can_be(item, Role.CONTAINER, context.scene)
+                ]
+                if vessels:
+                    named = [item.name for item in vessels]
+                    raise AmbiguousReference("in it", [*named, *sorted(below)])
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)
 
 
@@ -216,6 +229,23 @@ def leave_among(context: Context, themes: Sequence[int]) -> None:
             referents[index] = replace(referents[index], options=options, distinct_from=apart)
 
 
+def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+    """What is left somewhere is there already, or is put there.
+
+    Raises:
+        ReferenceProblem: it lies on something that lies there, which may be meant to stay so.
+    """
+    at = [place.where for place in places if place.where is not None and not place.beside]
+    for thing in context.discourse.things(*(i for i in themes if i not in context.discourse.put)):
+        upon = carriers(context.scene, thing.name)
+        for surface in context.discourse.things(*at):
+            between = {name for name in upon if touches(Thing(name), surface, context.scene)}
+            if between and not touches(thing, surface, context.scene):
+                why = f"it is on {min(between)}, which is there; say whether it is to go off that"
+                raise ReferenceProblem(thing.name, why, 3)
+    leave_among(context, themes)
+
+
 def tell_apart(
     context: Context, group: PutGroup, before: Sequence[int], themes: Sequence[int]
 ) -> None:
@@ -256,6 +286,18 @@ def without_riders(context: Context, themes: list[int]) -> list[int]:
         for index in step.what
     }
     return [index for index in themes if index not in riders]
+
+
+def is_off_desk(context: Context, things: Things) -> bool:
+    """Whether it is everything on the desk that is to be taken away."""
+    sources = [m for np in things.phrases for m in np.modifiers if m.prep is Prep.FROM]
+    marks = [mark for item in sources if not item.denied for mark in item.phrases]
+    every = any(np.head in ("objects", *GENERAL) for np in things.phrases)
+    for mark in marks if every else ():
+        with suppress(ReferenceProblem):
+            if things_in(context.phrases.meaning(mark, Role.ANY).options) == (Thing(DESK),):
+                return True
+    return False
 
 
 def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False) -> None:

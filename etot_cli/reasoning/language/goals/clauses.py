@@ -6,7 +6,7 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
@@ -30,6 +30,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
+from etot_cli.reasoning.language.grammar.taking import is_emptying
+from etot_cli.reasoning.language.reference.by_now import note_placed
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
@@ -105,8 +107,20 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             avoid(context, clause)
         case _:
             reorient(context, clause)
+    _note_placed(clause, context)
     context.done = tuple(context.steps) or context.done
     return context.steps
+
+
+def _note_placed(clause: Clause, context: Context) -> None:
+    """Notes where things are by now. Of what a clause empties the next one may say where all that
+    is in there goes ("clear the tray: whatever is on it goes into the bin").
+    """
+    puts = [step for step in context.steps if isinstance(step, Put)]
+    cleared = is_emptying(clause)
+    for step in (*context.cleared, *(() if cleared else puts)):
+        note_placed(context.discourse, step.what, step.places)
+    context.cleared = puts if cleared else []
 
 
 def _all_of(context: Context, index: int) -> int:

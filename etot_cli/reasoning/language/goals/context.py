@@ -6,7 +6,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Constraint, Near, Place, Referent, Relation, Step, Thing
+from etot_cli.reasoning.builtin.goal import (
+    Constraint,
+    Near,
+    Place,
+    Put,
+    Referent,
+    Relation,
+    Step,
+    Thing,
+)
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
@@ -46,6 +55,8 @@ class Context:
         """Of the last clause that asked for something."""
         self.in_the_way: list[tuple[str, frozenset[Thing]]] = []
         """What is where something is to go instead of it: it has to go elsewhere."""
+        self.cleared: list[Put] = []
+        """What the clause before took out of what it empties."""
         self.last: Clause | None = None
         """The clause before."""
         self.order = Order.SAID

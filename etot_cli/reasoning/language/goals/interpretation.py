@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_replaced,
     check_run,
     check_shut,
+    check_swept_away,
     check_turns,
 )
 from etot_cli.reasoning.language.goals.left_out import (
@@ -61,10 +62,12 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     goal = without_ruled_out(without_places(goal, state.context.discourse), scene)
     goal = settled(goal, scene, state.context.turned)
     check_held(state.timed, goal, scene)
+    check_swept_away(goal, state.context.discourse.swept)
     _check_decided(goal, state.context.discourse)
     last = state.context.last
     named = isinstance(last, ReorientClause) and last.only_named
-    wished = isinstance(last, ReorientClause) and " for " in last.remark  # to be put there?
+    remark = last.remark if isinstance(last, ReorientClause) else ""
+    wished = " is for " in remark or " are for " in remark  # to be put there?
     if wished or not (goal.steps or state.asked or not (goal.constraints or named)):
         said = "how things are" if named else "what not to do"
         text = sentences[-1 if wished else 0].text

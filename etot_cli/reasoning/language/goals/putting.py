@@ -24,7 +24,8 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
-    leave_among,
+    is_off_desk,
+    leave_there,
     note_described,
     tell_apart,
     without_riders,
@@ -72,7 +73,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.space import touches
@@ -149,7 +150,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         for index in () if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
         if clause.stays:
-            leave_among(context, themes)
+            leave_there(context, themes, places)
         if grouping is Grouping.SEPARATELY:
             check_enough(context, themes, places)
         places_of = dict.fromkeys(themes, places)
@@ -245,11 +246,16 @@ def remove(context: Context, clause: RemoveClause) -> None:
         for index in (*discourse.put_into.values(), *places)
         if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
     ]
-    themes = context.phrases.things(things, Role.THEME, around)
+    try:
+        themes = context.phrases.things(things, Role.THEME, around)
+    except NothingThere:
+        return  # "put the pen in the cup to free the tray"
+    if is_off_desk(context, things):
+        discourse.swept |= {*themes}
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index, stacked=clause.stacked)
-    context.discourse.last_places = context.source(themes)
-    for place in context.discourse.last_places:
+    discourse.last_places = context.source(themes)
+    for place in discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 

@@ -72,9 +72,9 @@ _FIXED = """
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were) left,
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
-    only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left,
-    not (before|until),
-    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left]
+    only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
+    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
+    a little open
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
@@ -180,7 +180,8 @@ def _said(node: object) -> Iterator[str]:
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
-        case TowerClause():
+        case TowerClause(things=Things(phrases=phrases)):
+            yield from (said for said, count in NUMBERS.items() if count == len(phrases))
             yield from ("stacked", _ORDER, "top", "middle", "bottom", "biggest", "largest",
                         "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
@@ -198,6 +199,7 @@ def _said(node: object) -> Iterator[str]:
         case Things(phrases=phrases, either=either):
             yield from ("either", "any", "both") if either else ()
             yield from ("both", _ORDER) if len(phrases) > 1 else ()
+            yield from ("all",) if len(phrases) > 2 else ()  # "the cup, the jar and the tin all"
         case _:
             return
 

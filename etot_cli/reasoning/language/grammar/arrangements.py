@@ -8,6 +8,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, INTO, ONTO
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -30,7 +31,12 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import basic_color, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
+    basic_color,
+    is_descriptive,
+    singular,
+)
 
 REORIENT = either(
     sequence(
@@ -77,12 +83,35 @@ def _with_nouns(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
     )
 
 
-def _of_its_ends(base: Any, ends: Any) -> tuple[TowerClause, ...]:
+_A_TOWER = sequence(
+    f"{verbs.BUILD}, {verbs.WANT}",
+    "a tower, a stack, a pile",
+    optional(
+        sequence("of [the]", one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ())),
+        (0, ()),
+    ),
+)
+"""What is to be built, of how many things (0: not said) and how these are called."""
+
+
+def _announced(
+    tower: tuple[int, tuple[str, ...]], nps: tuple[NounPhrase, ...]
+) -> tuple[NounPhrase, ...] | None:
+    """The layers of a tower, by the noun that it was announced with; as many as were."""
+    count, words = tower
+    if count not in (0, len(nps)):
+        return None
+    nouns = [singular(word) for word in words[-1:]]
+    return tuple(np.called(*nouns) if nouns and np.is_elliptic else np for np in nps)
+
+
+def _of_its_ends(tower: Any, base: Any, ends: Any) -> tuple[TowerClause, ...]:
     """A tower of what is named, and one of all that are called so, where that is not all."""
-    nouns = [np.words[-1] for np, _ in ends if len(np.words) > 1]
-    if len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
+    named = _announced(tower, tuple(np for np, _ in ends))
+    if named is None or len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
         return ()
-    nps = _with_nouns(tuple(np for np, _ in ends))
+    nouns = [np.words[-1] for np in named if len(np.words) > 1 and not tower[0]]
+    nps = _with_nouns(named)
     full = [(np, end) for np, (_, end) in zip(nps, ends, strict=True)]
     every = NounPhrase("all", (f"{nouns[0]}s",), text=f"all {nouns[0]}s") if nouns else None
     wholes = [Things(nps), *([Things((every,))] if every else [])]
@@ -158,7 +187,7 @@ _TOWER_ENDS = optional(
     ),
     None,
 )
-TOWER = either(
+_TOWER = either(
     sequence(
         # "Stack the red block on the green one on the blue one"
         verbs.STACK,
@@ -207,22 +236,21 @@ TOWER = either(
     ),
     variants(
         sequence(
-            verbs.BUILD,
-            "a tower, a stack, a pile",
+            _A_TOWER,
             optional(DESTINATIONS, ()),
             _SO,
             _ENDS,
-            build=lambda base, ends: (base, ends),
+            build=lambda *found: found,
         ),
         lambda found: _of_its_ends(*found),
     ),
-    sequence(
-        verbs.BUILD,
-        "a tower, a stack, a pile",
-        optional(DESTINATIONS, ()),
-        optional(_SO),
-        _LAYERS,
-        build=lambda base, nps: TowerClause(Things(nps), upward=True, base=base),
+    variants(
+        sequence(_A_TOWER, optional(DESTINATIONS, ()), optional(_SO), _LAYERS),
+        lambda found: [
+            TowerClause(Things(nps), upward=True, base=found[1])
+            for nps in [_announced(found[0], found[2])]
+            if nps is not None
+        ],
     ),
     sequence(
         either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
@@ -231,6 +259,16 @@ TOWER = either(
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),
 )
+
+
+def _based(base: tuple[Destination, ...], tower: TowerClause) -> TowerClause | None:
+    """A tower of several things on what is named before it ("on the tray, build a tower …")."""
+    (np, *more) = tower.things.phrases
+    several = more or singular(np.head) != np.head
+    return replace(tower, base=base) if several and not tower.base else None
+
+
+TOWER = either(_TOWER, sequence(DESTINATIONS, OPTIONAL_COMMA, _TOWER, build=_based))
 _IN_ITS_PLACE = sequence(
     noun_phrase,
     "[to] where",
@@ -251,10 +289,13 @@ def _exchanged(
     return SwapClause(Things(there), back=back) if alike else None
 
 
-_THE_PLACE = either(
-    sequence("in [the] place of", noun_phrase),
-    phrase("in its place", NounPhrase(pronoun="it", text="its")),
-    phrase("in (his|her) place", NounPhrase(pronoun="him", text="its")),
+_THE_PLACE = sequence(
+    optional("[in|on] there"),
+    either(
+        sequence("in [the] place of", noun_phrase),
+        phrase("in its place", NounPhrase(pronoun="it", text="its")),
+        phrase("in (his|her) place", NounPhrase(pronoun="him", text="its")),
+    ),
 )
 
 

@@ -14,24 +14,26 @@ from etot_cli.reasoning.language.grammar.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so
+from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Part,
     either,
     optional,
+    remembered,
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.past import EARLIER, SO_BY_THEN
+from etot_cli.reasoning.language.grammar.past import EARLIER
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, SHUT, states
+from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
     Destination,
     EnsureClause,
+    NounPhrase,
     PutClause,
     Things,
 )
@@ -64,6 +66,12 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+_SO = sequence(
+    # "…, which should be closed afterwards": what was named last
+    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
+    OPEN_OR_CLOSED,
+    build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
+)
 JOINED = either(
     joint("and", either(COMMA, LIST), LEFT_SO),
     joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
@@ -72,11 +80,11 @@ JOINED = either(
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
-    joint("after", OPTIONAL_COMMA, "[but] not (before|until)", plain(SO_BY_THEN)),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     joint("emptied", LIST, PLACED),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    joint("and", COMMA, timed(_SO)),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(
         "then",
@@ -164,4 +172,4 @@ def chained(first: Reading, more: Joined) -> Reading | None:
 GOES_ON = some(either(JOINED, joint("listed", LIST, HEADLINE)), most=12)
 """What may follow a clause without a verb."""
 BARE_CHAIN = sequence(HEADLINE, GOES_ON, build=chained)
-CHAIN = sequence(LED_CLAUSE, some(JOINED, most=12), build=chained)
+CHAIN = remembered(sequence(LED_CLAUSE, some(JOINED, most=12), build=chained))

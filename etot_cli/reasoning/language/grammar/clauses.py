@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import takewhile
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
@@ -11,12 +12,12 @@ from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIO
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
-    EMPTY_AND_SO,
     NEITHER,
     ONLY_THESE,
     bared,
     with_others,
 )
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
@@ -24,10 +25,9 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     ONLY_THOSE,
     excepting,
     exceptions,
-    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.moves import MOVE
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
+from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
@@ -51,7 +52,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
-    Destination,
     EnsureClause,
     Modifier,
     MoveClause,
@@ -61,9 +61,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     RemoveClause,
     Things,
-    Toward,
     TowerClause,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import (
     COVER,
@@ -72,22 +70,14 @@ from etot_cli.reasoning.language.grammar.taking import (
     HAND_OVER,
     PICK,
     REMOVE,
-    SOURCE,
 )
+from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.places import Prep
-
-
-def _wanted_in_hand(things: Things) -> PickClause | None:
-    """Who wants something off the tray does not say that it is to be held, nor who wants all."""
-    away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
-    said = {word for np in things.phrases for word in np.determiner.split()}
-    every = {"all", "both", "each", "every"} & said
-    return None if away or every else PickClause(things, wanted=True)
 
 
 def _is_one(np: NounPhrase) -> bool:
@@ -97,39 +87,6 @@ def _is_one(np: NounPhrase) -> bool:
     return known and not (several or is_category(np.head))
 
 
-WANTED = either(
-    sequence(
-        either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
-        DESTINATIONS,
-        build=put_to,
-    ),
-    sequence(
-        either(sequence("have, let", ALL_THINGS, "join"), sequence(ALL_THINGS, verbs.JOIN)),
-        noun_phrase,
-        build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
-    ),
-    sequence(
-        # "The pen I want in the cup"
-        ALL_THINGS,
-        verbs.WANTED,
-        optional("it, them"),
-        DESTINATIONS,
-        build=put_to,
-    ),
-    sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
-    sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
-    sequence(
-        ALL_THINGS,
-        f"{verbs.MODAL}, {verbs.COME_AWAY}",
-        optional("gone"),
-        SOURCE,
-        build=RemoveClause,
-    ),
-    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
-    sequence(
-        verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
-    ),
-)
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
     sequence(
@@ -138,7 +95,12 @@ AGAIN = either(
         small_words.ALSO,
         build=lambda things: AgainClause(things, trailing=True),
     ),
-    sequence("add[ing]", THINGS, optional(small_words.ALSO), build=AgainClause),
+    sequence(
+        "add[ing]",
+        THINGS,
+        optional(small_words.ALSO),
+        build=lambda things: AgainClause(things, added=True),
+    ),
 )
 
 
@@ -245,7 +207,7 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
@@ -256,7 +218,7 @@ CLAUSE = located(
             _ASKED,
             variants(sequence(_ASKED, OPTIONAL_COMMA, LEFT_OUT), _excluding_some),
             sequence(
-                either(PUT, ENSURE, AGAIN),
+                either(PUT, ENSURE, AGAIN, WISHED, TOLD_APART),
                 OPTIONAL_COMMA,
                 either(CONTRASTED, APPOSED),
                 build=of_the_things,
@@ -288,9 +250,15 @@ ORDER_WORDS = one_of(
         Order.THEN: small_words.LEADING_THEN,
     }
 )
-_OPINION = Parser(
-    lambda given, at: [(at, NOTHING)] if {"should", "would", "ought"} & {*given.words[at:]} else []
-)
+_OUGHT = {"should", "would", "ought", "could", "needs"}
+
+
+def _is_wish(given: Input, at: int) -> list[Result]:
+    said = [*takewhile(lambda word: word != COMMA, given.words[at:])]
+    return [(at, NOTHING)] if _OUGHT & {*said} else []
+
+
+_OPINION = Parser(_is_wish)
 """Before a wish in such words; that something belongs somewhere is but thought."""
 _DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
 _BEFORE_A_VERB = Parser(
@@ -303,7 +271,7 @@ LEAD = sequence(
         either(
             small_words.FRAMES,
             sequence("do", _BEFORE_A_VERB),
-            sequence("i (think|believe|guess|suppose|reckon|feel) [that]", _OPINION),
+            sequence(small_words.I_THINK, _OPINION),
             small_words.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
@@ -328,13 +296,12 @@ def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
 
 LED_CLAUSE = Rule(
     either(
-        sequence(LEAD, BOTH_WAYS, build=lambda orders, said: None if orders else said),
-        sequence(LEAD, CLAUSE, build=_spoken),
         sequence(
             LEAD,
-            either(ONLY_THESE, EMPTY_AND_SO),
+            either(BOTH_WAYS, ONLY_THESE),
             build=lambda orders, said: None if orders else said,
         ),
+        sequence(LEAD, CLAUSE, build=_spoken),
         plain(
             sequence(
                 NEITHER,

@@ -10,10 +10,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
-from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
 
 _BEFORE_THINGS = word_set(
     "the a an my your its their our this that these those both all every each another"
@@ -26,23 +26,30 @@ _BEFORE_PLACES = {
         )
     )
 } - {"left", "right"}
-_SEQUEL = word_set("first before then after afterwards last finally also too instead as")
+_SETTING = words_of((verbs.SET_DOWN,))
+_VERBS = VERB_WORDS | {"open", "shut", "empty"}
+_SEQUEL = word_set("first before then after afterwards last finally also too as")
 """With such a word a whole sentence takes back none."""
 _JOINTS = word_set("and or then ,")
 _NEXT = "|".join(sorted(_BEFORE_THINGS))
-_AGAIN = f"i mean|i meant|scratch that|make that(?= (?:{_NEXT}) )"
+_PLACES = "|".join(sorted(_BEFORE_PLACES))
+_AGAIN = f"i mean|i meant|scratch that|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
 _ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
+_OH = "(?:oh|ah|actually|well|hm+),? "
 _MARK = re.compile(
     r"[\s,.!?;]{0,4}(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
     r"|\b(?:i mean|i meant|or (?:rather|better|no)|scratch that|on second thoughts?)\b"
-    rf"|(?<=[,.!?;\n] )(?:{_ALONE})(?=\s*[,.!?;\n])"
+    rf"|(?<=[,.!?;\n] )(?:{_OH})?(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
+    rf"|(?<=[.!?;\n] )actually(?=,? (?:{'|'.join(sorted(_VERBS))})\b)"
     # "Sorry, could you …" is but polite.
-    rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{'|'.join(sorted(_BEFORE_PLACES))}) )"
-    r")[\s,.!?;]*"
+    rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
+    rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
 )
+_ALL_OF_IT = re.compile(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
+"""What takes back a whole clause, whatever comes in its place."""
 MOST_WAYS = 5
 """Phrases that may be taken back at once; of more nobody knows which one is."""
 _TOKEN = re.compile(r"\d+\.\d+|[^\s,.!?;]+|[,.!?;\n]")
@@ -63,12 +70,13 @@ class TakenBack:
 def mark_in(text: str) -> re.Match[str] | None:
     """The first words of a normalized text that take something back."""
     found = _MARK.search(text, 1)
-    return found if found and found.end() < len(text) and found.start() else None
+    known = found and (found.end() < len(text) or _ALL_OF_IT.search(found[0]))
+    return found if found and known and found.start() else None
 
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     """All ways to understand what is taken back; none where more than one thing is."""
-    if _MARK.search(text, mark.end()):
+    if _MARK.search(text, mark.end()) or mark.end() == len(text):
         return
     before, after = (
         tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
@@ -79,7 +87,16 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
-    spans = list(_spans(tail, said, after[:stop]))
+    if (
+        said[1:2] in (("it",), ("them",))
+        and {*said[:1]} & _SETTING
+        and {*said[2:3]} & _BEFORE_PLACES
+    ):
+        said = said[2:]  # "on the tray. Actually, put it in the box"
+    sentence = after[:stop]
+    everything = bool(_ALL_OF_IT.search(mark[0]))
+    whole = not start and (everything or "instead" in sentence)
+    spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
     if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
         told = [span for span in spans if any(map(is_descriptive, tail[slice(*span)]))]
@@ -91,15 +108,32 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
         new = (*said[:-1], taken[-1]) if noun else said
+        new = new[:-1] if new[-1] == "instead" else new
+        mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
+        if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
+            new = (*new[:-1], *taken[mark_at:])
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = " ".join((*before[:start], *tail[:first], *new, *kept, *more))
             yield TakenBack(" ".join(taken), " ".join(new), re.sub(r" (?=[,.!?;])", "", words))
 
 
 def _spans(
-    tail: Sequence[str], said: Sequence[str], sentence: Sequence[str]
+    tail: Sequence[str],
+    said: Sequence[str],
+    sentence: Sequence[str],
+    *,
+    everything: bool,
+    whole: bool,
 ) -> Iterator[tuple[int, int]]:
-    """The words of the same sort as what is said instead."""
+    """The words of the same sort as what is said instead.
+
+    Args:
+        tail: the sentence that something of is taken back.
+        said: what is said instead.
+        sentence: with what follows it.
+        everything: ``tail`` is taken back, as much as it asks for.
+        whole: that may have another verb than what is said instead.
+    """
     size = len(tail)
     joints = [at for at, word in enumerate(tail) if word in _JOINTS]
     where = [at for at, word in enumerate(tail) if at and word in _BEFORE_PLACES]
@@ -107,13 +141,14 @@ def _spans(
     if tail and is_descriptive(tail[0]):
         things.insert(0, 0)  # "black pen in the tray"
     begin = said[0]
-    if begin in VERB_WORDS:
+    if begin in _VERBS:
         clauses = (0, *(at + 1 for at in joints))
-        yield from (
-            (at, size)
-            for at in clauses
-            if tail[at : at + 1] == (begin,) and not _SEQUEL & {*sentence}
-        )
+        for at in () if _SEQUEL & {*sentence} else clauses:
+            # "Put the cup on the tray and the jar on the mat. No, put …": either of them, or both?
+            one = everything or not _JOINTS & {*tail[at:]}
+            alike = tail[at : at + 1] == (begin,) and "instead" not in sentence
+            if one and (alike or (whole and _VERBS & {*tail[at : at + 1]})):
+                yield (at, size)
     elif begin in _BEFORE_PLACES:
         yield from (
             (at, size)

@@ -14,8 +14,8 @@ from etot_cli.reasoning.language.grammar.common import (
     alternatives,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.levels import AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -27,7 +27,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     spanned,
     valued,
-    word,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
@@ -37,7 +36,6 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -51,8 +49,6 @@ ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
-THAT = NounPhrase(pronoun="it", text="where it is")
-"""What is to go to another level, which is counted from where it is."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
 TARGETS = sequence(
@@ -172,55 +168,6 @@ _top_of = sequence(
     "top, surface",
     build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
-_level = sequence(
-    # "In the safe on the bottom shelf"
-    f"{places.INTO}, {places.ONTO}",
-    noun_phrase,
-    one_of({Toward.ON: "on the", Toward.INSIDE: "in the"}),
-    LEVEL,
-    build=lambda owner, toward, level: (
-        None
-        if owner.modifiers or owner.pronoun or owner.head in DESK_NOUNS
-        else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
-    ),
-)
-
-
-def _level_by(text: str, said: tuple[str, Prep]) -> Destination:
-    """The next level above or below a thing."""
-    noun, prep = said
-    aside = Modifier(prep, (THAT,), tuple(text.split()))
-    return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
-
-
-_LEVEL_NOUN = word(lambda _, text: text in (*BOARD_NOUNS, "drawer"))
-_next_level = spanned(
-    # "One board up", "to the shelf below"
-    either(
-        sequence(
-            "one, 1, a, [(on|in|to|into|onto)] the next",
-            _LEVEL_NOUN,
-            one_of(
-                {
-                    Prep.ABOVE: "[further] up, higher [up]",
-                    Prep.UNDER: "[further] down, lower [down]",
-                }
-            ),
-        ),
-        sequence(
-            one_of({Prep.ABOVE: "up", Prep.UNDER: "down"}),
-            "one, a",
-            _LEVEL_NOUN,
-            build=lambda prep, noun: (noun, prep),
-        ),
-        sequence(
-            "(on|in|to|into|onto) the",
-            _LEVEL_NOUN,
-            one_of({Prep.ABOVE: "above, higher up", Prep.UNDER: "below, lower down"}),
-        ),
-    ),
-    _level_by,
-)
 _with = spanned(
     either(
         sequence(
@@ -237,52 +184,50 @@ _with = spanned(
     ),
     lambda text, np: Destination(Toward.WITH, (np,), text),
 )
-destination = Rule(
-    either(
-        INTO,
-        ONTO,
-        _AT_END,
-        OVER,
-        _to,
-        _top_of,
-        _level,
-        _next_level,
-        _with,
-        valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
-        valued(
-            phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")
+_place = either(
+    INTO,
+    ONTO,
+    _AT_END,
+    OVER,
+    _to,
+    _top_of,
+    AT_LEVEL,
+    NEXT_LEVEL,
+    _with,
+    valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
+    valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
+    valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
+    valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
+    sequence(
+        _ABREAST,
+        BESIDES,
+        build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
+    ),
+    sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
+    sequence(
+        either(ONTO, _to, INTO),
+        OPTIONAL_COMMA,
+        optional(places.SOMEWHERE),
+        BESIDES,
+        build=lambda surface, found: replace(surface, beside=found),
+    ),
+    sequence(
+        # "On the table, left side"
+        either(ONTO, _to, INTO),
+        COMMA,
+        optional("the"),
+        spanned(_REGION_OF_IT, lambda text, found: (found, text)),
+        build=lambda surface, said: replace(
+            surface, beside=tuple(Beside(near, text=said[1]) for near in said[0])
         ),
-        valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
-        valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
-        sequence(
-            _ABREAST,
-            BESIDES,
-            build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
-        ),
-        sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
-        sequence(
-            either(ONTO, _to, INTO),
-            OPTIONAL_COMMA,
-            BESIDES,
-            build=lambda surface, found: replace(surface, beside=found),
-        ),
-        sequence(
-            # "On the table, left side"
-            either(ONTO, _to, INTO),
-            COMMA,
-            optional("the"),
-            spanned(_REGION_OF_IT, lambda text, found: (found, text)),
-            build=lambda surface, said: replace(
-                surface, beside=tuple(Beside(near, text=said[1]) for near in said[0])
-            ),
-        ),
-        sequence(
-            either(_ABREAST, sequence(BESIDES, COMMA)),
-            either(ONTO, _to, INTO),
-            build=lambda found, surface: replace(surface, beside=found),
-        ),
-    )
+    ),
+    sequence(
+        either(_ABREAST, sequence(BESIDES, COMMA)),
+        either(ONTO, _to, INTO),
+        build=lambda found, surface: replace(surface, beside=found),
+    ),
 )
+destination = Rule(sequence(optional(places.SOMEWHERE), _place))
 _any_of_them = separated(destination, small_words.OR, most=5)
 DESTINATIONS = Rule(
     either(

@@ -7,7 +7,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     located,
@@ -18,22 +18,18 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
 )
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
-    EnsureClause,
     MoveClause,
     NounPhrase,
     PutClause,
     RemoveClause,
-    State,
     Things,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import emptied
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import small_words, verbs
 
 
 def bared(
@@ -53,24 +49,6 @@ def with_others(
     """What goes somewhere, and then others beside it."""
     at, clause = put
     return None if orders else (Spoken(clause, at), Spoken(more[1], more[0]))
-
-
-EMPTY_AND_SO = located(
-    sequence(
-        either(sequence(ALL_THINGS, verbs.MODAL), sequence(verbs.WANTED, ALL_THINGS)),
-        either(
-            sequence(manner.EMPTIED, "and", OPEN_OR_CLOSED),
-            sequence(OPEN_OR_CLOSED, "and", manner.EMPTIED),
-        ),
-        optional(small_words.TRAILING_LAST),
-        build=lambda things, word: (
-            emptied(things),
-            EnsureClause((State(things.phrases, word=word),)),
-        ),
-    ),
-    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
-)
-"""How something is to be in the end, in two words ("empty and closed")."""
 
 
 def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Clause, ...] | None:

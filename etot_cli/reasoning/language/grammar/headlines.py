@@ -7,20 +7,18 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.clauses import (
     INSTEAD,
     LEFT_OUT,
-    Reading,
     of_the_things,
     plain,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, noun_phrase
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     Rule,
     either,
     one_of,
     optional,
-    quiet,
-    separated,
     sequence,
 )
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
@@ -28,15 +26,11 @@ from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
-    Destination,
     EnsureClause,
     NounPhrase,
-    PutClause,
-    PutGroup,
     RemoveClause,
     State,
     Things,
-    Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import emptied
 from etot_cli.reasoning.language.grammar.topics import sources
@@ -74,65 +68,43 @@ def lacks_verb(clause: Clause) -> bool:
 
 
 _IS = either(COMMA, "to")
-_INSTEAD = optional(INSTEAD, False)
 _WHEN = optional(
-    one_of({Order.FIRST: small_words.TRAILING_FIRST, Order.LAST: small_words.TRAILING_LAST}),
+    one_of(
+        {
+            Order.FIRST: small_words.TRAILING_FIRST,
+            Order.LAST: small_words.TRAILING_LAST,
+            Order.THEN: small_words.TRAILING_THEN,
+        }
+    ),
     Order.SAID,
 )
 
 
-def _clause(reading: Reading, instead: bool, order: Order) -> Reading:
-    return (replace(reading[0], instead=instead, order=order),)
+def timed(*clauses: Parser) -> Parser:
+    """Any of some clauses, with a word for when, or for what it is done instead of."""
+    return sequence(
+        plain(either(*clauses)),
+        optional(INSTEAD, False),
+        _WHEN,
+        build=lambda reading, instead, order: (replace(reading[0], instead=instead, order=order),),
+    )
 
 
 LEFT_SO = Rule(
-    sequence(
-        plain(
-            either(
-                sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
-                sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
-                sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
-            )
-        ),
-        _INSTEAD,
-        _WHEN,
-        build=_clause,
+    timed(
+        sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
+        sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
+        sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
     )
 )
 """How something is to be in the end ("drawer shut")."""
 PLACED = Rule(
-    sequence(
-        plain(
-            either(
-                VERBLESS,
-                sequence(
-                    VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things
-                ),
-                sequence(ALL_THINGS, build=taken_out),
-                sequence(ALL_THINGS, "out", build=RemoveClause),
-            )
-        ),
-        _INSTEAD,
-        _WHEN,
-        build=_clause,
+    timed(
+        VERBLESS,
+        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
+        sequence(ALL_THINGS, build=taken_out),
+        sequence(ALL_THINGS, "out, off", build=RemoveClause),
     )
 )
 """Where things go, or are taken from."""
 HEADLINE = either(PLACED, LEFT_SO)
-PAIRS = quiet(
-    sequence(
-        separated(
-            sequence(
-                noun_phrase,
-                noun_phrase,
-                build=lambda np, place: PutGroup(
-                    Things((np,)), (Destination(Toward.TO, (place,)),)
-                ),
-            ),
-            LIST,
-            most=6,
-        ),
-        build=lambda groups: PutClause(groups) if groups[1:] else None,
-    )
-)
-"""Things and their places, with nothing in between ("sort: bolts left bin, nuts right bin")."""

@@ -64,7 +64,7 @@ def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
 
 
 BETWEEN = sequence(
-    "[in] between",
+    places.BETWEEN,
     noun_phrase,
     optional(sequence("and", noun_phrase), None),
     build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
@@ -106,6 +106,11 @@ PLAIN_MODIFIER = either(
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
     sequence(BETWEEN, build=_between),
+    sequence(
+        "outside [of]",
+        noun_phrase,
+        build=lambda np: Modifier(Prep.IN, (np,), ("outside",), denied=True),
+    ),
     sequence(nouns.SAME_COLOR, noun_phrase, build=lambda np: Modifier(Prep.COLORED, (np,))),
     valued(SIDE, _at_side),
     spanned(either(one_of(places.AREAS), _NEAREST_AREA), _in_area),
@@ -117,6 +122,7 @@ PLAIN_MODIFIER = either(
 )
 _INSIDE_IT = "inside, in there, in, (inside|in) (it|them|which)"
 _UPON_IT = "on [top of] (it|them), on top"
+_POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"
 
 
@@ -177,15 +183,14 @@ _contents = either(
             optional("that, which"),
             noun_phrase,
             either(
-                phrase("is, are, stands, stand, lies, lie, sits, sit", ()),
-                phrase("was, were, stood, lay, sat", (HERE_BEFORE,)),
+                phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
+                phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
             ),
-            optional("currently"),
             optional(phrase("not", True), False),
-            one_of({Prep.CONTAINING: "in", Prep.BEARING: "on"}),
+            spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
             # "The cup that is not on" is one that nothing is said of.
-            build=lambda np, words, denied, prep: (
-                None if np.text == "that" else Modifier(prep, (np,), words, denied)
+            build=lambda np, words, denied, at: (
+                None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
             ),
         )
     ),
@@ -210,8 +215,8 @@ _none_of = valued(
 
 
 def _denied(modifier: Modifier) -> Modifier | None:
-    """What is not so; "the right not of the cup" is no English."""
-    return None if modifier.prep is Prep.OF else replace(modifier, denied=True)
+    """What is not so; "the right not of the cup" is no English, "not without a lid" is with one."""
+    return None if modifier.prep is Prep.OF else replace(modifier, denied=not modifier.denied)
 
 
 def _is_adjective(word: str) -> bool:
@@ -305,6 +310,12 @@ _modifier = either(
     _contents,
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
+    sequence(
+        # "The cup that is standing there"
+        nouns.RELATIVE,
+        "there",
+        build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
+    ),
     sequence(
         # "That is red and on the left"
         after("that", "which"),

@@ -107,6 +107,16 @@ _BY_HANDLE = either(
 MOVE = either(
     _PLAIN_MOVE,
     quiet(_BY_HANDLE),
+    *(
+        sequence(THINGS, said, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (("need[s] opening", True), ("need[s] (closing|shutting)", False))
+    ),
+    sequence(
+        # "Put the pen in and shut the door behind it"
+        _PLAIN_MOVE,
+        "behind (it|them)",
+        build=lambda moved: None if moved.opens else moved,
+    ),
     sequence(
         _PLAIN_MOVE,
         OPTIONAL_COMMA,

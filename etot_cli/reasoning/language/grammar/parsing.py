@@ -301,6 +301,11 @@ def spanned(parser: Parser, build: Callable[[str, Any], Any]) -> Parser:
     )
 
 
+def remembered(parser: Parser) -> Parser:
+    """Worked out once at every position, for what several others begin with."""
+    return Parser(_remembered(parser.find), lambda: parser.first)
+
+
 def quiet(parser: Parser) -> Parser:
     """As a guess: how far it got without success does not count as understood."""
 

@@ -1,21 +1,19 @@
-"""Rules for what has been done by then, and for what it would be nice if somebody did."""
+"""Rules for what has been done by then: "once the pen is in the box, …"."""
 
 from __future__ import annotations
 
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, plain
-from etot_cli.reasoning.language.grammar.common import LIST
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
-    separated,
     sequence,
     silent,
 )
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     MoveClause,
@@ -35,7 +33,7 @@ SO = sequence(
     build=lambda things, word: MoveClause(things, word == "open"),
 )
 _TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
-SO_BY_THEN = either(
+_SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
         f"{verbs.BE}, {small_words.GONE}, (is|are) out of the way",
@@ -94,21 +92,6 @@ _HAVING_DONE = either(
 EARLIER = either(
     sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
     sequence("having", plain(_HAVING_DONE)),
-    sequence("[but] [only] (once|after|when|as soon as)", plain(SO_BY_THEN)),
+    sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
 )
 """What comes before the rest of a sentence."""
-WISHED = either(
-    sequence(
-        f"({small_words.WOULD_BE_NICE}) if you",
-        separated(plain(_HAVING_DONE), LIST, most=4),
-        build=lambda said: sum(said, ()),
-    ),
-    plain(
-        sequence(
-            f"({small_words.WOULD_BE_NICE}) if",
-            separated(sequence(NP_LIST, verbs.WERE, PREDICATE, build=state_of), LIST, most=4),
-            build=EnsureClause,
-        )
-    ),
-)
-"""In the past tense of a wish."""

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.coordination import all_of
-from etot_cli.reasoning.language.grammar.destinations import WHERE
+from etot_cli.reasoning.language.grammar.destinations import FILLED, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS, WORDS
+from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -31,13 +32,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words.lexicon import singular
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 
 _PARTICLE = """
-    down, up, away, back, over, out, inside, somewhere, anywhere, some place, out of the way,
+    down, up, away, back, over, out, inside, out of the way,
     one (by one|at a time|after the other|after another)
 """
 
@@ -45,6 +47,8 @@ _PARTICLE = """
 def _quantified(things: Things, said: str) -> Things | None:
     """Things of which it is said before the place that each of them, or all, go there."""
     nps = tuple(all_of((np,), said) for np in things.phrases)
+    if len(nps) > 1 and all(singular(np.head) == np.head for np in things.phrases):
+        nps = tuple((np,) for np in things.phrases)  # "the cup and the jar both"
     several = len(nps) > 1 or nps[0] != things.phrases[:1]
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
@@ -66,7 +70,6 @@ _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
     _ASIDE,
-    optional("somewhere, anywhere"),
     WHERE,
     silent(optional(manner.LET_GO, "")),
     silent(optional(sequence(OPTIONAL_COMMA, "contents and all"), "")),
@@ -88,7 +91,7 @@ PUT_GROUP = either(
             THINGS,
             COLON,
             noun_phrase,
-            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,)),)),
+            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,), FILLED),)),
         )
     ),
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),

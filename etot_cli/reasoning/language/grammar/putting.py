@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
+    FILLED,
     INSTEAD,
     INTO,
     ONTO,
@@ -40,11 +41,9 @@ from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIR
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
-    EnsureClause,
     NounPhrase,
     PutClause,
     PutGroup,
-    State,
     Things,
     Toward,
     put_to,
@@ -57,7 +56,6 @@ from etot_cli.reasoning.language.grammar.word_order import (
     FOLLOWING,
     FRONTED,
     NAMED_BEHIND,
-    ONLY_ONE_THERE,
     SAID_AHEAD,
 )
 from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
@@ -156,19 +154,16 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
-def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
-    """Where things have their place."""
-    return EnsureClause((State(things.phrases, where),))
-
-
-OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, DESTINATIONS)))
+OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
 PUT = either(
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(
-        ALL_THINGS,
-        verbs.MODAL,
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
+        ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
         build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
@@ -181,7 +176,9 @@ PUT = either(
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
-    sequence(ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down)", DIRECTED, build=put_to),
+    sequence(
+        ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
+    ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
         ALL_THINGS,
@@ -238,25 +235,6 @@ PUT = either(
         )
     ),
     sequence(
-        # "The spoon's home is the drawer"
-        ALL_THINGS,
-        "'s (home|place|spot) is",
-        either(
-            DESTINATIONS,
-            sequence(noun_phrase, build=lambda np: (Destination(Toward.TO, (np,)),)),
-        ),
-        build=_belonging,
-    ),
-    sequence(
-        # "The drawer is where the spoon lives"
-        noun_phrase,
-        either(
-            sequence("is where", ALL_THINGS, verbs.BELONG),
-            sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
-        ),
-        build=lambda np, things: _belonging(things, (Destination(Toward.TO, (np,)),)),
-    ),
-    sequence(
         "(finish|complete|top|crown|extend) [off|up]",
         noun_phrase,
         "with",
@@ -270,7 +248,6 @@ PUT = either(
     FOLLOWING,
     NAMED_BEHIND,
     ALONG_WITH,
-    ONLY_ONE_THERE,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
@@ -330,7 +307,7 @@ def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
 
 def _listed(place: NounPhrase, things: Things) -> PutClause:
     """What a table says of a place; "teapot: tray" rather says where the teapot goes."""
-    return replace(put_to(things, (Destination(Toward.TO, (place,)),)), far_fetched=1)
+    return replace(put_to(things, (Destination(Toward.TO, (place,), FILLED),)), far_fetched=1)
 
 
 VERBLESS = either(

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.spelling import (
 )
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.text import (
+    COMMA,
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
@@ -26,9 +27,19 @@ from etot_cli.reasoning.language.grammar.text import (
     words_in,
 )
 from etot_cli.reasoning.language.grammar.trees import reading_cost
-from etot_cli.reasoning.language.words import known
+from etot_cli.reasoning.language.words import known, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
+from etot_cli.reasoning.language.words.small_words import LOOK_FOR
 
+_TOLD = sorted(
+    (tuple(said.split()) for said in spellings("[the|a|your] robot [arm|hand|gripper]")),
+    key=len,
+    reverse=True,
+)
+"""Before what it does, the longest first."""
+_DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
+_JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
 MAX_READINGS = 200
 """Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
@@ -109,7 +120,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []
-        plain = words_in(part)
+        plain = _asked(words_in(part), vocabulary)
         for word in plain:
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
@@ -124,6 +135,18 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     if common and not corrections:
         raise UnreadableError(text[:40], "", "no word of it is misspelt")
     return Read(tuple(sentences), tuple(corrections))
+
+
+def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...]:
+    """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it")."""
+    told = next((said for said in _TOLD if words[: len(said)] == said), ())
+    ahead = words[len(told) :]
+    said = [
+        singular(word) if before in _JOINTS and singular(word) in _DOING else word
+        for word, before in zip(ahead, (COMMA, *ahead), strict=False)
+    ]
+    narrated = told and "robot" not in vocabulary and [*ahead] != said
+    return tuple(said) if narrated and ahead[0] not in _DOING else words
 
 
 def is_known(word: str, vocabulary: Iterable[str]) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from operator import add
 
+from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
 from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
@@ -34,7 +35,7 @@ from etot_cli.reasoning.language.grammar.common import (
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, PLACED, lacks_verb, taken_out
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -42,12 +43,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
     complete,
     either,
     optional,
+    phrase,
     sequence,
     silent,
     some,
     valued,
+    variants,
 )
-from etot_cli.reasoning.language.grammar.past import EARLIER, SO, WISHED
+from etot_cli.reasoning.language.grammar.past import EARLIER, SO
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
@@ -68,10 +71,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
+    MAKING_ROOM,
     NAMED,
     SAID,
     about,
     all_put,
+    any_of_them,
+    done_there,
     each_sorted,
     for_a_reason,
     one_of_them,
@@ -118,7 +124,10 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
     return None
 
 
+_NOW = optional(small_words.BY_NOW)
+_AND = either(COMMA, "and, and then, then")
 _WITH_MORE_BEFORE_IT = either(
+    sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
     sequence(
         optional(small_words.LOOK_FOR),
         NAMED,
@@ -139,6 +148,13 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
+    sequence(
+        noun_phrase,
+        small_words.ANY_WILL_DO,
+        either(COMMA, "so, ~comma so"),
+        CHAIN,
+        build=any_of_them,
+    ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
@@ -151,11 +167,22 @@ _WITH_MORE_BEFORE_IT = either(
             build=_placed_there,
         )
     ),
+    sequence(
+        f"{verbs.SET_DOWN}, {verbs.FETCH}",
+        ALL_THINGS,
+        "out of the way",
+        _AND,
+        CHAIN,
+        build=out_of_the_way,
+    ),
+    variants(
+        sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
+        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
+    ),
+    sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
+    sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
-    sequence(
-        "tak(e|ing), grab[bing], get[ting], pick[ing] up", NAMED, COMMA, PLACED, build=each_sorted
-    ),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
     sequence(verbs.TIDY, NAMED, COMMA, PLACED, build=each_sorted),
@@ -171,8 +198,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         "tak(e|ing), get[ting], grab[bing], pick[ing] up",
         NAMED,
-        "and, and then, ~comma and",
-        CHAIN,
+        either(sequence(COMMA, PLACED), sequence("and, and then, ~comma and", CHAIN)),
         build=shared_out,
     ),
     sequence(verbs.TIDY_AWAY, NAMED, "[away|up] (~comma|and)", CHAIN, build=all_put),
@@ -184,7 +210,6 @@ _WITH_MORE_BEFORE_IT = either(
         optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
         build=add,
     ),
-    WISHED,
     sequence(
         "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
     ),
@@ -221,7 +246,6 @@ SENTENCE = either(
     plain(
         sequence(
             # "Somewhere next to the plate will do"
-            optional("somewhere, anywhere"),
             DESTINATIONS,
             "will do, is fine, would be fine, is ok, is okay, is good, works",
             build=lambda where: AgainClause(None, trailing=True, destinations=where),
@@ -238,7 +262,7 @@ _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
 _BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
-    sequence(SENTENCE, _END, optional(QUESTION)),
+    sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
     sequence(
         _GREETING,
         either(

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -46,7 +47,7 @@ _NOT_SO = sequence(
 )
 SO = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, sequence(optional("somewhere, anywhere"), WHERE))
+PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
 """How things are to be."""
 
 
@@ -116,17 +117,24 @@ def _each_so(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> State | 
     return None if said == "both" and one else state_of(all_of(nps, said), predicate)
 
 
-STATE = either(
-    sequence(
+def being(verb: str) -> Parser:
+    """How things are, by a verb for that."""
+    return sequence(
         NP_LIST,
-        verbs.BE,
+        verb,
         optional(phrase("both, all"), ""),
         PREDICATE,
         build=_each_so,
-    ),
-    _STAYS,
-    _contains("contains, holds"),
+    )
+
+
+_NOT_FALLING = sequence(
+    either(sequence(NP_LIST, verbs.NOT_FALL), sequence(verbs.DO_NOT, "let", NP_LIST, verbs.FALL)),
+    one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
+    noun_phrase,
+    build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
+STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds"))
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
@@ -240,16 +248,8 @@ ENSURE = either(
         optional("in it"),
         build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
     ),
-    sequence(
-        verbs.WISH_IF,
-        NP_LIST,
-        verbs.WISHED_SO,
-        optional(_EACH, ""),
-        PREDICATE,
-        build=lambda nps, said, predicate: _ensured(state_of(all_of(nps, said), predicate)),
-    ),
     valued(
-        either(sequence(optional("let"), _STAYS), _contains(verbs.CONTAIN)),
+        either(sequence(optional("let"), _STAYS), _NOT_FALLING, _contains(verbs.CONTAIN)),
         lambda state: EnsureClause((state,)),
     ),
     quiet(

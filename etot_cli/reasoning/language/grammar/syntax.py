@@ -319,6 +319,8 @@ class AgainClause:
 
     things: Things | None
     trailing: bool = False
+    added: bool = False
+    """They are added to what was spoken of."""
     destinations: tuple[Destination, ...] = ()
     """Where the same things go next ("…, then on the tray"); there are no ``things`` then, and
     ``trailing`` tells where to of what was only to be taken away ("… on the tray will do").

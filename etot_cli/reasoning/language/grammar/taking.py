@@ -121,7 +121,8 @@ REMOVE = either(
 )
 
 
-def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
+def contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
+    """What is in or on something, whatever it is."""
     modifier = Modifier(where, (np,), CLEARED if where is Prep.FROM else ())
     upon = where is Prep.ON or np.words[-1:] in _DESKS
     text = f"everything {'on' if upon else 'in'} {np.text}"
@@ -130,7 +131,7 @@ def _contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
 
 def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
     """What takes all out of things, and brings it somewhere."""
-    contents = Things(tuple(_contents_of(np, held) for np in things.phrases))
+    contents = Things(tuple(contents_of(np, held) for np in things.phrases))
     return RemoveClause(contents) if where is None else put_to(contents, where)
 
 
@@ -155,11 +156,11 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
-_CONTENTS_OF = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
+_ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 EMPTY = either(
     sequence(
         "empty[ing] [out], unload[ing]",
-        optional(_CONTENTS_OF),
+        optional(_ALL_THAT_IS),
         THINGS,
         optional(DESTINATIONS, None),
         build=emptied,

@@ -7,14 +7,15 @@ from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
-from etot_cli.reasoning.language.grammar.destinations import THAT
+from etot_cli.reasoning.language.grammar.levels import THAT
 from etot_cli.reasoning.language.grammar.modifiers import (
     ADJECTIVES,
     DESCRIBED,
     MODIFIERS,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS, WORDS
+from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
@@ -22,12 +23,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     spanned,
 )
+from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     EnsureClause,
     Modifier,
+    MoveClause,
     NounPhrase,
     PutClause,
+    RemoveClause,
     ReorientClause,
     Things,
     Toward,
@@ -35,7 +39,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
     is_descriptive,
+    matches_any,
     singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
@@ -58,6 +64,18 @@ def _identified(
     if not np.words or not (words or modifiers):
         return None
     return Things((replace(np.told_by(*modifiers), words=(*np.words[:-1], *words, np.head)),))
+
+
+def _all_of_any(np: NounPhrase) -> Things | None:
+    """All of which any will do."""
+    any_one = np.determiner in ("any", "either") and np.words
+    return Things((np.called(f"{np.head}s"),)) if any_one else None
+
+
+def _remark(said: str, things: Things) -> ReorientClause | None:
+    """What is said of things and asked of none; "any cup is fine" leaves a choice open."""
+    open_choice = any(np.determiner in ("any", "either") for np in things.phrases)
+    return None if open_choice else ReorientClause(things, only_named=True, remark=said)
 
 
 _STATED = either(
@@ -85,6 +103,11 @@ _STATED = either(
         ),
     ),
     sequence(
+        noun_phrase,
+        small_words.ANY_WILL_DO,
+        build=_all_of_any,
+    ),
+    sequence(
         f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS
     ),
 )
@@ -94,6 +117,11 @@ _REMARK = either(
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
 )
+MAKING_ROOM = spanned(
+    sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on", noun_phrase)))),
+    lambda said, things: ReorientClause(things, only_named=True, remark=said),
+)
+"""What something else is done for."""
 _ALREADY = sequence(
     noun_phrase,
     "is already, are already, 's already",
@@ -104,7 +132,7 @@ AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=Tru
 """How things are by now, before what is asked for in that case."""
 SAID = either(
     sequence(_STATED, build=partial(ReorientClause, only_named=True)),
-    spanned(_REMARK, lambda said, things: ReorientClause(things, only_named=True, remark=said)),
+    spanned(_REMARK, _remark),
     sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
 
@@ -126,28 +154,57 @@ def about(topic: Reading, rest: Reading) -> Reading | None:
     return (*topic, *rest) if spoken else one_of_them(topic, rest)
 
 
+def done_there(topic: Reading, rest: Reading) -> Reading | None:
+    """What is taken out of, or opened of, what the robot goes to ("go to the fridge, take out the
+    cup").
+    """
+    named, clause = topic[0].clause, rest[0].clause
+    place, *more = named.things.phrases if isinstance(named, ReorientClause) else ()
+    match clause:
+        case RemoveClause(source=None) if not (more or sources(clause.things)):
+            there: Clause = replace(clause, source=place)
+        case MoveClause(things=Things(phrases=(part,))) if not (more or part.owner):
+            if not (part.words and matches_any(part.head, sum(JOINT_NOUNS.values(), ()))):
+                return None
+            there = replace(clause, things=Things((replace(part, owner=place),)))
+        case _:
+            return None
+    return (*topic, replace(rest[0], clause=there), *rest[1:])
+
+
 def for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
     """What is done with one thing for what is said of it, in whatever words."""
     return (*topic, *rest) if {"it", "that", "them"} & {*pronouns(rest[0].clause)} else None
 
 
 def one_of_them(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are named before a clause speaks of one of them ("of the cups take the left
-    one").
+    """Several things are named before a clause speaks of some of them ("of the cups take the left
+    one", "… put one on the tray and the other in the sink").
     """
-    one = _are_several(topic[0].clause) and any(
-        isinstance(item, NounPhrase)
-        and item.determiner in ("the", "only the")
-        and (item.is_elliptic or (item.words and all(map(is_descriptive, item.words))))
-        for item in nodes(rest[0].clause)
-    )
-    return (*topic, *rest) if one else None
+    nps = [item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)]
+    some = _are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
+    return (*topic, *rest) if some else None
+
+
+def _is_one_of_them(np: NounPhrase) -> bool:
+    """Whether a phrase takes up a noun that was said before, or speaks of another one."""
+    adjectives = np.words and all(map(is_descriptive, np.words))
+    if np.determiner in ("the", "only the") and adjectives:
+        return True
+    noun_left_out = np.is_elliptic or not (np.words or np.pronoun)
+    return noun_left_out or "other" in np.determiner.split()
 
 
 def _are_several(topic: Clause) -> bool:
     """Whether several things are named."""
     nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
     return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
+
+
+def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
+    """Any of some things will do for what is to be done with "it"."""
+    put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
+    return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
 
 
 def each_sorted(topic: Reading, rest: Reading) -> Reading | None:

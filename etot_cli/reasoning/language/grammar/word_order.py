@@ -27,10 +27,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
-    EnsureClause,
     NounPhrase,
     PutClause,
-    State,
     Things,
     Toward,
     put_to,
@@ -120,18 +118,6 @@ def _named_behind(
     return put_to(Things(tuple(named), whole=whole), where)
 
 
-_THING = "(thing|things|one|ones|object|objects|item|items)"
-_THAT_GOES = "[(that|which) (go[es]|belong[s]|should (go|be|end up))]"
-_IS_TO_BE = "(is|are|should be|must be|has to be|needs to be|shall be)"
-
-
-def _only(things: Things, where: tuple[Destination, ...]) -> EnsureClause | None:
-    """What alone is to be there in the end."""
-    (first, *more) = things.phrases
-    alone = (replace(first, determiner="only the"), *more)
-    return None if things.either else EnsureClause((State(alone, where),))
-
-
 _ALL_THESE = ("the", "these", "those", "all", "all the")
 NAMED_BEHIND = quiet(
     sequence(
@@ -147,25 +133,6 @@ NAMED_BEHIND = quiet(
     )
 )
 """What goes somewhere is named one by one at the end."""
-ONLY_ONE_THERE = sequence(
-    # "The cup is the only thing that goes on the tray", "the only thing on the tray is the cup"
-    either(
-        sequence(
-            ALL_THINGS,
-            f"{_IS_TO_BE} the only {_THING} {_THAT_GOES}",
-            DESTINATIONS,
-            build=lambda things, where: (things, where),
-        ),
-        sequence(
-            f"the only {_THING} {_THAT_GOES}",
-            DESTINATIONS,
-            _IS_TO_BE,
-            ALL_THINGS,
-            build=lambda where, things: (things, where),
-        ),
-    ),
-    build=lambda said: _only(*said),
-)
 ALONG_WITH = sequence(
     verbs.PUT,
     NP_LIST,

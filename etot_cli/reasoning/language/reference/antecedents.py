@@ -31,6 +31,10 @@ class UnclearLandmark(AmbiguousReference):
     """
 
 
+class NothingThere(ReferenceProblem):
+    """Words for all that is somewhere, from where it has been moved."""
+
+
 @dataclass(frozen=True, slots=True)
 class Mention:
     """A referent spoken of in a clause, in a role."""
@@ -49,3 +53,5 @@ class Mention:
     """Its words for a side or size that tell one thing from no other."""
     either: bool = False
     """It is one of several phrases ("the apple or the pear")."""
+    collective: bool = False
+    """It speaks of ``several`` in the singular ("the fruit", "each cup"), as "it" may do again."""

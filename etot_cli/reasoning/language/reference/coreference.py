@@ -6,11 +6,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Place, Relation
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.modified import names_of_things
 from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.reasoning.language.reference.spoken_of import (
+    TARGETS,
+    are_several,
+    clauses_of,
+    fits,
+    mentioned_in,
+    openable,
+)
 from etot_cli.reasoning.language.words import categories
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
@@ -83,17 +91,19 @@ def meant_by_it(
         AmbiguousReference: several things are as likely to be meant.
         ReferenceProblem: nothing before it fits.
     """
-    if role in (Role.SURFACE, Role.CONTAINER, Role.PLACE):
+    if role in TARGETS:
         # "Close the box after putting the cup beside the tray in it": not in the tray.
         told_by = {*_telling(discourse)} - {*excluded}
         if told_by:
             with suppress(ReferenceProblem):
                 excluded_too = (*excluded, *told_by)
                 return meant_by_it(discourse, role, text, excluded_too, topmost=topmost)
-    for clause in _clauses(discourse):
+    for clause in clauses_of(discourse):
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]
-        acted_on, places, landmarks = _mentioned_in(discourse, clause, role, excluded)
+        acted_on, places, landmarks = mentioned_in(discourse, clause, role, excluded)
+        if any(are_several(discourse, i) for i in acted_on if role in TARGETS):
+            raise ReferenceProblem(text, UNCLEAR, 2)  # "take each cup off its saucer, and …"
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
@@ -116,7 +126,7 @@ def meant_by_it(
                 rooms = [
                     index
                     for index in last
-                    if role is Role.CONTAINER and _fits(discourse, index, role)
+                    if role is Role.CONTAINER and fits(discourse, index, role)
                     if not known & {*discourse.things(index)}
                 ]
                 others = [
@@ -162,8 +172,8 @@ def _earlier(
     discourse: Discourse, clause: int, role: Role, excluded: Sequence[int]
 ) -> tuple[int, ...]:
     """What the latest clause before one acted on, or where something went to there."""
-    for before in _clauses(discourse):
-        acted_on, places, _ = _mentioned_in(discourse, before, role, excluded)
+    for before in clauses_of(discourse):
+        acted_on, places, _ = mentioned_in(discourse, before, role, excluded)
         if before < clause and (acted_on or places):
             return acted_on or places
     return ()
@@ -196,65 +206,8 @@ def _whatever(discourse: Discourse, clause: int) -> tuple[int, ...]:
         for mention in discourse.mentions
         if mention.clause == clause
         and mention.whatever
-        and any(len(option) > 1 for option in discourse.referents[mention.referent].options)
+        and are_several(discourse, mention.referent)
     )
-
-
-def openable(discourse: Discourse) -> tuple[int, ...]:
-    """All drawers and doors that were spoken of, in whatever role."""
-    spoken = dict.fromkeys(mention.referent for mention in discourse.mentions)
-    return tuple(
-        index
-        for index in spoken
-        if all(can_be(thing, Role.PART, discourse.scene) for thing in discourse.things(index))
-    )
-
-
-def candidates(discourse: Discourse, *, everywhere: bool = False) -> tuple[int, ...]:
-    """All that "it" may mean where only what is said about it tells which: what the latest clause
-    spoke of, or all that anything was done with.
-    """
-    acted: dict[int, None] = {}
-    for clause in _clauses(discourse):
-        acted_on, places, landmarks = _mentioned_in(discourse, clause, Role.ANY, ())
-        if not everywhere and (found := (*acted_on, *places) or landmarks):
-            return found
-        acted.update(dict.fromkeys(acted_on))
-    return tuple(acted)
-
-
-def _clauses(discourse: Discourse) -> list[int]:
-    return sorted({mention.clause for mention in discourse.mentions}, reverse=True)
-
-
-def _mentioned_in(
-    discourse: Discourse, clause: int, role: Role, excluded: Sequence[int]
-) -> tuple[tuple[int, ...], tuple[int, ...], tuple[int, ...]]:
-    """What a clause acted on, its places and its landmarks, so far as they fit a role."""
-    acted_on: dict[int, None] = {}
-    places: dict[int, None] = {}
-    landmarks: dict[int, None] = {}
-    for mention in discourse.mentions:
-        referent = mention.referent
-        single = any(len(option) == 1 for option in discourse.referents[referent].options)
-        target = role in (Role.SURFACE, Role.CONTAINER, Role.PLACE)
-        single = single and not mention.several and not (mention.whatever and target)
-        fits = single and referent not in excluded and _fits(discourse, referent, role)
-        if mention.clause != clause or not fits:
-            continue
-        if mention.role in (Role.THEME, Role.PART):
-            acted_on[referent] = None
-        else:
-            (landmarks if mention.role is Role.ANY else places)[referent] = None
-    return (
-        tuple(acted_on),
-        tuple(index for index in places if index not in acted_on),
-        tuple(index for index in landmarks if index not in {**acted_on, **places}),
-    )
-
-
-def _fits(discourse: Discourse, referent: int, role: Role) -> bool:
-    return any(can_be(thing, role, discourse.scene) for thing in discourse.things(referent))
 
 
 def _rivals(discourse: Discourse, place: int, theme: int, role: Role) -> bool:
@@ -292,15 +245,13 @@ def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
 
 
 def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
-    for clause in sorted({mention.clause for mention in discourse.mentions}, reverse=True):
+    for clause in clauses_of(discourse):
         if clause in discourse.stacks and role is not Role.CONTAINER:
             # What stands on the bottom goes with it; what goes on them goes on top.
             bottom, top = discourse.stacks[clause]
             return (bottom if role in (Role.THEME, Role.ANY) else top,)
         found = _acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
-        several = len(found) > 1 or any(
-            len(option) > 1 for index in found for option in discourse.referents[index].options
-        )
+        several = len(found) > 1 or any(are_several(discourse, index) for index in found)
         emptied = _emptied(discourse, clause, role) if found else ()
         if emptied:
             # "Empty the bins and put them on the rack": what was in them, or these.
@@ -325,7 +276,7 @@ def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
     named = {
         mention.referent
         for mention in discourse.mentions
-        if singular(mention.noun) != mention.noun and _fits(discourse, mention.referent, role)
+        if singular(mention.noun) != mention.noun and fits(discourse, mention.referent, role)
     }
     return tuple(named) if len(named) == 1 else ()
 
@@ -340,7 +291,7 @@ def _emptied(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
         if mention.role is Role.ANY
         and all(text.startswith("everything in ") for text in texts)
         and len(discourse.things(mention.referent)) > 1
-        and _fits(discourse, mention.referent, role)
+        and fits(discourse, mention.referent, role)
     )
 
 
@@ -349,7 +300,7 @@ def _acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> 
         dict.fromkeys(
             mention.referent
             for mention in mentions
-            if mention.role in (Role.THEME, Role.PART) and _fits(discourse, mention.referent, role)
+            if mention.role in (Role.THEME, Role.PART) and fits(discourse, mention.referent, role)
         )
     )
 

@@ -30,6 +30,8 @@ class Discourse:
     mentions: list[Mention] = field(default_factory=list)
     clause: int = 0
     last_places: tuple[Place, ...] = ()
+    placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
+    """Where things have been put, one of several places; None is where one was at the start."""
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)
@@ -47,6 +49,8 @@ class Discourse:
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
+    swept: frozenset[int] = frozenset()
+    """Referents of everything that is to be taken off the desk, which needs another place."""
     remarked: frozenset[int] = frozenset()
     """Referents of which something was said that is neither known of a thing nor asked for."""
 
@@ -56,6 +60,7 @@ class Discourse:
             self,
             referents=list(self.referents),
             mentions=list(self.mentions),
+            placed=dict(self.placed),
             put_into=dict(self.put_into),
             notes=list(self.notes),
             stacks=dict(self.stacks),
@@ -81,8 +86,10 @@ class Discourse:
         *,
         several: bool = False,
         whatever: bool = False,
+        collective: bool = False,
     ) -> int:
-        """Notes what a phrase means and returns its referent; ``several``: no "it" means that.
+        """Notes what a phrase means and returns its referent; ``several``: no "it" means that,
+        unless it is ``collective``.
 
         A definite phrase with the same meaning as an earlier one speaks of the same choice.
         """
@@ -90,7 +97,7 @@ class Discourse:
         index = len(self.referents)
         mention = Mention(
             index, role, self.clause, resolved.noun, several, resolved.adjectives, whatever,
-            resolved.idle, resolved.either,
+            resolved.idle, resolved.either, collective,
         )  # fmt: skip
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
@@ -177,8 +184,13 @@ class Discourse:
 
     def mention_again(self, referent: int, role: Role) -> None:
         """Notes that a pronoun spoke of a referent."""
-        noun = next((m.noun for m in reversed(self.mentions) if m.referent == referent), "object")
-        self.mentions.append(Mention(referent, role, self.clause, noun))
+        said = [item for item in self.mentions if item.referent == referent]
+        last = said[-1] if said else Mention(referent, role, self.clause, "object")
+        again = Mention(
+            referent, role, self.clause, last.noun, last.collective, last.adjectives,
+            collective=last.collective,
+        )  # fmt: skip
+        self.mentions.append(again)
 
     def is_about(self, topic: Collection[int]) -> None:
         """Of what a clause mentions "it" is what that is about, rather than what tells where."""
@@ -228,12 +240,42 @@ class Discourse:
             if since and mention.referent not in self.put:
                 continue
             said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
-            alike = mention.referent in self.put or any(
-                same_noun(word, noun or "") for word in said
-            )
+            here = mention.role is Role.THEME and mention.clause == self.clause
+            moved = here or mention.referent in self.put  # "the apple and another fruit"
+            alike = moved or any(same_noun(word, noun or "") for word in said)
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         return tuple(found)
+
+    def left_open(self) -> tuple[tuple[Thing, ...], ...]:
+        """What may be meant by what was but named last, where that is one of several phrases ("the
+        apple or the pear: put one of them …").
+        """
+        last = self.mentions[-1] if self.mentions else None
+        choice = last is not None and last.either and last.referent not in self.put
+        return self.referents[last.referent].options if last is not None and choice else ()
+
+    def is_landmark(self, noun: str) -> bool:
+        """Whether a noun was last said of what but told something else ("the can in the box")."""
+        roles = [mention.role for mention in self.mentions if same_noun(mention.noun, noun)]
+        return roles[-1:] == [Role.ANY]
+
+    def but_named(self, noun: str) -> tuple[Thing, ...]:
+        """Several things that were but named by a noun ("there are two red cups"): "the left one",
+        "one" and "the other" are of these. Of what has been moved "the big one" may be another.
+        """
+        since: set[Thing] = set()
+        mentions = (item for item in self.mentions if item.role is not Role.ANY)
+        said = [item for item in mentions if same_noun(item.noun, noun)]
+        for clause in dict.fromkeys(item.clause for item in reversed(said)):
+            last = {item.referent for item in said if item.clause == clause}
+            things = self.things(*last)
+            sets = [self.referents[index].options for index in last]
+            if any(len(options[0]) > 1 for options in sets):
+                known = all(len(options) == 1 for options in sets) and not last & self.put
+                return things if known and since <= {*things} else ()
+            since |= {*things}
+        return ()
 
     def is_about_parts(self, noun: str | None) -> bool:
         """Whether what was spoken of last by a noun is part of something ("one drawer")."""

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.determiners import Quantity, quantity
 from etot_cli.reasoning.language.reference.matching import Match
 from etot_cli.reasoning.language.reference.selection import select, too_few
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, OPEN_SURFACES, matches_any
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
 
@@ -37,6 +38,7 @@ def usable_ones(
         # "On the bowl" is said of what goes into it; on a drawer is not in it.
         vessels = [thing for thing in things if thing.part is None]
         usable = [thing for thing in vessels if can_be(thing, Role.CONTAINER, scene)]
+        usable = usable or with_their_whole(phrase, things, scene)[len(things) :]
         if not usable:
             check_not_part(phrase.text, things)
     if not usable:
@@ -48,6 +50,16 @@ def usable_ones(
         raise ReferenceProblem(phrase.text, f"{names} cannot be {role.value}", 2)
     at_hand = [thing for thing in usable if thing.name == DESK or not scene.states[thing.name].lost]
     return at_hand or usable
+
+
+def with_their_whole(phrase: NounPhrase, things: list[Thing], scene: SceneState) -> list[Thing]:
+    """Drawers, with what they are all the drawers of behind them: what is on "the drawers" is on
+    that.
+    """
+    (name, *more) = {thing.name for thing in things if thing.part} or {DESK}
+    own = () if name == DESK else scene.infos[name].parts
+    alone = phrase.determiner in THE_WORDS and len(phrase.words) == 1
+    return [*things, Thing(name)] if alone and len(own) == len(things) > 1 and not more else things
 
 
 def check_not_part(text: str, below: Sequence[Thing]) -> None:

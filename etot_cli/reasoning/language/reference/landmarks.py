@@ -116,7 +116,7 @@ def related(
             for thing in fitting
             if thing not in marks
             and space.holds_at(prep, thing, marks, scene) is not False
-            and not (prep in space.RELATIONS and any(space.carries(thing, m, scene) for m in marks))
+            and not any(space.carries(thing, mark, scene) for mark in marks)
         ]
         for cost, thing in space.ranked(prep, others, marks, scene):
             best[thing] = min(cost, best.get(thing, cost))

@@ -16,7 +16,6 @@ from etot_cli.reasoning.language.reference.coreference import (
     PERSONAL_PRONOUNS,
     PLURAL_PRONOUNS,
     antecedents,
-    candidates,
     is_like_people,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -36,6 +35,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.spoken_of import candidates
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
@@ -85,13 +85,15 @@ class Meanings:
         if phrase.pronoun and not phrase.modifiers:  # "one of them"
             # "One of it" is one of them.
             said = "them" if phrase.determiner else phrase.pronoun
+            noun = discourse.last_noun(role) or ""
+            if quantity_of(phrase.determiner).count == 1 and (ways := discourse.left_open()):
+                return Resolved(ways, noun=noun, again=True, either=True)
             indices = antecedents(discourse, said, role, phrase.text)
             if any(len(discourse.referents[index].options) > 1 for index in indices):
                 names = [thing.name for thing in discourse.things(*indices)]
                 raise AmbiguousReference(phrase.text, names)
             things = discourse.things(*indices)
             options = tuple((thing,) for thing in things)
-            noun = discourse.last_noun(role) or ""
             return Resolved(options, noun=noun, again=True)
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"
@@ -229,8 +231,10 @@ class Meanings:
                     way = self.resolved_as(phrase, role, other)
                     if not self._is_single(phrase, role, other):
                         found.setdefault(way.options, way)
-        # "The two wrenches on the vise and the nut on the big one": of those that were several.
-        sure = [way for way in found.values() if problem or singular(way.noun) != way.noun]
+        # "The two wrenches on the vise and the nut on the big one": of those that were several;
+        # "the can from the fridge on the one on the desk" is about another can.
+        told = problem is not None or phrase.modifiers
+        sure = [way for way in found.values() if told or singular(way.noun) != way.noun]
         if len(found) == len(sure) == 1:
             return sure[0]
         if problem is not None:
@@ -239,6 +243,8 @@ class Meanings:
             said = (*found, *([resolved.options] if resolved else ()))
             ways = [thing.name for options in said for thing in things_in(options)]
             raise AmbiguousReference(phrase.text, ways)
+        if phrase.modifiers:
+            raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         return resolved
 
     def _are_several(self, noun: str, role: Role) -> bool:
@@ -249,9 +255,12 @@ class Meanings:
         return False
 
     def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
-        """Whether "the big one" would tell one thing by its size or side of which there is one."""
+        """Whether "the big one" would tell one thing by its size or side of which there is one, or
+        "the one on the desk" what but told by its place where something else is.
+        """
         words = phrase.words
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
+        told = told or (bool(phrase.modifiers) and self.discourse.is_landmark(noun or ""))
         if phrase.head != "one" or not told or noun is None:
             return False
         every = replace(phrase, determiner="all", words=("ones",), modifiers=())
@@ -271,7 +280,8 @@ class Meanings:
         if noun is not None and not is_descriptive(noun) and leaves_out:
             check_count(phrase, noun, self.discourse)
             phrase = replace(phrase, words=(*phrase.words, singular(noun)))
-        other = quantity_of(phrase.determiner).other
+        quantity = quantity_of(phrase.determiner)
+        other = quantity.other
         named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
         own = named[0] if named else noun
         elliptic = other or elliptic
@@ -283,8 +293,10 @@ class Meanings:
             parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
             pronoun=self.pronoun_things,
         )
-        left_out = noun is not None and (elliptic or leaves_out or not phrase.words)
-        among = self._named_before(noun or "") if left_out else ()
+        bare = elliptic or leaves_out or not phrase.words
+        single = not (quantity.definite or quantity.every or phrase.modifiers)  # "a cup"
+        known = own if bare else phrase.head if single else None
+        among = self.discourse.but_named(known or "")
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
         narrower: Resolved | None = None
         with suppress(ReferenceProblem):
@@ -292,27 +304,10 @@ class Meanings:
         try:
             resolved = resolve(phrase, among=among)
         except ReferenceProblem:
-            if narrower is None:
-                raise
+            if narrower is None or not phrase.words[:-1]:
+                raise  # "the one on the right" is no contrast
             return narrower
         return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
-
-    def _named_before(self, noun: str) -> tuple[Thing, ...]:
-        """Several things that were but named by a noun ("there are two red cups"): "the left one",
-        "one" and "the other" are of these. Of what has been moved "the big one" may be another.
-        """
-        since: set[Thing] = set()
-        mentions = (item for item in self.discourse.mentions if item.role is not Role.ANY)
-        said = [item for item in mentions if same_noun(item.noun, noun)]
-        for clause in dict.fromkeys(item.clause for item in reversed(said)):
-            last = {item.referent for item in said if item.clause == clause}
-            things = self.discourse.things(*last)
-            sets = [self.discourse.referents[index].options for index in last]
-            if any(len(options[0]) > 1 for options in sets):
-                known = all(len(options) == 1 for options in sets) and not last & self.discourse.put
-                return things if known and since <= {*things} else ()
-            since |= {*things}
-        return ()
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
         """All that a pronoun in a modifier may mean, or "the other brush" there."""

@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.relations import is_inside
 from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import (
@@ -145,24 +146,25 @@ def check_one_left(phrase: NounPhrase, resolved: Resolved, discourse: Discourse)
 
 
 def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> NounPhrase | None:
-    """After "the larger clay pot" "the smaller one" may be one of clay, too: the phrase with the
-    words that the earlier one has besides those that are contrasted.
+    """After "the larger clay pot" "the smaller one" may be one of clay, too, and so may "the one on
+    the desk": the phrase with the words that the earlier one has besides those that are contrasted.
     """
     own = phrase.words[:-1]
-    if noun is None or not own:
+    quantity = quantity_of(phrase.determiner)
+    known = quantity.definite and not quantity.every and phrase.head in ("", "one")
+    if noun is None or not (own or known):
         return None
     for mention in reversed(discourse.mentions):
         if not same_noun(mention.noun, noun):
             continue
         before = mention.adjectives
-        contrasted = any(
+        contrasted = not own or any(
             any(word in table for word in own) and any(word in table for word in before)
             for table in _CONTRASTED
         )
         kept = [w for w in before if w not in own and not any(w in t for t in _CONTRASTED)]
-        return (
-            replace(phrase, words=(*own, *kept, phrase.words[-1])) if contrasted and kept else None
-        )
+        words = (*own, *kept, phrase.head or "one")
+        return replace(phrase, words=words) if contrasted and kept else None
     return None
 
 

@@ -14,7 +14,7 @@ from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
@@ -27,7 +27,12 @@ from etot_cli.reasoning.language.reference.doubts import (
     check_selected,
 )
 from etot_cli.reasoning.language.reference.entries import EXACT, HEAD, Entry
-from etot_cli.reasoning.language.reference.instances import called_exactly, options_of, usable_ones
+from etot_cli.reasoning.language.reference.instances import (
+    called_exactly,
+    options_of,
+    usable_ones,
+    with_their_whole,
+)
 from etot_cli.reasoning.language.reference.landmarks import is_one
 from etot_cli.reasoning.language.reference.modified import left_out, modified
 from etot_cli.reasoning.language.reference.nouns import (
@@ -167,7 +172,7 @@ class Resolver:
         single = quantity.every or phrase.determiner == "one" or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
-        if match.plural and phrase.determiner == "any":
+        if match.plural and phrase.words and phrase.determiner in ("any", "either"):
             quantity = Quantity(every=True)
         return Asked(phrase, role, words, noun, quantity, match)
 
@@ -248,6 +253,12 @@ class Resolver:
             self._landmarks(pronoun, item, (phrase.head or None) if item.head == "one" else None)
             for item in (one_like(item, phrase) for item in modifier.phrases)
         ]
+        out_of = modifier.prep is Prep.FROM and not quantity.every  # not "all that is out of them"
+        if (modifier.prep is Prep.ON or out_of) and modifier.words != CLEARED:
+            each = [
+                with_their_whole(item, things, self._scene)
+                for item, things in zip(modifier.phrases, each, strict=True)
+            ]
         if modifier.prep is Prep.ON and modifier.words:
             each = [[space.top_of(thing, self._scene) for thing in things] for things in each]
         # "The cup next to the box" means the cup that is so, whichever box is meant, or is unclear,

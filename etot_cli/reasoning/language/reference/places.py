@@ -74,9 +74,12 @@ class Places:
         named += [p for item in destinations for b in item.beside for p in b.phrases if p.words]
         meant = []
         with suppress(ReferenceProblem):  # "drop it in" is no word about what it goes into
-            inside = any(item.word in spellings(THEREIN) for item in destinations)
-            around = meant_by_it(self.discourse, Role.CONTAINER, "") if inside else -1
-            meant += [referents[around].options] if inside else []
+            if any(item.word in spellings(THEREIN) for item in destinations):
+                said = self.discourse.copy()
+                around = meant_by_it(said, Role.CONTAINER, "")
+                # "Open the oven, take the mug and put it in": the oven is not put in the mug.
+                meant_by_it(said, Role.THEME, "", [around])
+                meant.append(referents[around].options)
         for phrase in named:
             with suppress(ReferenceProblem):
                 meant.append(self._phrases.meaning(phrase, Role.ANY).options)
@@ -151,7 +154,7 @@ class Places:
             ways = self.relations_to(toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = self.relations_to(Toward.ON, index, themes)
-            found += self._on_first(phrase, ways)
+            found += ways if destination.word == FILLED else self._on_first(phrase, ways)
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
         return found

@@ -12,13 +12,16 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.coreference import antecedents, openable
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
+from etot_cli.reasoning.language.reference.by_now import there_by_now
+from etot_cli.reasoning.language.reference.coreference import antecedents
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import chooses, is_robot, usual_form
+from etot_cli.reasoning.language.reference.spoken_of import openable
+from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, is_robot, usual_form
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -75,15 +78,57 @@ class Referents(Meanings):
         if holder is not None:
             self.discourse.mention_again(holder, role)
             return (holder,)
-        resolved = self.meaning(phrase, role)
+        resolved = self._by_now(phrase, role)
         if role is Role.THEME and not phrase.modifiers and phrase.words[-1:] == (resolved.noun,):
             resolved = self._as_before(resolved)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
-        one = phrase.head == singular(phrase.head) and len(things_in(resolved.options)) == 1
-        several = resolved.every and not (whole or one)  # "no lemon" where there is one is "it"
-        index = self.discourse.add(resolved, phrase.text, role, several=several, whatever=whole)
+        several = resolved.every and not whole
+        mass = several and phrase.head not in ("", *GENERAL)
+        mass = mass and singular(phrase.head) == phrase.head
+        index = self.discourse.add(
+            resolved, phrase.text, role, several=several, whatever=whole, collective=mass
+        )
         self._note_landmarks(phrase, resolved.options)
         return (index,)
+
+    def _by_now(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What a phrase means; all that is somewhere is what is there by now.
+
+        Raises:
+            NothingThere: it has all been moved away.
+        """
+        plain = usual_form(phrase)
+        held = [m for m in plain.modifiers if m.prep in (Prep.ON, Prep.IN, Prep.FROM)]
+        item = held[0] if len(held) == 1 else None
+        now = item is not None and not item.denied and HERE_BEFORE not in item.words
+        if item is None or not now or not self.discourse.placed:
+            return self.meaning(phrase, role)
+        fitting = resolved = self.meaning(plain.without_modifier(item), role)
+        with suppress(ReferenceProblem):
+            resolved = self.meaning(phrase, role)
+        if not fitting.every or len(fitting.options) != 1:
+            return self.meaning(phrase, role)
+        there = resolved.options[0] if resolved is not fitting else ()
+        np = item.phrases[0]
+        ways = self.pronoun_things(np) if np.pronoun else self.meaning(np, Role.ANY).options
+        found: set[tuple[Thing, ...]] = set()
+        for marks in ways:
+            here = [
+                t for t in there for m in marks if space.holds_at(item.prep, t, [m], self.scene)
+            ]
+            before = there if here else ()
+            found.add(
+                there_by_now(
+                    before, fitting.options[0], item.prep, marks, phrase.text, self.discourse
+                )
+            )
+        found -= {()}
+        if len(found) > 1:
+            names = [thing.name for things in found for thing in things]
+            raise AmbiguousReference(phrase.text, list(dict.fromkeys(names)))
+        if not found and there:
+            raise NothingThere(phrase.text, "it has been moved away by then", 2)
+        return replace(resolved, options=tuple(found)) if found else self.meaning(phrase, role)
 
     def _as_before(self, resolved: Resolved) -> Resolved:
         """After "take the pen from the mug" "the pen" is that one, even where another one is
@@ -132,7 +177,8 @@ class Referents(Meanings):
         unmoved = not discourse.put & {*themes} and all(
             len(discourse.referents[index].options) == 1 for index in themes
         )
-        if not unmoved or not phrase.words or self.spoken_of(phrase, role, themes) is not None:
+        named = phrase.words and not phrase.is_elliptic
+        if not unmoved or not named or self.spoken_of(phrase, role, themes) is not None:
             return
         moved = discourse.things(*themes)
         for parts_first in (True, False):
@@ -191,7 +237,8 @@ class Referents(Meanings):
         for prep, landmark in (*owner, *named):
             if "one" in (landmark.determiner, *landmark.words[:-1]):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
-            if landmark.words and not is_robot(landmark):
+            packed = prep is Prep.OF and prep not in {m.prep for m in usual_form(phrase).modifiers}
+            if landmark.words and not is_robot(landmark) and not packed:
                 if quantity_of(landmark.determiner).other:
                     continue
                 resolved = self.resolver.resolve(

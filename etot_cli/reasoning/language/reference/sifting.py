@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.reference.entries import CONTENT, EXACT, GENERIC, HEAD, Entry
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -113,17 +114,23 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.graded = [item for item in graded if not is_stacked(item[0])]
     elif is_selecting(word):
         sifted.selectors.append(word)
+    elif counted := [item for item in graded if item[0].counts_among(members_of(word))]:
+        sifted.graded = counted  # "a soda can"
+        names = names_of([entry for entry, _ in counted])
+        sifted.notes.append(f"{TAKEN_FOR}{names} for {word!r}")
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
     elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):
         # What is called a thing for something else is not for this; nor are eggs for milk, where
         # there is milk ("the milk eggs").
         named = any(entry.grade(word) in (EXACT, HEAD, CONTENT) for entry in vocabulary.objects)
+        # A basket may be for fruit, though others are for basket balls.
+        noun = sifted.noun if word in PURPOSES else ""
         used = named or (word not in PURPOSES and vocabulary.is_known(word))
         apt = [
             item
             for item in graded
-            if not any(own in PURPOSES for own in item[0].own)
+            if not any(own in PURPOSES and not matches_any(own, [noun]) for own in item[0].own)
             and (not used or (item[0].holds() and not matches_any(sifted.noun, item[0].content)))
         ]
         if not apt:

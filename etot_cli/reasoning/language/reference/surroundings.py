@@ -183,6 +183,8 @@ class Surroundings:
         if "side" in beside.text.split() and self._are_fixed(things):
             raise ReferenceProblem(beside.text, "say 'left of' and so on, or on which part", 1)
         flat = all(space.is_support(thing, self._scene) for thing in things)
+        if flat and beside.text.startswith(("to the front of", "to the back of")):
+            raise AmbiguousReference(beside.text, ["beside it", "a part of it"])
         note = f"{beside.text!r}: beside it, not on it"
         if flat and beside.text.startswith(("on ", "at ")) and note not in self._discourse.notes:
             self._discourse.notes.append(note)

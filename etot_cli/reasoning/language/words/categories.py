@@ -111,6 +111,7 @@ SORTS: dict[str, frozenset[str]] = {
     "sweet": _SWEETS,
     "snack": _SWEETS | _PASTRIES | _SNACKS,
     "drink beverage": _DRINKS,
+    "soda soft_drink": word_set("soda cola coke pepsi sprite fanta lemonade 7up drpepper"),
     "spice seasoning": _SPICES,
     "condiment": _SPICES | _SAUCES,
     "food": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD,
@@ -163,12 +164,13 @@ MASS_NOUNS = word_set(
 """Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""
 
 CALLED = {
-    "writing_utensil": "writing (?:utensil|implement|instrument|tool)",
+    "writing_utensil": "writing (?:utensil|implement|instrument|tool|thing)",
     "utensil": "(?:kitchen|cooking) (?:utensil|tool|implement)",
     "tool": "hand tool",
     "cutlery": "(?:eating|table) utensils",
     "stationery": "office supplies",
     "citrus": "citrus fruits?",
+    "soft_drink": "(?:soft|fizzy) drink",
 }
 """Several words for such a word."""
 

@@ -224,7 +224,7 @@ STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
     **dict.fromkeys(("empty", "free", "vacant", "unoccupied"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
-    "stacked": "stacked", "loose": "loose",
+    "stacked": "stacked", "loose": "loose", "outside": "loose",
 }  # fmt: skip
 """Adjectives for what the scene's state says about an object."""
 

@@ -18,14 +18,14 @@ UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 EMPTIED = "empty, emptied [out], cleared [out], clear, free [again]"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
-    loose
+    loose, outside
 """
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
     (in|into) a [vertical|single] (tower|stack|pile), onto each other
 """
-UPON_THAT = "on [top of] (that|it|this) [one], on which, upon (that|it)"
+UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that|it)"
 """Behind what comes next in a tower."""
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)

@@ -64,6 +64,8 @@ FREE_RELATIVE = """
     (that|all) which (is|lies|stands|sits)
 """
 """Before a place: everything that is there."""
+BEFOREHAND = "before, beforehand, until now, originally, to begin with, at first"
+"""Behind where something was."""
 LACKING = """
     without, with no, not (containing|holding), (that|which) (has|have|holds|hold) no,
     (that|which) (contains|contain) no, (that|which) (does|do) not (have|hold|contain), has no

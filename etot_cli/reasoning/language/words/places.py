@@ -71,17 +71,22 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
+SOMEWHERE = "(somewhere|anywhere|some place) [safe] [~comma]"
+"""Before a place that is said more closely."""
+BETWEEN = "[in|in the gap|in the space] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
     Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
     Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
-    Nearby.FRONT: "in front of, (on|at|to) the near side of",
-    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the rear of",
+    Nearby.FRONT: "in front of, (on|at|to) the near side of, to the front of",
+    Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the (rear|back) of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
-    Nearby.AWAY: "[far] away from, far from",
+    Nearby.AWAY: (
+        "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of"
+    ),
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
 GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"
@@ -94,6 +99,17 @@ IT_HAS: dict[Prep, str] = {
     Prep.NEAR: "(near|close to) (it|them)",
 }
 """Behind what a thing has beside it: where that thing is to it."""
+STANDS_AT: dict[Prep, str] = {
+    Prep.CONTAINING: "in",
+    Prep.BEARING: "on",
+    Prep.FRONT: NEARBY[Nearby.BEHIND],
+    Prep.BEHIND: NEARBY[Nearby.FRONT],
+    Prep.RIGHT: _LEFT,
+    Prep.LEFT: _RIGHT,
+    Prep.NEXT_TO: f"[right] ({NEARBY[Nearby.NEXT_TO]})",
+    Prep.NEAR: NEARBY[Nearby.NEAR],
+}
+"""Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",

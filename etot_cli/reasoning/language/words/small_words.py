@@ -5,6 +5,9 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.verbs import RELATIONS
 
 _WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
+_WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
+ANY_WILL_DO = f"({_WILL_DO}) [for me]"
+"""Behind any of several things, before what is to be done with one of them."""
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
@@ -15,12 +18,13 @@ WITHOUT_MEANING = f"""
     pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    whichever you like, wherever (you (like|want)|there is [some] (room|space)|it fits),
+    (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
+    [it is|that is] up to you, you (choose|decide|pick), the choice is yours,
+    wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|each|both) [one] [of (them|these|those)]
-    ((is|are|would be) (fine|ok|okay|good)|will do|would do|works|work),
+    (either|any|each|both) [one] [of (them|these|those)] ({_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}], whichever, if you can,
     if possible, at all times, properly, neatly, directly, straight,
@@ -33,7 +37,6 @@ WITHOUT_MEANING = f"""
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma (my dear|my friend|dear|love|darling|honey|sweetie|sweetheart|friend|dude|man|bro),
     ~comma (sir|madam|folks),
-    (it is|that is) up to you, [it is] your choice, you (choose|decide|pick),
     by (then|tonight|tomorrow|noon|midnight|lunchtime|bedtime|(this|the) (afternoon|evening)),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
 """
@@ -61,28 +64,33 @@ GREETINGS = f"""
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP}
 """
 WOULD_BE_NICE = """
-    i would (be|feel) [very|really|so] (glad|happy|grateful|pleased|delighted|thankful),
-    i would [really] (like|love|appreciate|prefer) it,
-    (it|that) would be [very|really|so]
-    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best) [of you]
+    (i|we) would (be|feel) [very|really|so]
+    (glad|happy|happier|grateful|pleased|delighted|thankful),
+    (i|we) would [really] (like|love|appreciate|prefer) it,
+    [it|that] would be [very|really|so]
+    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
+    [it|that] would make me happy
 """
 """Before or behind what it would be nice if somebody did."""
+I_THINK = """
+    (i|we) (think|believe|guess|suppose|reckon|feel) [that], i was thinking [that]
+"""
+"""Before what would be good to do."""
+WISH_IF = f"({WOULD_BE_NICE}) if, (i|we) wish [that]"
+"""Before how things are to be."""
 FRAMES = f"""
-    ({WOULD_BE_NICE}) if you (would|could), {GREETINGS}, go, go and, go ahead and,
+    ({WISH_IF}) you (would|could|can|might), {GREETINGS}, actually, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
-    (i|we) (think|believe|guess|suppose|feel|reckon) [that],
-    i would like [that you], i want, let us, try to, please to,
+    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you (could|would),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
-    i would (appreciate|like|love) it if you (would|could),
-    it would be (good|great|nice) if you (could|would),
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so (kind|good|nice) (as to|and),
     mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
@@ -112,9 +120,12 @@ REMARKS = """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 FOUND = """
     (is|are|was|were|has been|have been|got|seem[s] to be)
-    [still|just|now|currently|again|all] [left|standing|lying|sitting|resting|wide]
+    [still|just|now|currently|again|all]
+    [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
+BY_NOW = "right now, now, at the moment, currently, still, already, just"
+"""With how things are."""
 SOMEBODY_LEFT = f"""
     (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left
 """
@@ -182,10 +193,9 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to"
-AFTER = """
-    [but] [only|right|straight|just|directly|immediately] (once|after|when|as soon as)
-    [you have|having|you]
-"""
+_ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soon as)"
+BY_THEN = f"[but] ({_ONCE}|not (before|until))"
+AFTER = f"({BY_THEN}) [you have|having|you]"
 GONE = """
     (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
     (is|are) (put|set|laid) down

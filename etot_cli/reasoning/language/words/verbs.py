@@ -72,9 +72,11 @@ TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
 LOAD = "load[ing] [up]"
 CLEAR = """
-    clear[ing] [off], tidy[ing] [up], clean[ing] (off|up), clear[ing] out, empty[ing] out,
-    free[ing] up
+    clear[ing] [off], free[ing] [up], tidy[ing] [up], clean[ing] (off|up), clear[ing] out,
+    empty[ing] out
 """
+MAKE_ROOM = "mak(e|ing) [some|more|enough|a little] (room|space) (in|on|for)"
+"""It is made by what else is asked for."""
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
@@ -100,13 +102,15 @@ _MUST = """
     (is|are) (supposed|meant) to
 """
 _SIMPLY = "[simply|[just] as well|just|also|please|best]"
+_BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
+_WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
     ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}]|(end|finish|wind) up [{_BEING}]|get|
     go [back]|stand|sit|lie|rest|live|belong), (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
-    (would (be|look|do|go)|look[s]) (better [off]|best|nicer|tidier|neater|safer),
-    would (be|look|do|go) (good|nice|lovely|great|fine), (is|are) best ({_BROUGHT}),
+    (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
+    (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s]
 """
@@ -114,7 +118,7 @@ THERE_BE = f"there ({_MUST}) be"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
 OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
 """Verbs that are not said of one thing."""
-BELONG = "live[s], belong[s], go[es], (is|are) (kept|stored)"
+BELONG = f"{MODAL}, (is|are) (kept|stored)"
 """Behind a thing, where something is its place."""
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
@@ -129,12 +133,6 @@ WANT = """
     i d like, (can|could|may|might) (i|we) have, let us have,
     (i|we) would rather (have|see)
 """
-WISH_IF = """
-    i would be (glad|happy|happier|grateful|delighted) if,
-    it would be (good|great|nice|lovely|best|better) if, i would (like|love|prefer) it if
-"""
-WISHED_SO = "(was|were|is|are|could be|would be) [to be], went, stood, sat, lay, ended up"
-"""How a wish has it that something is somewhere."""
 OTHERS_WANT = f"""
     (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
     (the|my|our)
@@ -159,6 +157,9 @@ CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
+FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
+NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
+"""Before where something is to stay."""
 RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
@@ -166,8 +167,9 @@ DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
 PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
 WERE = f"""
-    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}], [could|would] (go|stand|sit|lie),
-    (ended|finished|wound) up, went, stood, lay, sat
+    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}|to be],
+    [could|would] (go|stand|sit|lie), (ended|finished|wound|could (end|finish|wind)) up,
+    went, stood, lay, sat
 """
 """What it would be nice if things were."""
 LET = "have, let, get"

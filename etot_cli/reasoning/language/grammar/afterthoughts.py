@@ -1,0 +1,93 @@
+"""Rules for what stands behind a request, or before the next one, and tells where things are.
+
+"Take the pen, it is on the tray" tells which pen; "move the cup out of the way and open the oven"
+tells out of whose way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.chains import then_done
+from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.spoken import Spoken
+from etot_cli.reasoning.language.grammar.syntax import (
+    Beside,
+    Clause,
+    Destination,
+    Modifier,
+    MoveClause,
+    NounPhrase,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    Things,
+    Toward,
+    put_to,
+)
+from etot_cli.reasoning.language.words.lexicon import STATES, singular
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
+
+
+def _told(things: Things, said: Modifier, number: str) -> Things | None:
+    """The one phrase for what is moved, with what is said of it."""
+    (np, *more) = things.phrases
+    plural = singular(np.head) != np.head
+    fits = np.words and not more and plural == (number == "they")
+    return replace(things, phrases=(np.told_by(said),)) if fits else None
+
+
+def _of(said: Modifier, mark: NounPhrase) -> Modifier:
+    """What is said, with a name for what "it" is in that."""
+    return replace(said, phrases=tuple(mark if np.pronoun else np for np in said.phrases))
+
+
+def _marks(group: PutGroup) -> list[NounPhrase]:
+    """What things go in, on or beside."""
+    beside = [near for item in group.destinations for near in item.beside]
+    targets = [np for item in group.destinations for np in item.targets]
+    return [*targets, *(np for near in beside for np in near.phrases)]
+
+
+def told_behind(rest: Reading, number: str, said: Modifier) -> list[Reading]:
+    """A request with what is said behind it of what it moves, or of where that goes."""
+    clause = rest[-1].clause
+    found: list[Clause] = []
+    match clause:
+        case PutClause(groups=(group,)):
+            marks = _marks(group)
+            named = _of(said, marks[0]) if len(marks) == 1 else said
+            vessel = said.prep is Prep.QUALITY and any(word in STATES for word in said.words)
+            if not vessel and (things := _told(group.things, named, number)):
+                found.append(replace(clause, groups=(replace(group, things=things),)))
+            for mark in marks if len(group.things.phrases) == 1 else ():
+                told = mark.told_by(_of(said, group.things.phrases[0]))
+                where = tuple(_with(item, mark, told) for item in group.destinations)
+                if mark.words:
+                    found.append(replace(clause, groups=(replace(group, destinations=where),)))
+        case PickClause(things=things) | RemoveClause(things=things) | MoveClause(things=things):
+            if told_things := _told(things, said, number):
+                found.append(replace(clause, things=told_things))
+    return [(*rest[:-1], replace(rest[-1], clause=item)) for item in found]
+
+
+def _with(where: Destination, mark: NounPhrase, told: NounPhrase) -> Destination:
+    """The same place with more said of what it is in, on or beside."""
+
+    def named(np: NounPhrase) -> NounPhrase:
+        return told if np is mark else np
+
+    beside = tuple(replace(b, phrases=tuple(map(named, b.phrases))) for b in where.beside)
+    return replace(where.going_to(named), beside=beside)
+
+
+def out_of_the_way(things: Things, rest: Reading) -> Reading | None:
+    """What is in the way of what is opened next goes away from that."""
+    match rest[0].clause:
+        case MoveClause(things=Things(phrases=(np,)), opens=True):
+            away = Beside(Nearby.AWAY, (np,), f"out of the way of {np.text}")
+            put = put_to(things, (Destination(Toward.BESIDE, beside=(away,)),))
+            return (Spoken(put, -1), *then_done(rest))
+    return None

@@ -1,0 +1,89 @@
+"""Rules for several things that are to be so of one subject ("the drawer is closed and empty")."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, some
+from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    State,
+    Toward,
+)
+from etot_cli.reasoning.language.grammar.taking import contents_of
+from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.places import Prep
+
+_EMPTY = "empty"
+_THERE = {"in it": Toward.INSIDE, "inside": Toward.INSIDE, "on it": Toward.ON, "": Toward.INSIDE}
+
+
+def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> list[State | None]:
+    """What a predicate says of its subjects."""
+    if predicate == _EMPTY:
+        down = (Destination(Toward.HERE, word="down"),)
+        return [State((contents_of(np, Prep.FROM),), down) for np in nps]
+    match predicate:
+        case ("has", held, where):
+            return [State(held, (Destination(_THERE[where], (np,)),)) for np in nps[:1]]
+    return [state_of(nps, predicate)]
+
+
+def _all_of_it(
+    nps: tuple[NounPhrase, ...], first: Any, more: tuple[Any, ...], nothing: Any
+) -> EnsureClause | None:
+    """What is said of the same things: several predicates, or that there is nothing in them."""
+    said = [first, *more, *nothing]
+    if any(item != _EMPTY for item in nothing) and not isinstance(first, str):
+        return None  # "on the tray with the pen in it" may tell which tray
+    alone = len(nps) == 1 or not any(isinstance(item, tuple) and item[0] == "has" for item in said)
+    states = [state for item in said for state in _of(nps, item)]
+    known = tuple(state for state in states if state is not None)
+    several = len(said) > 1 and len(known) == len(states) and alone
+    return EnsureClause(known) if several else None
+
+
+_SO = either(PREDICATE, phrase(manner.EMPTIED, _EMPTY))
+_HAS = sequence(
+    "contain[s], hold[s], has, have",
+    NP_LIST,
+    optional(phrase("in it, inside, on it"), ""),
+    build=lambda held, where: ("has", held, where),
+)
+_IS = sequence(f"{verbs.BE}, stay[s], remain[s]", _SO)
+_MORE = some(sequence(LIST, optional("to"), either(_IS, _HAS, _SO)), most=3)
+_WITH_IT = optional(
+    either(
+        sequence("with nothing [left] (in|inside|on) it", build=lambda: (_EMPTY,)),
+        sequence(
+            "with",
+            NP_LIST,
+            "[still] (in it|inside [it])",
+            build=lambda held: (("has", held, "inside"),),
+        ),
+    ),
+    (),
+)
+_SUBJECT = either(
+    sequence(NP_LIST, verbs.MODAL),
+    sequence(verbs.WANTED, NP_LIST, optional("to be")),
+    sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
+)
+BOTH_SO = either(
+    sequence(_SUBJECT, _SO, _MORE, _WITH_IT, build=_all_of_it),
+    sequence(
+        NP_LIST,
+        "should, must, shall, has to, have to, needs to, need to",
+        _HAS,
+        _MORE,
+        _WITH_IT,
+        build=_all_of_it,
+    ),
+    sequence(verbs.ENSURE, NP_LIST, either(_IS, _HAS), _MORE, _WITH_IT, build=_all_of_it),
+)
+"""How the same things are to be in two ways."""

@@ -1,0 +1,156 @@
+"""Rules for what is wanted or wished for, and for what is said to be what goes somewhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.common import EMPTY_WORDS, LIST
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.states import PREDICATE, being, state_of
+from etot_cli.reasoning.language.grammar.syntax import (
+    Clause,
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    PickClause,
+    RemoveClause,
+    State,
+    Things,
+    Toward,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.taking import SOURCE
+from etot_cli.reasoning.language.words import small_words, verbs
+
+
+def _wanted_in_hand(things: Things) -> PickClause | None:
+    """Who wants something off the tray does not say that it is to be held, nor who wants all."""
+    away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
+    said = {word for np in things.phrases for word in np.determiner.split()}
+    every = {"all", "both", "each", "every"} & said
+    return None if away or every else PickClause(things, wanted=True)
+
+
+WANTED = either(
+    sequence(
+        either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(
+        either(sequence("have, let", ALL_THINGS, "join"), sequence(ALL_THINGS, verbs.JOIN)),
+        noun_phrase,
+        build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
+    ),
+    sequence(
+        # "The pen I want in the cup"
+        ALL_THINGS,
+        verbs.WANTED,
+        optional("it, them"),
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.MODAL}, {verbs.COME_AWAY}",
+        optional("gone"),
+        SOURCE,
+        build=RemoveClause,
+    ),
+    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
+    sequence(
+        verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
+    ),
+)
+WISHED = sequence(
+    small_words.WISH_IF,
+    EMPTY_WORDS,
+    being(verbs.WERE),
+    some(
+        sequence(
+            LIST,
+            optional("if, that"),
+            either(
+                being(verbs.WERE),
+                # "… and the vase on the plate": the verb is left out.
+                sequence(NP_LIST, PREDICATE, build=state_of),
+            ),
+        ),
+        most=5,
+    ),
+    build=lambda first, more: EnsureClause((first, *more)),
+)
+"""How it would be nice for things to be."""
+_THING = "(thing|things|one|ones|object|objects|item|items)"
+_WHAT_GOES = either(
+    sequence(
+        phrase(f"the only {_THING}", True),
+        optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
+    ),
+    sequence(
+        phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"
+    ),
+)
+"""What is there, or (True) alone is there."""
+_IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
+
+
+def _there(things: Things, only: bool, where: tuple[Destination, ...]) -> Clause | None:
+    """What is to be there, or (``only``) alone in the end."""
+    if not only:
+        return put_to(things, where)
+    (first, *more) = things.phrases
+    alone = (replace(first, determiner="only the"), *more)
+    return None if things.either else EnsureClause((State(alone, where),))
+
+
+def _at(place: NounPhrase) -> tuple[Destination, ...]:
+    return (Destination(Toward.TO, (place,)),)
+
+
+def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
+    """Where things have their place."""
+    return EnsureClause((State(things.phrases, where),))
+
+
+TOLD_APART = either(
+    # "The cup is the only thing that goes on the tray", "what belongs there is the cup"
+    sequence(ALL_THINGS, _IS, _WHAT_GOES, DESTINATIONS, build=_there),
+    sequence(
+        _WHAT_GOES,
+        DESTINATIONS,
+        _IS,
+        ALL_THINGS,
+        build=lambda only, where, things: _there(things, only, where),
+    ),
+    sequence("it is, it 's", ALL_THINGS, "that, which", verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        # "The spoon's home is the drawer"
+        ALL_THINGS,
+        "'s (home|place|spot) is",
+        either(DESTINATIONS, sequence(noun_phrase, build=_at)),
+        build=_belonging,
+    ),
+    sequence(
+        # "The tray is where the cup goes", "… where I want the cup"
+        noun_phrase,
+        either(
+            sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
+            sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
+        ),
+        build=lambda np, things: _belonging(things, _at(np)),
+    ),
+)
+"""What goes somewhere, said so that it stands out."""
