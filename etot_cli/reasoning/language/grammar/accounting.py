@@ -74,7 +74,8 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), (been|was|were) left,
     not (before|until),
-    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left]
+    (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
+    (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
