@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Beside,
     Destination,
+    EnsureClause,
     Modifier,
     MoveClause,
     NounPhrase,
@@ -74,7 +75,7 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
-    a little open
+    a little open, (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
@@ -83,12 +84,17 @@ _SAY_NOTHING = phrase(
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 
+_LAST_FIRST = re.compile(r"\b(first|before|beforehand)(?: that)?(?: ~comma| please)*$")
+
+
 def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
     left = Counter(_traces(reading))
     text = " ".join(words)
     if _NOT_BOTH.search(text) and any(isinstance(said.clause, AvoidClause) for said in reading):
         return "both"  # one of them may go there
+    if _is_first_alone(reading) and (said := _LAST_FIRST.search(text)):
+        return said[1]  # nothing is left that comes after it
     for word in _telling(words):
         kinds = _kinds(word)
         if not kinds:
@@ -99,6 +105,16 @@ def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None
         if kind not in (_DENIAL, _ORDER):  # one of either may take several words
             left[kind] -= 1
     return None
+
+
+def _is_first_alone(reading: tuple[Spoken, ...]) -> bool:
+    """Whether all that is asked for is to be done first."""
+    if len(reading) > 1 or reading[0].order is not Order.FIRST:
+        return False
+    match reading[0].clause:
+        case PutClause(groups=several) | EnsureClause(states=several):
+            return len(several) > 1
+    return False
 
 
 def _telling(words: Sequence[str]) -> Iterator[str]:

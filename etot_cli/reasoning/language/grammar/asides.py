@@ -47,7 +47,9 @@ _WITHIN = re.compile(
     r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
     r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
-    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time))\b"
+    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
+    rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
+    rf"| (?!me\b|us\b|you\b){PEOPLE}(?:$| {COMMA})))\b"
 )
 """Words that a clause begins with wherever they stand."""
 _AHEAD = re.compile(
@@ -63,6 +65,12 @@ SAYS_NOTHING = frozenset(
     for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
 )
 """Sentences and clauses that ask for nothing."""
+_BEFORE = {
+    "so": word_set("is are was were am not feel feels look looks get gets got"),
+    "where": word_set("is"),
+}
+"""Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
+_LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _PRONOUNS = word_set("it they them that this those these")
@@ -130,7 +138,8 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     cut = any(part.before or part.after for part in parted)
     if not cut or not rest or len(asides) > MOST or _mistakable(parted, is_name):
         return None
-    topics = [told_of_thing(item.said, is_name) for item in asides if item.kind in ("", "plain")]
+    told = [item.said for item in asides if item.kind in ("", "plain")]
+    topics = [told_of_thing(said, is_name) for said in told if not is_of_people(said)]
     if not _are_spoken_of(topics, rest):
         return None
     kept = (
@@ -177,7 +186,9 @@ def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
     """
     words = () if not told_of_thing(aside.said, is_name) else aside.said.split()
     strange = any(word not in ALL_WORDS and not is_name(word) for word in words)
-    return aside.is_polite or aside.kind == "benefit" or strange
+    first, verb = (*aside.said.split(), "", "")[:2]
+    outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
+    return aside.is_polite or aside.kind == "benefit" or strange or outside
 
 
 def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
@@ -199,7 +210,9 @@ def _are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bo
     words = {word for said in rest for word in said.replace(",", "").split()}
     referring = _PRONOUNS | {"either", "one", "both"}
     return all(
-        (referring | {*topic[-1:]}) & words or topic[-1] in DESK_NOUNS for topic in topics if topic
+        (referring | {*topic[-1:]}) & words or topic[-1] in {*DESK_NOUNS, *_PRONOUNS}
+        for topic in topics
+        if topic
     )
 
 
@@ -213,6 +226,8 @@ def _clauses(sentence: str) -> Iterator[_Clause]:
         ahead = " ".join(words[at + mark :])
         begun = mark or at == 0
         found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
+        if found and not begun and words[at - 1] in _BEFORE.get(found[0], ()):
+            found = None
         if (mark or found) and (said or joint):
             yield _Clause(comma, kind, joint, " ".join(said))
             comma, kind, joint, said = mark, "", "", []
@@ -241,7 +256,8 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
             reason = is_reason(clause.said, is_name)
             return reason and (trailing or (at == 0 and clauses[1:] != []))
         case "benefit", _:
-            return trailing and not any(map(is_name, clause.said.split()))
+            apart = at > 0 and (last or clauses[at + 1].comma)
+            return apart and not any(map(is_name, clause.said.split()))
         case "purpose", "before":
             return trailing and not any(map(is_name, clause.said.split()))
         case "purpose", ("so" | "so that" | "where"):
@@ -264,13 +280,15 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
     """Phrases that name something in the scene."""
     for at, word in enumerate(words):
         if word in BEFORE_NAMES:
-            end = last = at + 1
+            end = last = at + 1 + (words[at + 1 : at + 2] in _LIKED)
             while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
                 end += 1
                 last = end if is_name(words[end - 1]) else last
             if last > at + 1:
                 owner = "the" if word in ("his", "her", "their") else word
-                yield " ".join((owner, *words[at + 1 : last]))
+                if re.match(rf"{PEOPLE}\b", " ".join(words[at:])):
+                    continue  # "my hands" are no hand cream
+                yield " ".join((owner, *(w for w in words[at + 1 : last] if [w] not in _LIKED)))
 
 
 def _names_stranger(said: str, is_name: IsName) -> bool:

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Part,
     either,
+    one_of,
     optional,
     remembered,
     sequence,
@@ -83,6 +84,24 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     joint("emptied", LIST, PLACED),
+    joint(
+        # "…, but first the cup on the tray"
+        "and",
+        OPTIONAL_COMMA,
+        optional("and, but"),
+        sequence(
+            one_of(
+                {
+                    Order.FIRST: small_words.LEADING_FIRST,
+                    Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+                    Order.LAST: small_words.LEADING_LAST,
+                }
+            ),
+            OPTIONAL_COMMA,
+            PLACED,
+            build=lambda order, placed: (replace(placed[0], order=order, far_fetched=1),),
+        ),
+    ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
     joint("and", COMMA, timed(_SO)),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),

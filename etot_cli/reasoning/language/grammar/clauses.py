@@ -281,9 +281,39 @@ LEAD = sequence(
 )
 
 
-def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
-    """A clause with what must not be done on the way."""
-    at, clause, order, instead, avoided = found
+def _spoken(said: tuple[tuple[Order | bool, ...], Any]) -> list[Reading]:
+    """A clause with what must not be done on the way: "… and the lid on the pot first" may be about
+    the lid alone.
+    """
+    leading, (at, clause, order, instead, avoided) = said
+    whole = _in_order(leading, at, clause, order, instead=instead, avoided=avoided)
+    *before, last = _each(clause)
+    if whole is None or not before or order is not Order.FIRST or leading:
+        return [] if whole is None else [whole]
+    first = Spoken(last, at + 1, order, far_fetched=1)
+    return [whole, (*(Spoken(item, at) for item in before), first, *whole[1:])]
+
+
+def _each(clause: Clause) -> list[Clause]:
+    """What a clause says of several things, in a clause for each."""
+    match clause:
+        case PutClause():
+            return [replace(clause, groups=(group,)) for group in clause.groups]
+        case EnsureClause():
+            return [replace(clause, states=(state,)) for state in clause.states]
+    return [clause]
+
+
+def _in_order(
+    leading: tuple[Order | bool, ...],
+    at: int,
+    clause: Clause,
+    order: Order | None,
+    *,
+    instead: bool,
+    avoided: tuple[Clause, ...],
+) -> Reading | None:
+    """A clause by the words for when it is to be done; None where these are at odds."""
     orders = [item for item in (*leading, order) if isinstance(item, Order)]
     said = list(dict.fromkeys(orders))
     strong = [item for item in said if item is not Order.THEN]
@@ -296,12 +326,12 @@ def _spoken(leading: tuple[Order | bool, ...], found: Any) -> Reading | None:
 
 LED_CLAUSE = Rule(
     either(
+        variants(sequence(LEAD, CLAUSE), _spoken),
         sequence(
             LEAD,
             either(BOTH_WAYS, ONLY_THESE),
             build=lambda orders, said: None if orders else said,
         ),
-        sequence(LEAD, CLAUSE, build=_spoken),
         plain(
             sequence(
                 NEITHER,

@@ -95,6 +95,7 @@ LEFT_SO = Rule(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
+        sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
     )
 )
 """How something is to be in the end ("drawer shut")."""

@@ -31,6 +31,12 @@ def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
     return AvoidClause(avoid, things, where or ())
 
 
+def _not_wanted(things: Things) -> AvoidClause | None:
+    """What is to be left alone; "any cups on the tray" are not to be there."""
+    places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
+    return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+
+
 _FORBIDDEN = either(
     sequence(
         one_of(
@@ -78,7 +84,7 @@ AVOID = either(
         DESTINATIONS,
         build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
     ),
-    sequence(verbs.NOT_WANTED, THINGS, build=partial(AvoidClause, Avoid.MOVE, negated=True)),
+    sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         THINGS,
         verbs.NOT_TO_BE,

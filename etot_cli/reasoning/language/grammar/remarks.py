@@ -25,25 +25,45 @@ IsName = Callable[[str], bool]
 _RELATIONS = (
     "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|"
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
-    "patients?|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher"
+    "patients?|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
+_OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
+"""Of people, and of nothing that is in a scene."""
 PEOPLE = (
     rf"(?:i|we|you|he|she|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
-    rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?))"
+    rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = re.compile(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often )*(?P<did>.+)$"
 )
+_MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
     r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)|do not need)\b"
+    r"|^(?:am going to need|"
+    r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
+    rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
     r"|^will [^~]* (?:myself|ourselves)$"
     r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
     r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
-    r"found|got|did|went|came|ate|drank|saw|spilt|felt|will (?:be|need)|hope|think|know|"
-    r"(?!(?:want|need|lik|wish|ask|hop|expect|prefer)\w*ed\b)\w+ed)\b"
+    r"found|got|did|went|came|ate|drank|saw|spilt|felt|gave|sent|"
+    r"sold|will (?:be|need)|hope|think|know|"
+    r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b"
 )
 """What somebody did, is or is about to do."""
+_DOES = re.compile(
+    r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
+    r"will not|can not|keeps?) )?(?P<verb>\w+)"
+)
+_TIDYING = [["cleaning"], ["tidying"], ["packing"], ["moving"], ["clearing"], ["sorting"]]
+"""What people are at who do not say what the robot is to do about it."""
+_PROPOSING = word_set(
+    """
+    suggest recommend propose expect insist demand require request vote choose pick say says tell
+    ask beg advise order urge bet mean means vote count rely trust
+    """
+)
+"""What somebody does who asks for something in a roundabout way."""
 _ASKING = word_set(
     """
     want wants need needs wanted needed wish like prefer should must shall would could may let ought
@@ -69,10 +89,21 @@ _WORK = _DOING - {"clean", "tidy"}
 """Those that say nothing else of a thing."""
 _ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
 _OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
-_TOO = re.compile(r"^(?:the|my|your|our) [^~]+ (?:is|are) (?:far |much )?too \w+")
+_TOO = re.compile(
+    r"^(?:it|they|that|(?:the|my|your|our) [^~]+) (?:is|are|looks?|gets?) (?:far |much )?too \w+"
+)
 _IN_GENERAL = re.compile(
     r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
+    r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
+    r"really |quite )?\w+ (?:in here|outside|out there)$"
+    rf"|^(?:it is )?time (?:for|to) "
+    rf"(?!(?:{'|'.join(sorted(VERB_WORDS))}|the|a|my)\b)\w+(?: up| out)?$"
+    r"|^(?:that|this|it) is where (?:i|we|it|they) "
+    r"(?:like|want|need|keep|prefer|belongs?|goes?|lives?)"
+    r"(?: it| them)?$|^(?:it|that|this) is (?:my|our|his|her) (?:favou?rite|best) \w+$"
+    r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
+_YONDER = re.compile(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
 _REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
     "anything all both each every any same here there first last which"
@@ -85,11 +116,14 @@ _PREDICATE = re.compile(
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
+_TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
+_BELONGS = re.compile(rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$")
 _TELLING = (
     word_set("full free clear ready") | set(STATES) | set(LEVELS) | set(SIDES) | set(NUMBERS)
     | set(THING_NOUNS) | _REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
+_GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _SO_PEOPLE = re.compile(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
 _SO_NOTHING = re.compile(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
@@ -98,7 +132,7 @@ _SO_NOTHING = re.compile(
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
     r"|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
-_OR_WILL = re.compile(rf"^(?:{PEOPLE}|it|they) (?:will|would|might|may|could)\b")
+_OR_WILL = re.compile(rf"^(?:{PEOPLE}|it|they) \w+")
 _COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
 
 
@@ -121,7 +155,8 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
     """Whether this tells what is to be gained, behind "so" ("I can see it") or ``where``."""
     named = any(map(is_name, said.split()))
     if where:
-        return bool(_SO_PEOPLE.match(said)) and not named
+        home = re.fullmatch(r"(?:it|they) (?:belongs?|goes?|lives?|should be)", said)
+        return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
     told_of = told_of_thing(said, is_name)
@@ -130,7 +165,9 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
 
 def is_warning(said: str) -> bool:
     """Whether this tells, behind "or", what else would happen ("it will fall")."""
-    return bool(_OR_WILL.match(said)) and not _DOING & {*said.split()}
+    return bool(_OR_WILL.match(said)) and not (_DOING - {"get"} | _ASKING - {"will", "would"}) & {
+        *said.split()
+    }
 
 
 def is_comment(said: str, is_name: IsName) -> bool:
@@ -140,6 +177,7 @@ def is_comment(said: str, is_name: IsName) -> bool:
 
 def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
+    said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
     if not is_of_people(said):
         return not (_ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
@@ -157,10 +195,14 @@ def is_remark(said: str, is_name: IsName) -> bool:
     if person:
         happened = _HAPPENED.match(person["did"])
         if happened is None:
-            return False
+            return not any(map(is_name, words)) and _does_nothing(person["did"])
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith(" to "):
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
+        if happened[0].startswith(("would hate", "do not want")):
+            return not any(map(is_name, words))
+        if did[:1] in _TIDYING and not any(map(is_name, words)):
+            return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((_WORK | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
     outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
@@ -169,14 +211,28 @@ def is_remark(said: str, is_name: IsName) -> bool:
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
 
 
+def _does_nothing(did: str) -> bool:
+    """Whether this is what somebody does that is nothing to the robot ("trips over it")."""
+    verb, more = _DOES.match(did), {*did.split()}
+    asking = _ASKING - {"will", "would", "could", "may", "not"}
+    if verb is None or (_WORK - OTHER_VERBS | asking) & more:
+        return False
+    stems = {verb["verb"], verb["verb"].removesuffix("s"), verb["verb"].removesuffix("es")}
+    known = any(stem in ALL_WORDS and stem not in OTHER_VERBS for stem in stems)
+    doing = any(word in VERB_WORDS and word.endswith("ing") for word in more)
+    return not (known or doing or _PROPOSING & stems)
+
+
 def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     """The words for something in the scene of which this tells what places nothing, singles nothing
     out and speaks of nothing else; none where it does not.
     """
-    words = said.split() or [""]
+    words = _YONDER.sub("", said).split() or [""]
     end = 1
     while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
         end += 1
+    if words[0] in ("it", "they") and _is_idle(" ".join(words[1:]), is_name):
+        return (words[0],)
     if words[0] not in BEFORE_NAMES or end == 1 or not is_name(words[end - 1]):
         return ()
     return tuple(words[1:end]) if _is_idle(" ".join(words[end:]), is_name) else ()
@@ -184,6 +240,9 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
 
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
+    predicate = _TOO_SO.sub("is so", predicate)
+    if _BELONGS.match(predicate):
+        return True
     found = _PREDICATE.match(predicate)
     if not found:
         return False

@@ -64,7 +64,10 @@ def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
 def opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State | None:
     """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
     several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
-    return None if several else _opposite(subjects, so)
+    left = ([item.words for item in np.modifiers] in ([], [("left",)]) for np in subjects)
+    bare = all(left) and subjects[0].words == ("anything",)  # then it is to be empty
+    emptied = bare and not any(isinstance(item, Destination) and item.beside for item in so)
+    return None if several or emptied else _opposite(subjects, so)
 
 
 def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
@@ -209,6 +212,14 @@ ENSURE = either(
         build=lambda nps, state: EnsureClause((State(nps, word=state),)),
     ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+    sequence(
+        "(i|we) do not want",
+        sequence(noun_phrase, build=_there_is_none),
+        optional(_TO_BE),
+        DESTINATIONS,
+        optional(small_words.ANY_MORE),
+        build=lambda nps, so: _ensured(state_of(nps, so)),
+    ),
     quiet(
         sequence(
             either(

@@ -70,7 +70,7 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
 _STATES = (
-    r"(?:going|on|in|inside|too|not|now|still|already|less|more|so|much)\b"
+    r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
     r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine)"
     r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"

@@ -250,5 +250,5 @@ def _says_several(asked: Asked) -> bool:
         and len(words) == len(match.entries) == 1
         and is_object(match.entries[0])
     )
-    packed = lone and match.entries[0].is_box_of(words[-1])
+    packed = all(is_object(entry) and entry.is_box_of(words[-1]) for entry in match.entries)
     return (match.loose or lone) and not packed

@@ -89,7 +89,9 @@ NOTHING_IS = """
     nothing (should|must|may|can|is to|has to) (be|stay|remain) [left] (in|on),
     there (should|must|has to|needs to|is to) be nothing [left] (in|on),
     there (should|must|may|can) (not|no longer) be anything [left] (in|on),
-    (ensure|make sure|see to it) [that] (nothing is|there is nothing|nothing remains) [left] (in|on)
+    (ensure|make sure|see to it) [that] (nothing is|there is nothing) [left] (in|on),
+    (ensure|make sure|see to it) [that] nothing remains [left] (in|on),
+    (i|we) (do not want anything|want nothing) [to be] [left|lying|standing|sitting] (in|on)
 """
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
