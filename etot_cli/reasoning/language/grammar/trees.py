@@ -12,10 +12,15 @@ _CONTRASTS = (Prep.CONTRAST, Prep.EXCEPT)
 
 def nodes(tree: object) -> Iterator[object]:
     """All that a tree is made of, from its root on."""
-    yield tree
-    fields = getattr(tree, "__dataclass_fields__", ())
-    for part in tree if isinstance(tree, tuple) else [getattr(tree, name) for name in fields]:
-        yield from nodes(part)
+    ahead = [tree]
+    while ahead:
+        node = ahead.pop()
+        yield node
+        if isinstance(node, tuple):
+            ahead.extend(reversed(node))
+        else:
+            fields = getattr(node, "__dataclass_fields__", ())
+            ahead.extend(getattr(node, name) for name in reversed(fields))
 
 
 def pronouns(tree: object) -> Iterator[str]:

@@ -289,12 +289,12 @@ def head_of(noun: str) -> str:
 
 def same_noun(first: str, second: str) -> bool:
     """Whether two words are the same noun, apart from number."""
-    return first == second or singular(first) == singular(second)
+    return singular(first) == singular(second)
 
 
 def matches_any(word: str, nouns: Iterable[str]) -> bool:
     """Whether a word is one of some nouns, apart from number."""
-    return any(same_noun(word, noun) for noun in nouns)
+    return singular(word) in map(singular, nouns)
 
 
 def is_plural_of(word: str, nouns: Iterable[str]) -> bool:
