@@ -127,7 +127,6 @@ SIDED = [
         r"(?i)right (next|away|behind|then)|^right,|"
         r"(is|be|been|were|someone|i|anything|nothing) left\b",
         text,
-        text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
 ]
