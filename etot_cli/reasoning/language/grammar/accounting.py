@@ -226,6 +226,9 @@ def _said_of_put(clause: PutClause) -> Iterator[str]:
         yield from ("each", "every", "another")
     if clause.grouping is Grouping.TOGETHER:
         yield from ("same", "all")
+    (first, *more) = clause.groups
+    if more and all(group.destinations is first.destinations for group in more):
+        yield from ("both", "all", _ORDER)  # one after the other to one place
     places = [target for group in clause.groups for item in group.destinations for target in
               (item.targets or (item,)) if not item.denied]  # fmt: skip
     if len(places) > 1 or clause.grouping is not Grouping.ANY:

@@ -37,7 +37,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
-from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIRST_TO_LAST
+from etot_cli.reasoning.language.grammar.successions import (
+    FIRST_THEN,
+    FROM_FIRST_TO_LAST,
+    put_in_turn,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -211,11 +215,12 @@ PUT = either(
                 either(
                     sequence(verbs.PUT, "them [both|all], both [of them], all of them"),
                     sequence("both [of them], all of them, they [both|all]", verbs.MODAL),
+                    "both [of them], all [of them]",
                 ),
             ),
         ),
         DESTINATIONS,
-        build=put_to,
+        build=put_in_turn,
     ),
     quiet(
         sequence(
@@ -254,7 +259,7 @@ PUT = either(
         either(INTO, ONTO),
         build=lambda where: put_to(Things((NounPhrase(pronoun="it", text="it"),)), (where,)),
     ),
-    sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
@@ -325,6 +330,6 @@ VERBLESS = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=_put_down),
-    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
 )
 """Places for things without a word for doing; only whole sentences are so."""

@@ -126,7 +126,7 @@ class Vocabulary:
         if not for_it:  # a yarn basket is no yarn
             told = [entry for entry in told if entry.info is None or not entry.info.container]
         twin = word not in RUBBISH and any(word in group for group in TWINS)
-        if twin and not all(entry.is_portion() for entry in told):
+        if twin and not packed and not all(entry.is_portion() for entry in told):
             return []  # a remote of the TV is no TV
         sorts = len({entry.called[:1] for entry in told}) > 1
         if is_general_noun(word) or (
