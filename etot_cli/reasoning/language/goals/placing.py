@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
@@ -210,7 +211,12 @@ def where_is(
         return context.source((index,))
 
     away = [*themes, *still]
-    marks = [index for np in where.targets for index in context.phrases.refer(np, Role.ANY, away)]
+    named = (
+        # "With the other boxes on the shelf": what it is not one of, wherever that is
+        replace(np, determiner="all") if np.modifiers and quantity_of(np.determiner).other else np
+        for np in where.targets
+    )
+    marks = [index for np in named for index in context.phrases.refer(np, Role.ANY, away)]
     (places, *others) = {*map(at, marks)}
     held = [place.where for place in places if place.where is not None]
     occupied = any(place.beside for place in places) or any(map(context.discourse.is_desk, held))

@@ -120,7 +120,7 @@ PLAIN_MODIFIER = either(
         build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
     ),
 )
-_INSIDE_IT = "inside, in there, in, (inside|in) (it|them|which)"
+_INSIDE_IT = "[still] inside, [still] in there, in, [still] (inside|in) (it|them|which)"
 _UPON_IT = "on [top of] (it|them), on top"
 _POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"

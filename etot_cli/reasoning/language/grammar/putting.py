@@ -68,6 +68,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 _STACKS = frozenset(spellings(nouns.STACK))
@@ -133,10 +134,14 @@ FLANKED = sequence(
 def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
     things, said = found
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
+    if all({"other", "others", "rest"} & {*np.determiner.split(), *np.words} for np in others):
+        # "With the other pens"; in "the rag in the jar with the other brush" they rather tell which
+        told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
+        return replace(put_to(things, (where,)), far_fetched=2 * told)
     described = any(item.modifiers for item in (*others, *things.phrases))
     known = (*THE_WORDS, *([""] if said == "in with" else ()))  # "in with teddy"
     named = not described and all(np.words and np.determiner in known for np in others)
-    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
     return put_to(things, (where,)) if named else None
 
 

@@ -312,7 +312,7 @@ class Meanings:
     def _of_cleared(
         self, phrase: NounPhrase, role: Role, resolve: Callable[..., Resolved]
     ) -> Resolved | None:
-        """After "clear the shelf" "both boxes" and "everything" are what was on it, where any is."""
+        """After "clear the shelf" "both boxes" and "everything" are what was on it, if any was."""
         cleared, quantity = self.discourse.cleared, quantity_of(phrase.determiner)
         general = phrase.head in GENERAL or matches_any(phrase.head, THING_NOUNS)
         plural = general or singular(phrase.head) != phrase.head

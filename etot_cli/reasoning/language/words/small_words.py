@@ -179,6 +179,7 @@ EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and] when (that is|you have) done [that], [and] once that is done,
+    [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],
     [and|but] [only] then, [and] after [all [of]] (that|this),
     [and] afterwards, [and] next, [and] (finally|lastly),
     and last [of all], after which,
