@@ -88,6 +88,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case RemoveClause():
             remove(context, clause)
         case MoveClause():
+            context.tell_so(clause.things, opens=clause.opens)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 context.steps.append(
                     Open(index) if clause.opens else Close(_all_of(context, index))

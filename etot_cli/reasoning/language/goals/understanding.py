@@ -78,6 +78,9 @@ class Understanding:
         for spoken in sorted(reading, key=lambda item: item.position):
             moved = self.context.discourse.things(*self.context.discourse.put)
             self.context.order = spoken.order
+            self.context.discourse.replaced = (
+                frozenset(self.context.discourse.put) if spoken.instead else frozenset()
+            )
             said = len(self.context.discourse.mentions)
             steps = tuple(steps_of(spoken.clause, self.context))
             further = spoken is not reading[0] or spoken.order is Order.THEN

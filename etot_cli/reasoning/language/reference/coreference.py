@@ -92,6 +92,7 @@ def meant_by_it(
         ReferenceProblem: nothing before it fits.
     """
     if role in TARGETS:
+        excluded = (*excluded, *discourse.replaced)
         # "Close the box after putting the cup beside the tray in it": not in the tray.
         told_by = {*_telling(discourse)} - {*excluded}
         if told_by:

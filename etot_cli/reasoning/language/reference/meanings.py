@@ -113,6 +113,8 @@ class Meanings:
         phrase = self.told_by_themes(phrase)
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
+            with suppress(ReferenceProblem):
+                return self._told_otherwise(phrase, role)
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         chosen = one_of_several(phrase, role, self.discourse)
         if chosen is not None:
@@ -138,6 +140,20 @@ class Meanings:
         # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
         upon = role is Role.SURFACE and self.resolver.is_called(resolved.noun)
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
+
+    def _told_otherwise(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """"The other battery, the one in the drawer" is told by that, of several batteries.
+
+        Raises:
+            ReferenceProblem: it is not.
+        """
+        resolved = self.resolved_as(replace(phrase, determiner="the"), role, None)
+        every = replace(phrase, determiner="all", modifiers=())
+        several = len(things_in(self.resolved_as(every, role, None).options)) > 1
+        spared = any(item.prep in (Prep.EXCEPT, Prep.CONTRAST) for item in phrase.modifiers)
+        if not (phrase.modifiers and several and not spared and [*map(len, resolved.options)] == [1]):
+            raise ReferenceProblem(phrase.text, UNCLEAR)
+        return resolved
 
     def told_by_themes(self, phrase: NounPhrase) -> NounPhrase:
         """In "the same shelf as the red one" that is one of what is moved, not a red shelf."""
