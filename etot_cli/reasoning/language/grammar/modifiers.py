@@ -175,8 +175,14 @@ _contents = either(
     sequence(
         "where",
         noun_phrase,
-        "(is|are|stands|stand|lies|lie|sits|sit|belongs) [currently]",
-        build=lambda np: Modifier(Prep.WITH, (np,)),
+        either(
+            phrase("is, are, stands, stand, lies, lie, sits, sit, belongs", ()),
+            phrase(
+                "(is|are|stands|stand|lies|lie|sits|sit) (now|currently), (was|were) [before]",
+                (HERE_BEFORE,),
+            ),
+        ),
+        build=lambda np, words: Modifier(Prep.WITH, (np,), words),
     ),
     quiet(
         sequence(
