@@ -108,6 +108,35 @@ def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
     assert long_axis(after.states["pen"])[2] < -0.6
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("length", "width"), [(0.13, 0.07), (0.17, 0.09)])
+def test_a_pen_that_stands_on_its_blunt_end_goes_into_a_cup_as_it_is(
+    length: float, width: float, seed: int
+) -> None:
+    """The hand came down along it, and would have to point up to put it in with its point down."""
+    cup = CUP | {"diameter": width, "height": 0.09, "mass": 0.3}
+    pen = {"length": length, "inside": "first", "quaternion": [0.7071068, 0, -0.7071068, 0]}
+    run = episode(
+        seed,
+        first=cup | {"at": [0.42, 0.15]},
+        second=cup | {"at": [0.42, -0.15]},
+        pen={key: value for key, value in (PEN | pen).items() if key != "at"},
+    )
+    after = run.must("[PICK UP, pen] (vertical)", "[PUT INTO, second]")
+    assert after.states["pen"].inside == "second" and not after.states["second"].toppled
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_standing_pen_that_is_held_from_the_side_is_laid_down_from_above(seed: int) -> None:
+    """Whichever way its point is: laid down the other way round, the hand would be under it."""
+    cup = CUP | {"at": [0.42, 0.10], "diameter": 0.05, "height": 0.10, "mass": 0.35}
+    tray = BOX | {"size": [0.2, 0.16, 0.012], "mass": 0.5, "at": [0.4, -0.2]}
+    pen = {key: value for key, value in PEN.items() if key != "at"} | {"inside": "cup"}
+    run = episode(seed, cup=cup, pen=pen, tray=tray)
+    after = run.must("[PICK UP, pen] (horizontal)", "[PUT ON, tray]").states["pen"]
+    assert after.on == ("tray",) and abs(long_axis(after)[2]) < 0.1
+
+
 @pytest.mark.parametrize(
     "thing",
     [
