@@ -122,9 +122,24 @@ TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.13, "mass": 0.12, "insi
              "thing": TIN | {"at": [0.415, 0.475]}},
             ["left", "right"],
         ),
+        (
+            "[PICK UP, thing]",
+            {"vase": CUP | {"diameter": 0.05, "height": 0.15, "at": [0.42, 0.15, 0.205],
+                            "fixed": True},
+             "thing": BALL | {"diameter": 0.036, "at": [0.42, 0.15, 0.1545]}},
+            ["vase"],
+        ),
+        (
+            "[PICK UP, thing]",
+            {"mug": CUP | {"diameter": 0.062, "height": 0.12, "at": [0.4, -0.15]},
+             "thing": {"kind": "cylinder", "diameter": 0.045, "height": 0.06,
+                       "at": [0.4, -0.15, 0.167]}},
+            ["mug"],
+        ),
     ],
     ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof",
-         "two before it under a roof"],
+         "two before it under a roof", "a vase that fingers close around",
+         "a mug that fingers close around"],
 )  # fmt: skip
 @pytest.mark.slow
 def test_no_grasp_names_who_is_in_the_way(
