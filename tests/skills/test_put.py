@@ -109,6 +109,29 @@ def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "thing",
+    [
+        {"kind": "cylinder", "diameter": 0.05, "height": 0.11},
+        {"kind": "cylinder", "diameter": 0.06, "height": 0.12},
+        {"kind": "box", "size": [0.045, 0.045, 0.11]},
+    ],
+    ids=["can", "larger can", "block"],
+)
+def test_what_is_too_high_for_a_drawer_stands_in_the_open_part_of_it(
+    thing: dict[str, Any], seed: int
+) -> None:
+    """Beside the case, under which it does not get, and not pressed against that."""
+    chest = {"kind": "drawer_unit", "size": [0.24, 0.2, 0.1], "mass": 2.5, "yaw_deg": -90}
+    chest |= {"at": [0.46, 0.24], "drawers": [{"name": "only", "travel": 0.14, "open": 0.14}]}
+    run = episode(seed, chest=chest, thing=thing | {"mass": 0.12, "at": [0.36, -0.22]})
+    after = run.must("[PICK UP, thing]", "[PUT INTO, chest] (upright)").states["thing"]
+    assert after.inside == "chest" and not after.toppled
+    contacts = run.done[-1].record.contacts
+    assert all("chest" not in (one.first, one.second) or one.peak_force < 15.0 for one in contacts)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("length", "width"), [(0.13, 0.07), (0.17, 0.09)])
 def test_a_pen_that_stands_on_its_blunt_end_goes_into_a_cup_as_it_is(
     length: float, width: float, seed: int

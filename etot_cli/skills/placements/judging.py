@@ -77,7 +77,9 @@ class Quality(IntEnum):
     """On top of something else or over an edge, and stable there."""
     STICKS_OUT = 4
     """On the floor of a container that is too low for it."""
-    LOOSE = 5
+    PILED_HIGH = 5
+    """On top of something else in a container that is too low for both, and stable there."""
+    LOOSE = 6
     """Above whatever fills the container: physics will tell."""
 
 
@@ -247,6 +249,7 @@ class Judge:
             kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
             too_tall = ~within if not self._has_lid else lift + turned.height > support.room
             kind[usable & too_tall] = Quality.STICKS_OUT
+            kind[(kind == Quality.PILED) & too_tall & self._has_lid] = Quality.PILED_HIGH
         if support.from_front:
             kind[lift + turned.height > support.room] = -1
         return kind
@@ -268,7 +271,7 @@ class Judge:
             if support.from_front:
                 # A hand goes in no further than it has to.
                 cost -= ((turned.cells - self.relief.middle) * self.relief.cell)[:, 0]
-        piled = kind >= Quality.PILED
+        piled = (kind >= Quality.PILED) & (kind != Quality.STICKS_OUT)
         cost = np.where(piled, away + turned.lift, cost)
         preference = self._request.preference
         if preference is not None:

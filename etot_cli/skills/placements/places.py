@@ -134,13 +134,14 @@ class PlaceFinder:
         if self._support.from_front:
             found = [(cost + TURN_COST * turn, turn, index) for cost, turn, index in found]
         found.sort()
-        for _, turn, index in found[:MAX_PILED] if quality is Quality.PILED else found:
+        is_pile = quality in (Quality.PILED, Quality.PILED_HIGH)
+        for _, turn, index in found[:MAX_PILED] if is_pile else found:
             turned = table[turn].turned
             cell = turned.cells[index]
             rest = float(turned.rest[index])
             seen = under(self._relief.heights, -np.inf, turned.object, cell)
             touching = seen >= rest + turned.object.low - TOUCH
-            if quality is Quality.PILED and not self._is_stable(turned, touching):
+            if is_pile and not self._is_stable(turned, touching):
                 continue
             owners = under(self._relief.owners, -1, turned.object, cell)[touching]
             bearers = {self._relief.names[int(owner)] for owner in owners if owner >= 0}
