@@ -132,6 +132,23 @@ def test_what_is_too_high_for_a_drawer_stands_in_the_open_part_of_it(
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("ball", "mouth"), [(0.066, 0.057), (0.07, 0.057), (0.08, 0.042)])
+def test_a_ball_lies_on_the_mouth_of_a_mug(ball: float, mouth: float, seed: int) -> None:
+    mug = {"kind": "cup", "diameter": mouth + 0.008, "wall": 0.004, "height": 0.085, "mass": 0.3}
+    run = episode(seed, mug=mug | {"at": [0.42, -0.14]}, ball=BALL | {"diameter": ball})
+    after = run.must("[PICK UP, ball]", "[PUT ON, mug]").states
+    assert after["ball"].on == ("mug",) and not after["mug"].toppled
+
+
+def test_what_stands_on_the_floor_of_a_bowl_is_not_on_it() -> None:
+    bowl = {"kind": "bowl", "diameter": 0.14, "height": 0.03, "mass": 0.3, "at": [0.42, -0.14]}
+    run = episode(bowl=bowl, block=BOX | {"size": [0.04, 0.04, 0.07], "at": [0.38, 0.2]})
+    run.must("[PICK UP, block]")
+    cause = run.do("[PUT ON, bowl]").record.cause
+    assert cause is not None and cause.kind is CauseKind.NO_ROOM
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("length", "width"), [(0.13, 0.07), (0.17, 0.09)])
 def test_a_pen_that_stands_on_its_blunt_end_goes_into_a_cup_as_it_is(
     length: float, width: float, seed: int
