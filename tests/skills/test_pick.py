@@ -254,7 +254,7 @@ def test_what_lies_round_before_a_wall_is_taken_by_a_hand_that_leans_aside(seed:
 
 
 @pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(("diameter", "length"), [(0.014, 0.15), (0.018, 0.19)])
+@pytest.mark.parametrize(("diameter", "length"), [(0.014, 0.114), (0.014, 0.15), (0.018, 0.19)])
 def test_a_pen_that_was_said_to_be_in_a_cup_is_taken_out(
     diameter: float, length: float, seed: int
 ) -> None:

@@ -108,13 +108,14 @@ def prepare_grasp(
 
 
 def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[str]:
-    """Addresses of what both fingers meet before they get to the object: they would close around
-    the vessel that it is in. What stands on one side alone, they may push aside.
+    """Addresses of what the fingers would close on before they get to the object: the vessel that
+    it is in, or what else is met by both of them. Other things on one side they may push aside.
 
     Looked at are the closed fingers and half the way there. A finger is thicker than half the room
     that it has beside the object, so no wall gets between the two.
     """
     checker = belief.checker
+    vessel = owner_of(belief.scene.states[name].inside or name)
     closed = min(grasp.width, opening)
     for width in (closed, (closed + opening) / 2):
         checker.set_fingers(width)
@@ -122,8 +123,9 @@ def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[
             checker.hand_hits(grasp.tool, clearance=0.0, part=part)
             for part in (HandPart.LEFT, HandPart.RIGHT)
         )
-        between = {owner_of(address) for address in right} - {name, DESK}
-        if met := [address for address in left if owner_of(address) in between]:
+        both = {owner_of(address) for address in left} & {owner_of(address) for address in right}
+        unmoved = (both | {vessel}) - {name, DESK}
+        if met := [address for address in (*left, *right) if owner_of(address) in unmoved]:
             return met
     return []
 
