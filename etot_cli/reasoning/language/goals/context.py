@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import (
     Constraint,
@@ -111,11 +112,11 @@ class Context:
 
     def tell_so(self, things: Things, *, opens: bool) -> None:
         """Before anything is spoken of, "open the other drawer" is about what is not open."""
+        so = partial(state_holds, "open" if opens else "closed", scene=self.scene)
         for phrase in (np for np in things.phrases if np.words and not np.is_elliptic):
             others = quantity_of(phrase.determiner).other
             if others and self.phrases.spoken_of(phrase, Role.PART) is None:
-                word = "open" if opens else "closed"
-                self._tell(phrase, Role.PART, lambda thing: state_holds(word, thing, self.scene))
+                self._tell(phrase, Role.PART, so)
 
     def all_called(self, phrase: NounPhrase, role: Role) -> tuple[Thing, ...]:
         """All that is called by a phrase's noun."""

@@ -93,7 +93,11 @@ _CLITICS = (
     (r"\b(i)(m|ve)\b", r"\1'\2"),
     (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
     (r"\bu\b", "you"),
-    (r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything) what (?=(?:is|are)\b)", r"\1 that "),
+    (
+        r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
+        r" what (?=(?:is|are)\b)",
+        r"\1 that ",
+    ),
     (r"\bgimme\b", "give me"),
     (r"\blemme\b", "let me"),
     (r"\bwanna\b", "want to"),

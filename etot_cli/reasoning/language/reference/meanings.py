@@ -142,7 +142,7 @@ class Meanings:
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
 
     def _told_otherwise(self, phrase: NounPhrase, role: Role) -> Resolved:
-        """"The other battery, the one in the drawer" is told by that, of several batteries.
+        """What "the other battery, the one in the drawer" is told by, of several batteries.
 
         Raises:
             ReferenceProblem: it is not.
@@ -151,7 +151,9 @@ class Meanings:
         every = replace(phrase, determiner="all", modifiers=())
         several = len(things_in(self.resolved_as(every, role, None).options)) > 1
         spared = any(item.prep in (Prep.EXCEPT, Prep.CONTRAST) for item in phrase.modifiers)
-        if not (phrase.modifiers and several and not spared and [*map(len, resolved.options)] == [1]):
+        if not (
+            phrase.modifiers and several and not spared and [*map(len, resolved.options)] == [1]
+        ):
             raise ReferenceProblem(phrase.text, UNCLEAR)
         return resolved
 
