@@ -219,10 +219,14 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     context.discourse.last_places = places
     where = context.discourse.things(*(p.where for p in places if p.where is not None))
     marks = [thing for thing in where if thing.name != DESK]
+    puts = (step for step in context.steps if isinstance(step, Put) and not step.removal)
+    gone = {t for step in puts for t in context.discourse.things(*step.what)}
+    gone |= {*context.discourse.placed}  # "in the blue bowl, not in the red one"
     for at in indices if clause.not_left else ():
-        things = context.discourse.things(at)
+        things = [thing for thing in context.discourse.things(at) if thing not in gone]
         there = [t for t in things if any(touches(t, m, context.scene) for m in marks)]
-        whole = len(context.discourse.referents[at].options) == 1 and len(there) == len(things)
+        known = len(context.discourse.referents[at].options) == 1
+        whole = known and [*context.discourse.things(at)] == there
         for index in (at,) if whole else (context.single(thing, thing.name) for thing in there):
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
 
