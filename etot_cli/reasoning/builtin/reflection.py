@@ -229,13 +229,18 @@ class _Case:
                 yield from relocated(self.failed, vessel, None, self.index)
 
     def _of_pick(self) -> Iterator[Correction]:
-        for name in self._culprits():
+        culprits = self._culprits()
+        # What keeps the hand from its own contents does so wherever it stands.
+        vessels = carriers(self.scene, self.action.target)
+        anywhere = self.cause.kind is CauseKind.NO_GRASP and vessels.issuperset(culprits)
+        for name in culprits:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None:
                 yield from self._earlier(placed, name)
                 yield from self._taken_out_first(placed, name)
             elif self.scene.infos[name].movable:
-                yield from self._out_of_the_way(name)
+                if not anywhere:
+                    yield from self._out_of_the_way(name)
             else:
                 yield from opened_wider(self.failed, name)
                 yield from self._taken_before_opening(name)
