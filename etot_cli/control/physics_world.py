@@ -26,6 +26,7 @@ from etot_cli.world.model import World, build_world
 from etot_cli.world.placing import check_robot_is_free
 from etot_cli.world.recorder import Recorder, Trajectory
 from etot_cli.world.relations import initial_memory, read_scene
+from etot_cli.world.rest import let_fall
 from etot_cli.world.snapshot import Memory, Snapshot, restore, save
 from etot_cli.world.state import Cause, ContactEvent, RolloutRecord, SceneState, owner_of
 
@@ -99,6 +100,8 @@ class PhysicsWorld:
         check_robot_is_free(world, data)
         robot = SimulatedRobot(world, data, deadline=self.deadline)
         robot.wait(SETTLE_AT_START, Guards(), until_rest=True)
+        if let_fall(world, data):
+            robot.wait(SETTLE_AT_START, Guards(), until_rest=True)
         scene, start = self._awake(initial_memory(world, data))
         return start, scene
 

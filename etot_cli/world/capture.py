@@ -23,7 +23,8 @@ from etot_cli.specs.scene import Camera, Scene
 from etot_cli.world.build.surroundings import camera_rotation
 from etot_cli.world.model import World
 from etot_cli.world.offscreen import OffscreenRenderer
-from etot_cli.world.placing import object_bounds, settle_objects, world_at_start
+from etot_cli.world.placing import object_bounds, world_at_start
+from etot_cli.world.rest import settle_objects
 
 DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
 """The camera of scenes that name none: in front of the desk, looking obliquely at it."""

@@ -93,18 +93,6 @@ def check_robot_is_free(world: World, data: mujoco.MjData) -> None:
             )
 
 
-def settle_objects(world: World, data: mujoco.MjData, seconds: float) -> None:
-    """Lets the objects come to rest for so long [s], while the arm stands still where it is."""
-    joints = world.robot.qpos
-    standing = data.qpos[joints].copy()
-    for _ in range(int(seconds / world.model.opt.timestep)):
-        data.qpos[joints] = standing
-        data.qvel[world.robot.dof] = 0.0
-        mujoco.mj_step(world.model, data)
-    data.qpos[joints] = standing
-    mujoco.mj_forward(world.model, data)
-
-
 def raise_clear(world: World, data: mujoco.MjData, name: str) -> bool:
     """Lifts an object straight up until it overlaps nothing; False where that is too far."""
     own = set(world.geoms_of(name).tolist())

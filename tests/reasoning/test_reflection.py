@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -310,6 +311,19 @@ def test_what_is_taken_out_through_a_front_is_held_from_the_side(kind: CauseKind
     reason = cause(kind, "microwave", "tennis_ball")
     step = failed(start, plan.format(""), 1, reason, before)
     assert plan.format(" (horizontal)") in revisions(step)
+
+
+@pytest.mark.parametrize(("rise_deg", "again"), [(90, True), (50, True), (0, False)])
+def test_a_rod_that_stands_in_the_hand_is_held_from_the_side(rise_deg: int, again: bool) -> None:
+    """From there the hand lays it down; what lies in the hand needs no other grasp."""
+    start = scenes.pens()
+    half = math.radians(-rise_deg) / 2
+    turned = {"quaternion": (math.cos(half), 0.0, math.sin(half), 0.0)}
+    before = changed(held(start, "pen"), pen=turned, drawer={"openness": {"top": 1.0}})
+    plan = "[OPEN, drawer] [PICK UP, pen]{0} [PUT INTO, drawer] [CLOSE, drawer]"
+    reason = cause(CauseKind.REBOUND, "drawer", "pen")
+    step = failed(start, plan.format(""), 2, reason, before)
+    assert (plan.format(" (horizontal)") in revisions(step)) == again
 
 
 def test_what_the_goal_wants_in_place_comes_back() -> None:

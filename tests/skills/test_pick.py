@@ -251,3 +251,16 @@ def test_what_lies_round_before_a_wall_is_taken_by_a_hand_that_leans_aside(seed:
     can = {"kind": "cylinder", "diameter": 0.045, "height": 0.13, "mass": 0.12}
     can |= {"inside": "unit.high", "at": [0.45, 0.104], "quaternion": [0.7071068, 0, 0.7071068, 0]}
     episode(seed, unit=unit, can=can | {"rolling_friction": 0.002}).must("[PICK UP, can]")
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("diameter", "length"), [(0.014, 0.114), (0.014, 0.15), (0.018, 0.19)])
+def test_a_pen_that_was_said_to_be_in_a_cup_is_taken_out(
+    diameter: float, length: float, seed: int
+) -> None:
+    """Nobody said how it stands there; it must not fall while the hand is on its way."""
+    pen = PEN | {"diameter": diameter, "length": length, "inside": "cup"}
+    del pen["at"]
+    cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.4, "at": [0.42, 0.16]}
+    state = episode(seed, cup=cup, pen=pen).must("[PICK UP, pen]")
+    assert state.holding == "pen" and not state.states["cup"].toppled

@@ -108,6 +108,75 @@ def test_pen_stands_in_a_cup(seed: int, yaw: float) -> None:
     assert long_axis(after.states["pen"])[2] < -0.6
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "thing",
+    [
+        {"kind": "cylinder", "diameter": 0.05, "height": 0.11},
+        {"kind": "cylinder", "diameter": 0.06, "height": 0.12},
+        {"kind": "box", "size": [0.045, 0.045, 0.11]},
+    ],
+    ids=["can", "larger can", "block"],
+)
+def test_what_is_too_high_for_a_drawer_stands_in_the_open_part_of_it(
+    thing: dict[str, Any], seed: int
+) -> None:
+    """Beside the case, under which it does not get, and not pressed against that."""
+    chest = {"kind": "drawer_unit", "size": [0.24, 0.2, 0.1], "mass": 2.5, "yaw_deg": -90}
+    chest |= {"at": [0.46, 0.24], "drawers": [{"name": "only", "travel": 0.14, "open": 0.14}]}
+    run = episode(seed, chest=chest, thing=thing | {"mass": 0.12, "at": [0.36, -0.22]})
+    after = run.must("[PICK UP, thing]", "[PUT INTO, chest] (upright)").states["thing"]
+    assert after.inside == "chest" and not after.toppled
+    contacts = run.done[-1].record.contacts
+    assert all("chest" not in (one.first, one.second) or one.peak_force < 15.0 for one in contacts)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("ball", "mouth"), [(0.066, 0.057), (0.07, 0.057), (0.08, 0.042)])
+def test_a_ball_lies_on_the_mouth_of_a_mug(ball: float, mouth: float, seed: int) -> None:
+    mug = {"kind": "cup", "diameter": mouth + 0.008, "wall": 0.004, "height": 0.085, "mass": 0.3}
+    run = episode(seed, mug=mug | {"at": [0.42, -0.14]}, ball=BALL | {"diameter": ball})
+    after = run.must("[PICK UP, ball]", "[PUT ON, mug]").states
+    assert after["ball"].on == ("mug",) and not after["mug"].toppled
+
+
+def test_what_stands_on_the_floor_of_a_bowl_is_not_on_it() -> None:
+    bowl = {"kind": "bowl", "diameter": 0.14, "height": 0.03, "mass": 0.3, "at": [0.42, -0.14]}
+    run = episode(bowl=bowl, block=BOX | {"size": [0.04, 0.04, 0.07], "at": [0.38, 0.2]})
+    run.must("[PICK UP, block]")
+    cause = run.do("[PUT ON, bowl]").record.cause
+    assert cause is not None and cause.kind is CauseKind.NO_ROOM
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("length", "width"), [(0.13, 0.07), (0.17, 0.09)])
+def test_a_pen_that_stands_on_its_blunt_end_goes_into_a_cup_as_it_is(
+    length: float, width: float, seed: int
+) -> None:
+    """The hand came down along it, and would have to point up to put it in with its point down."""
+    cup = CUP | {"diameter": width, "height": 0.09, "mass": 0.3}
+    pen = {"length": length, "inside": "first", "quaternion": [0.7071068, 0, -0.7071068, 0]}
+    run = episode(
+        seed,
+        first=cup | {"at": [0.42, 0.15]},
+        second=cup | {"at": [0.42, -0.15]},
+        pen={key: value for key, value in (PEN | pen).items() if key != "at"},
+    )
+    after = run.must("[PICK UP, pen] (vertical)", "[PUT INTO, second]")
+    assert after.states["pen"].inside == "second" and not after.states["second"].toppled
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_standing_pen_that_is_held_from_the_side_is_laid_down_from_above(seed: int) -> None:
+    """Whichever way its point is: laid down the other way round, the hand would be under it."""
+    cup = CUP | {"at": [0.42, 0.10], "diameter": 0.05, "height": 0.10, "mass": 0.35}
+    tray = BOX | {"size": [0.2, 0.16, 0.012], "mass": 0.5, "at": [0.4, -0.2]}
+    pen = {key: value for key, value in PEN.items() if key != "at"} | {"inside": "cup"}
+    run = episode(seed, cup=cup, pen=pen, tray=tray)
+    after = run.must("[PICK UP, pen] (horizontal)", "[PUT ON, tray]").states["pen"]
+    assert after.on == ("tray",) and abs(long_axis(after)[2]) < 0.1
+
+
 @pytest.mark.parametrize(
     "thing",
     [

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from etot_cli.world.state import Cause, CauseKind
-from tests.skills.helpers import BALL, BOX, CUP, OVEN, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
 
 BLOCK = {"kind": "box", "size": [0.04, 0.04, 0.04], "mass": 0.06}
 HELD = BLOCK | {"at": [0.33, 0.22]}
@@ -122,9 +122,24 @@ TIN = {"kind": "cylinder", "diameter": 0.05, "height": 0.13, "mass": 0.12, "insi
              "thing": TIN | {"at": [0.415, 0.475]}},
             ["left", "right"],
         ),
+        (
+            "[PICK UP, thing]",
+            {"vase": CUP | {"diameter": 0.05, "height": 0.15, "at": [0.42, 0.15, 0.205],
+                            "fixed": True},
+             "thing": BALL | {"diameter": 0.036, "at": [0.42, 0.15, 0.1545]}},
+            ["vase"],
+        ),
+        (
+            "[PICK UP, thing]",
+            {"mug": CUP | {"diameter": 0.062, "height": 0.12, "at": [0.4, -0.15]},
+             "thing": {"kind": "cylinder", "diameter": 0.045, "height": 0.06,
+                       "at": [0.4, -0.15, 0.167]}},
+            ["mug"],
+        ),
     ],
     ids=["a ball on its mouth", "a pile on it", "a cup before it under a roof",
-         "two before it under a roof"],
+         "two before it under a roof", "a vase that fingers close around",
+         "a mug that fingers close around"],
 )  # fmt: skip
 @pytest.mark.slow
 def test_no_grasp_names_who_is_in_the_way(
@@ -135,6 +150,17 @@ def test_no_grasp_names_who_is_in_the_way(
     assert sorted(cause.objects[: len(guilty)]) == guilty, "what can be moved comes first"
     assert set(cause.objects) <= {*guilty, "oven", "thing"}
     episode(**without(scene, tuple(guilty))).must(action)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("length", [0.12, 0.13])
+def test_a_wall_that_a_pen_leans_on_is_not_taken_along_with_it(length: float, seed: int) -> None:
+    """One finger would be inside of it and one outside."""
+    tube = CUP | {"diameter": 0.055, "height": 0.12, "mass": 0.2, "at": [0.42, 0.12]}
+    pen = PEN | {"diameter": 0.014, "length": length, "inside": "tube", "at": [0.42, 0.12]}
+    cause = episode(seed, tube=tube, pen=pen).do("[PICK UP, pen]").record.cause
+    assert cause is not None and cause.kind is CauseKind.NO_GRASP
+    assert cause.objects == ("tube", "pen")
 
 
 @pytest.mark.slow

@@ -12,8 +12,9 @@ from etot_cli.execution.perception.surfaces import Surface, surface_of
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.specs.scene import Scene
 from etot_cli.world.index import Part, Region
-from etot_cli.world.placing import settle_objects, world_at_start
+from etot_cli.world.placing import world_at_start
 from etot_cli.world.pose import Pose
+from etot_cli.world.rest import settle_objects
 
 SETTLE_S = 0.8
 """Simulated time for a new scene to come to rest [s]."""

@@ -8,7 +8,8 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.relations import carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction
 from etot_cli.reasoning.protocol import FailedStep
-from etot_cli.skills.action import GraspPose
+from etot_cli.skills.action import PUTS, GraspPose
+from etot_cli.specs.footprint import rotated
 from etot_cli.world.state import CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset(
@@ -16,11 +17,13 @@ _NO_ROOM_ABOVE = frozenset(
      CauseKind.BLOCKED, CauseKind.COLLISION}
 )  # fmt: skip
 """Causes that a roof above the place may be behind: no room for the hand, or hardly any."""
+_STANDS = 0.5
+"""A rod stands in the hand rather than lies while it rises by more than this (sine; 30°)."""
 
 
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
-    """The branch with the object grasped from above where it slipped, from the side where the hand
-    has no room above it.
+    """The branch with the object grasped from above where it slipped; from the side where the hand
+    has no room above it, or where a rod stands in the hand, which lays it down from there.
 
     Args:
         failed: the failed step.
@@ -33,7 +36,7 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
         return
     if cause is CauseKind.SLIP:
         pose, how = GraspPose.VERTICAL, "from above"
-    elif cause in _NO_ROOM_ABOVE and _is_roofed(failed):
+    elif (cause in _NO_ROOM_ABOVE and _is_roofed(failed)) or _stands_in_hand(failed):
         pose, how = GraspPose.HORIZONTAL, "from the side"
     else:
         return
@@ -51,3 +54,13 @@ def _is_roofed(failed: FailedStep) -> bool:
         for name in (owner_of(target), *carriers(scene, owner_of(target))):
             places |= {*scene.states[name].on, scene.states[name].inside or name}
     return any(has_front(scene, place) for place in places)
+
+
+def _stands_in_hand(failed: FailedStep) -> bool:
+    """Whether a rod was to be put down that stands in the hand."""
+    scene, action = failed.record.before, failed.branch.actions[failed.index]
+    if action.verb not in PUTS or scene.holding is None:
+        return False
+    length = scene.infos[scene.holding].size[0]
+    along = rotated(scene.states[scene.holding].quaternion, (length, 0.0, 0.0))
+    return scene.infos[scene.holding].elongated and abs(along[2]) > _STANDS * length

@@ -17,8 +17,9 @@ from etot_cli.reconstruction.objects import DESK, Solid
 from etot_cli.reconstruction.twin.physics import FRICTION_DOUBT, MASS_DOUBT, guess
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.scene import Scene
-from etot_cli.world.placing import settle_objects, world_at_start
+from etot_cli.world.placing import world_at_start
 from etot_cli.world.pose import quaternion_of
+from etot_cli.world.rest import settle_objects
 from etot_cli.world.state import owner_of
 
 SETTLE_SECONDS = 1.0

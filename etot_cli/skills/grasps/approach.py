@@ -15,7 +15,7 @@ from etot_cli.skills.outcome import Blockers
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, Pose, straight
 from etot_cli.world.relations import to_region
-from etot_cli.world.state import owner_of
+from etot_cli.world.state import DESK, owner_of
 
 STANDOFF = 0.09
 """Length of the straight way to what is touched [m]: a hand's breadth, so that a hand that turns
@@ -61,15 +61,17 @@ def prepare_grasp(
     openings = (grasp.opening, *narrow)
     # The hand first, wherever the arm may be: where it has no room, the arm need not get there.
     met: list[str] = []
-    for opening in openings:
+    for rank, opening in enumerate(openings):
         checker.set_fingers(opening)
         hits = [
             address
             for address in checker.hand_hits(grasp.tool, clearance=SURELY_MET, part=HandPart.ALL)
             if owner_of(address) not in allow
         ]
+        hits = hits or _closed_on(belief, name, grasp, opening)
         met = met or hits
         if not hits:
+            openings = openings[rank:]
             break
     else:
         blockers.add(met)
@@ -103,6 +105,29 @@ def prepare_grasp(
     if lift is None:
         return False
     return PreparedGrasp(grasp, back[-1], line, *lift)
+
+
+def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[str]:
+    """Addresses of what the fingers would close on before they get to the object: the vessel that
+    it is in, or what else is met by both of them. Other things on one side they may push aside.
+
+    Looked at are the closed fingers and half the way there. A finger is thicker than half the room
+    that it has beside the object, so no wall gets between the two.
+    """
+    checker = belief.checker
+    vessel = owner_of(belief.scene.states[name].inside or name)
+    closed = min(grasp.width, opening)
+    for width in (closed, (closed + opening) / 2):
+        checker.set_fingers(width)
+        left, right = (
+            checker.hand_hits(grasp.tool, clearance=0.0, part=part)
+            for part in (HandPart.LEFT, HandPart.RIGHT)
+        )
+        both = {owner_of(address) for address in left} & {owner_of(address) for address in right}
+        unmoved = (both | {vessel}) - {name, DESK}
+        if met := [address for address in (*left, *right) if owner_of(address) in unmoved]:
+            return met
+    return []
 
 
 def _lift(

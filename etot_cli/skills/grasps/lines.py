@@ -43,6 +43,8 @@ def grid(bounds: Bounds, closings: Iterable[Vector], *, between: bool = False) -
     low, high, center, axis = bounds
     lines = []
     depths = sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))})
+    if axis is not None and depths[1:]:
+        depths = [SHALLOWEST, *depths]  # of what leans in a vessel little more may stick out
     if between:
         depths = (
             np.linspace(SHALLOWEST, depths[-1], BETWEEN + 2)[:-1].tolist() if depths[1:] else []

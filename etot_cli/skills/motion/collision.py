@@ -30,6 +30,8 @@ class HandPart(Enum):
 
     ALL = "all"
     FINGERS = "fingers"
+    LEFT = "left"
+    RIGHT = "right"
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,7 @@ class CollisionChecker(FrozenScene):
         self._hand_bodies = np.unique(self._model.geom_bodyid[self._hand])
         fingers = np.isin(self._model.geom_bodyid, list(world.robot.finger_side))
         self._finger = fingers & (self._owner == -2)
+        self._parts = {geom: self._parts_of(geom) for geom in self._hand.tolist()}
         self._hands: dict[bytes, tuple[Vector, Vector]] = {}
         self._ignored: frozenset[str] = frozenset()
         self._known: dict[tuple[object, ...], tuple[str, ...]] = {}
@@ -281,8 +284,7 @@ class CollisionChecker(FrozenScene):
         data.xipos[bodies], data.geom_xpos[geoms] = points[:count], points[count:]
         data.ximat[bodies], data.geom_xmat[geoms] = turns[:count], turns[count:]
         mujoco.mj_collision(model, data)
-        of_all: dict[str, None] = {}
-        of_fingers: dict[str, None] = {}
+        found: dict[HandPart, dict[str, None]] = {part: {} for part in HandPart}
         if data.ncon:
             contacts = data.contact
             pairs = contacts.geom[contacts.dist < clearance]
@@ -291,11 +293,16 @@ class CollisionChecker(FrozenScene):
                 if (first == -2) == (second == -2) or min(first, second) < -2:
                     continue
                 own, other = (one, two) if first == -2 else (two, one)
-                address = self.world.geom_address[other]
-                of_all[address] = None
-                if self._finger[own]:
-                    of_fingers[address] = None
-        return {HandPart.ALL: list(of_all), HandPart.FINGERS: list(of_fingers)}
+                for part in self._parts[own]:
+                    found[part][self.world.geom_address[other]] = None
+        return {part: list(addresses) for part, addresses in found.items()}
+
+    def _parts_of(self, geom: int) -> tuple[HandPart, ...]:
+        """The parts of the hand to which one of its geoms belongs."""
+        side = self.world.robot.finger_side.get(int(self._model.geom_bodyid[geom]))
+        if side is None:
+            return (HandPart.ALL,)
+        return HandPart.ALL, HandPart.FINGERS, (HandPart.LEFT, HandPart.RIGHT)[side]
 
     def _hand_frames(self) -> tuple[Vector, Vector]:
         """Where bodies and geoms of the hand are, as the fingers stand now: points (k, 3) and

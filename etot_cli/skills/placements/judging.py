@@ -30,6 +30,7 @@ from etot_cli.skills.placements.support import Support
 from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Undersides
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
+from etot_cli.world.relations import SUPPORT_SLOPE
 
 Cells = NDArray[np.int64]
 Preference = Callable[[Vector], Vector]
@@ -57,6 +58,9 @@ them."""
 DEEP = 0.4
 """What sticks out of a container is inside while its bottom is no higher than this share of the
 container's depth, a little less than what counts as inside (``world/relations.py``)."""
+HANGS = (1.0 - SUPPORT_SLOPE) / 2
+"""On a mouth, up to this share of a ball's height is below the rim: hanging lower, it wedges in
+rather than rests on it."""
 SHORT_DROP = 0.02
 """Something let go this far above its place still comes to rest there [m]."""
 NEARLY_SWEPT = 4.0
@@ -77,7 +81,9 @@ class Quality(IntEnum):
     """On top of something else or over an edge, and stable there."""
     STICKS_OUT = 4
     """On the floor of a container that is too low for it."""
-    LOOSE = 5
+    PILED_HIGH = 5
+    """On top of something else in a container that is too low for both, and stable there."""
+    LOOSE = 6
     """Above whatever fills the container: physics will tell."""
 
 
@@ -241,12 +247,14 @@ class Judge:
             # Over an edge there is nothing beside it that the floor's free cells would show.
             # On a surface what rests higher up rests on something else than was asked for.
             highest = np.inf if support.is_container else FLAT
-            kind[within & bearable & (lift > -FLAT) & (lift <= highest)] = Quality.PILED
+            lowest = -FLAT if support.is_even else -HANGS * turned.height
+            kind[within & bearable & (lift > lowest) & (lift <= highest)] = Quality.PILED
         if support.is_even:
             usable = stands & clear & bearable
             kind[usable] = np.where(drop[usable] <= SHORT_DROP, Quality.GOOD, Quality.DROPPED)
             too_tall = ~within if not self._has_lid else lift + turned.height > support.room
             kind[usable & too_tall] = Quality.STICKS_OUT
+            kind[(kind == Quality.PILED) & too_tall & self._has_lid] = Quality.PILED_HIGH
         if support.from_front:
             kind[lift + turned.height > support.room] = -1
         return kind
@@ -268,7 +276,7 @@ class Judge:
             if support.from_front:
                 # A hand goes in no further than it has to.
                 cost -= ((turned.cells - self.relief.middle) * self.relief.cell)[:, 0]
-        piled = kind >= Quality.PILED
+        piled = (kind >= Quality.PILED) & (kind != Quality.STICKS_OUT)
         cost = np.where(piled, away + turned.lift, cost)
         preference = self._request.preference
         if preference is not None:

@@ -10,7 +10,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
-from etot_cli.world.pose import LEVEL, UP, rotation_between, turn_about
+from etot_cli.world.pose import LEVEL, UP, cross, rotation_between, turn_about
 from etot_cli.world.relations import standing_axis
 
 HIGHEST_APPROACH = 0.1
@@ -62,16 +62,27 @@ def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | N
     if abs(along[2]) > LEVEL or size[longest] <= 2 * float(support.half.max()):
         return None
     ways = [rotation_between(along, end * UP) @ pose.rotation for end in (1.0, -1.0)]
-    heights = [float((way @ attached.in_tool.rotation.T)[2, 2]) for way in ways]
+    heights = [float(_approach(attached, way)[2]) for way in ways]
     lowest = int(np.argmin(np.round(heights, 6)))
     return ways[lowest] if heights[lowest] <= HIGHEST_APPROACH else None
 
 
-def standing_rotation(belief: Belief, attached: Attached) -> Vector:
-    """The rod upright, its point down."""
+def standing_rotations(belief: Belief, attached: Attached) -> list[Vector]:
+    """The rod upright, its point down or up, as far as the hand need not point up for it."""
     pose = belief.object_pose(attached.name)
     axis = pose.rotation @ np.array(belief.world.entries[attached.name].axis)
-    return rotation_between(axis, -UP) @ pose.rotation
+    ways = [rotation_between(axis, end) @ pose.rotation for end in (-UP, UP)]
+    return [way for way in ways if _approach(attached, way)[2] <= HIGHEST_APPROACH]
+
+
+def rolled_down(belief: Belief, attached: Attached, lying: Vector) -> Vector:
+    """A lying rod's orientation (3, 3) turned about its own length so that the hand comes from
+    above as far as its grasp allows; a rod is round.
+    """
+    axis = lying @ np.array(belief.world.entries[attached.name].axis)
+    approach = _approach(attached, lying)
+    rise = float(cross(axis, approach)[2])
+    return turn_about(axis, float(np.arctan2(-rise, -approach[2]))) @ lying
 
 
 @dataclass(frozen=True)
@@ -114,18 +125,25 @@ def orientations(
         and support.is_container
         and entry.info.size[0] > 2 * float(support.half.max())
     ):
-        return _turned(belief, attached, support, standing_rotation(belief, attached), laid=False)
+        for way in standing_rotations(belief, attached):
+            found += _turned(belief, attached, support, way, laid=False)
+        return found
     base = resting_rotation(belief, attached)
     is_drawer = support.address in belief.world.parts
     if support.is_container and not (support.from_front or is_drawer or entry.info.container):
         stood = stood_up(belief, attached, support)
         found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
     found += _turned(belief, attached, support, base, laid=False)
-    approach = base @ attached.in_tool.rotation.T[:, 2]
-    if entry.axis is not None and not support.from_front and approach[2] > -DOWN:
-        across = np.cross(UP, approach)
-        tipped = turn_about(across / np.linalg.norm(across), TIPPED) @ base
-        found += _turned(belief, attached, support, tipped, laid=False)
+    approach = _approach(attached, base)
+    if entry.axis is not None and approach[2] > -DOWN:
+        rolled = rolled_down(belief, attached, base)
+        if _approach(attached, rolled)[2] <= -DOWN:
+            from_above = _turned(belief, attached, support, rolled, laid=False)
+            found = [*found, *from_above] if support.from_front else [*from_above, *found]
+        elif not support.from_front:
+            across = np.cross(UP, approach)
+            tipped = turn_about(across / np.linalg.norm(across), TIPPED) @ base
+            found += _turned(belief, attached, support, tipped, laid=False)
     if entry.upright_matters and not entry.info.container:
         for rotation in laid_rotations(belief, attached, base)[:MAX_LAID]:
             found += _turned(belief, attached, support, rotation, laid=True)
@@ -162,7 +180,7 @@ def laid_rotations(belief: Belief, attached: Attached, base: Vector) -> list[Vec
             continue
         for turn in (np.pi / 2, -np.pi / 2):
             rotation = _flat(turn_about(level / length, turn) @ base)
-            approach = (rotation @ attached.in_tool.rotation.T)[:, 2]
+            approach = _approach(attached, rotation)
             if approach[2] <= HIGHEST_APPROACH:
                 found.append((round(float(approach[2]), 3), len(found), rotation))
     return [rotation for *_, rotation in sorted(found, key=lambda item: item[:2])]
@@ -215,6 +233,11 @@ def inward_rotations(attached: Attached, base: Vector, inward: Vector) -> list[V
     straight = float(np.arctan2(inward[1], inward[0]) - np.arctan2(now[1], now[0]))
     turns = (straight + more for more in (INWARD_TURNS if is_level else (0.0, np.pi)))
     return [turn_about(UP, turn) @ base for turn in turns]
+
+
+def _approach(attached: Attached, rotation: Vector) -> Vector:
+    """Where the hand points (3,), base frame, with the object turned to ``rotation`` (3, 3)."""
+    return np.asarray((rotation @ attached.in_tool.rotation.T)[:, 2])
 
 
 def _level_tool(belief: Belief) -> Vector:

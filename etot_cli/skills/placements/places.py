@@ -13,7 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.placements.judging import Cells, Judge, Judged, Quality, Request, Turned
+from etot_cli.skills.placements.judging import (
+    FLAT,
+    Cells,
+    Judge,
+    Judged,
+    Quality,
+    Request,
+    Turned,
+)
 from etot_cli.skills.placements.orientation import orientations
 from etot_cli.skills.placements.relief import free_distance, under
 from etot_cli.skills.placements.undersides import Stamps
@@ -134,14 +142,18 @@ class PlaceFinder:
         if self._support.from_front:
             found = [(cost + TURN_COST * turn, turn, index) for cost, turn, index in found]
         found.sort()
-        for _, turn, index in found[:MAX_PILED] if quality is Quality.PILED else found:
+        is_pile = quality in (Quality.PILED, Quality.PILED_HIGH)
+        for _, turn, index in found[:MAX_PILED] if is_pile else found:
             turned = table[turn].turned
             cell = turned.cells[index]
             rest = float(turned.rest[index])
             seen = under(self._relief.heights, -np.inf, turned.object, cell)
             touching = seen >= rest + turned.object.low - TOUCH
-            if quality is Quality.PILED and not self._is_stable(turned, touching):
+            if is_pile and not self._is_stable(turned, touching):
                 continue
+            on_top = self._relief.floor - FLAT
+            if not self._support.is_container and float(seen[touching].min()) < on_top:
+                continue  # in what is shallow, which is not what was asked for
             owners = under(self._relief.owners, -1, turned.object, cell)[touching]
             bearers = {self._relief.names[int(owner)] for owner in owners if owner >= 0}
             if not self._support.is_container and not bearers <= {self._support.owner}:

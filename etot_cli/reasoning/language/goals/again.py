@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.closer import certain
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import is_matching
 from etot_cli.reasoning.language.goals.placing import add_put
@@ -55,6 +56,9 @@ def again(context: Context, clause: AgainClause) -> None:
         if any(not isinstance(item, Put) or item.places != step.places for item in before):
             raise ReferenceProblem(text, "say again what is to be done", 2)
         themes = context.phrases.things(clause.things, Role.THEME)
+        there = certain(context, step.what)
+        # "All toys into the box, the bear too": it is one of them.
+        themes = [i for i in themes if not {*context.discourse.things(i)} <= there]
         if set(themes) & {index for place in step.places for index in place.referents()}:
             raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
         if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
@@ -62,7 +66,8 @@ def again(context: Context, clause: AgainClause) -> None:
             raise ReferenceProblem(text, why, 4)
         if isinstance(context.last, TowerClause):
             raise ReferenceProblem(text, "say where in the stack it goes", 3)
-        add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
+        if themes:
+            add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
         return
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):

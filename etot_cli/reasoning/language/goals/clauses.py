@@ -88,6 +88,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case RemoveClause():
             remove(context, clause)
         case MoveClause():
+            context.tell_so(clause.things, opens=clause.opens)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 context.steps.append(
                     Open(index) if clause.opens else Close(_all_of(context, index))
@@ -121,6 +122,10 @@ def _note_placed(clause: Clause, context: Context) -> None:
     for step in (*context.cleared, *(() if cleared else puts)):
         note_placed(context.discourse, step.what, step.places)
     context.cleared = puts if cleared else []
+    only = isinstance(clause, EnsureClause)  # "only the jar should be left on the shelf"
+    off = [step for step in puts if cleared or (only and step.removal)]
+    taken = (index for step in off for index in step.what)
+    context.discourse.cleared = frozenset(context.discourse.things(*taken))
 
 
 def _all_of(context: Context, index: int) -> int:

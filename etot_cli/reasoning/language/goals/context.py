@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from etot_cli.reasoning.builtin.goal import (
     Constraint,
@@ -25,6 +26,7 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.space import is_support, touches
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
@@ -72,6 +74,8 @@ class Context:
         "the other glove" that goes on the bench is the one that is not there.
         """
         targets = [np for item in destinations for np in item.targets if np.words]
+        marks = (np for item in destinations for near in item.beside for np in near.phrases)
+        targets += [np for np in marks if np.words]
         for phrase in (np for np in things.phrases if np.words):
             noun = phrase.head
             others = quantity_of(phrase.determiner).other
@@ -85,19 +89,34 @@ class Context:
 
     def _tell_there(self, phrase: NounPhrase, place: NounPhrase) -> None:
         """Speaks of those of some things that are at a place already."""
+        with suppress(ReferenceProblem):
+            marks = self.phrases.meaning(place, Role.PLACE).options
+            self._tell(
+                phrase,
+                Role.THEME,
+                lambda thing: (
+                    len(marks) == 1 and any(touches(thing, mark, self.scene) for mark in marks[0])
+                ),
+            )
+
+    def _tell(self, phrase: NounPhrase, role: Role, so: Callable[[Thing], bool]) -> None:
+        """Speaks of those of some things that are so."""
         every = replace(phrase, determiner="all", modifiers=())
         with suppress(ReferenceProblem):
-            named = self.phrases.meaning(every, Role.THEME)
-            marks = self.phrases.meaning(place, Role.PLACE).options
-            there = tuple(
-                thing
-                for thing in named.options[0]
-                if len(marks) == 1 and any(touches(thing, mark, self.scene) for mark in marks[0])
-            )
+            named = self.phrases.meaning(every, role)
+            there = tuple(thing for thing in named.options[0] if so(thing))
             plural = singular(phrase.words[-1]) != phrase.words[-1]
             if there and len(named.options[0]) - len(there) > plural:
                 here = replace(named, options=(there,), definite=False)
                 self.discourse.add(here, phrase.text, Role.ANY)
+
+    def tell_so(self, things: Things, *, opens: bool) -> None:
+        """Before anything is spoken of, "open the other drawer" is about what is not open."""
+        so = partial(state_holds, "open" if opens else "closed", scene=self.scene)
+        for phrase in (np for np in things.phrases if np.words and not np.is_elliptic):
+            others = quantity_of(phrase.determiner).other
+            if others and self.phrases.spoken_of(phrase, Role.PART) is None:
+                self._tell(phrase, Role.PART, so)
 
     def all_called(self, phrase: NounPhrase, role: Role) -> tuple[Thing, ...]:
         """All that is called by a phrase's noun."""

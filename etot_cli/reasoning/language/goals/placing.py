@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
@@ -197,24 +198,34 @@ def where_is(
     moved = {index: step.places for step in steps for index in step.what}
     said = range(len(context.discourse.referents)) if pronoun else ()
     still = [index for index in said if index not in moved]
-    was = where.word.split()[-1] in ("was", "were", "before")
+    when = where.word.split()[-1]
+
+    def was(index: int) -> bool:
+        # "The cup in the box and the pen where the cup is now" is where it was by then.
+        moved_on = when == "now" and index in context.discourse.put
+        return when in ("was", "were", "before") or moved_on
 
     def at(index: int) -> tuple[Place, ...]:
         if pronoun:
             return moved.get(index, ())
-        if was is not (index in context.discourse.put):
+        if was(index) is not (index in context.discourse.put):
             return ()  # where something was is free only once it has gone
-        if was:
+        if was(index):
             things = context.only(index, REASONS["where"])
             return tuple(dict.fromkeys(map(context.home, things)))
         return context.source((index,))
 
     away = [*themes, *still]
-    marks = [index for np in where.targets for index in context.phrases.refer(np, Role.ANY, away)]
+    named = (
+        # "With the other boxes on the shelf": what it is not one of, wherever that is
+        replace(np, determiner="all") if np.modifiers and quantity_of(np.determiner).other else np
+        for np in where.targets
+    )
+    marks = [index for np in named for index in context.phrases.refer(np, Role.ANY, away)]
     (places, *others) = {*map(at, marks)}
     held = [place.where for place in places if place.where is not None]
     occupied = any(place.beside for place in places) or any(map(context.discourse.is_desk, held))
-    if others or len(held) != 1 or (occupied and not was):
+    if others or len(held) != 1 or (occupied and not all(map(was, marks))):
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     return places
 

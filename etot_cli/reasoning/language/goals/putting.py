@@ -73,6 +73,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.selection import state_holds
@@ -199,6 +200,10 @@ def ensure(context: Context, state: State) -> None:
     if state.denied:
         out, where = Things(state.subjects), state.destinations
         avoid(context, AvoidClause(Avoid.PUT, out, where, not_left=True))
+        return
+    emptied = RemoveClause(Things(state.subjects))
+    if is_emptying(emptied):
+        remove(context, emptied)
         return
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)

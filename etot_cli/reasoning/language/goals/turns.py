@@ -12,6 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things, Turns
+from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.selection import in_line
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 
@@ -107,7 +108,18 @@ def continues(item: Timed, after: Timed) -> bool:
     return taken == put != [] and further
 
 
-def in_order(said: Sequence[Timed]) -> list[Step]:
+def _goes_elsewhere(item: Timed, said: Sequence[Timed], discourse: Discourse) -> bool:
+    """Whether what a place is to be without in the end is put somewhere by what else is asked."""
+
+    def moved(steps: Sequence[Step], *, off: bool) -> set[Thing]:
+        puts = (step for step in steps if isinstance(step, Put) and step.removal == off)
+        return {thing for step in puts for thing in discourse.things(*step.what)}
+
+    taken = moved(item.steps, off=True)
+    return any(taken & moved(other.steps, off=False) for other in said if other is not item)
+
+
+def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
     "First" goes before everything that was said before it, "before that" before the clause before
@@ -121,7 +133,7 @@ def in_order(said: Sequence[Timed]) -> list[Step]:
             done.insert(0, item)
         elif item.order is Order.BEFORE_THAT:
             done.insert(max(len(done) - 1, 0), item)
-        elif item.order is Order.LAST:
+        elif item.order is Order.LAST and not _goes_elsewhere(item, said, discourse):
             last.append(item)
         else:
             done.append(item)

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Clause,
     EnsureClause,
+    MoveClause,
     PutClause,
     RemoveClause,
     ReorientClause,
@@ -69,9 +70,18 @@ class Understanding:
         self.sentence += 1
         timed: dict[int, Timed] = {}
         before: int | None = None
+
+        def ahead(spoken: Spoken) -> bool:
+            later = reading[reading.index(spoken) + 1 :]
+            return any(item.position < spoken.position for item in later)
+
         for spoken in sorted(reading, key=lambda item: item.position):
             moved = self.context.discourse.things(*self.context.discourse.put)
             self.context.order = spoken.order
+            self.context.discourse.replaced = (
+                frozenset(self.context.discourse.put) if spoken.instead else frozenset()
+            )
+            said = len(self.context.discourse.mentions)
             steps = tuple(steps_of(spoken.clause, self.context))
             further = spoken is not reading[0] or spoken.order is Order.THEN
             room = further and any(
@@ -84,6 +94,9 @@ class Understanding:
                 for thing in moved
             )
             _check_instead(spoken, self.context.last, room=room)
+            if isinstance(spoken.clause, MoveClause) and not spoken.clause.opens and ahead(spoken):
+                # "Open the bottom drawer after closing the top one and put the pen inside"
+                self.context.discourse.step_back(said)
             self.context.last = spoken.clause
             item = Timed(steps, spoken.order, self.sentence)
             if before is not None and continues(timed[before], item):
@@ -122,7 +135,7 @@ class Understanding:
         discourse = self.context.discourse
         steps = [
             step
-            for step, after in pairwise((*in_order(self.timed), None))
+            for step, after in pairwise((*in_order(self.timed, discourse), None))
             if step is not None and not self._narrowed(step, after)
         ]
         steps, constraints = in_turn(

@@ -72,6 +72,7 @@ _FIXED = """
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were) left,
     (near|close|next|closer|nearer) to, near (the|each other|one another),
+    left (open|opened|closed|shut|ajar|empty|alone|untouched),
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
@@ -226,6 +227,9 @@ def _said_of_put(clause: PutClause) -> Iterator[str]:
         yield from ("each", "every", "another")
     if clause.grouping is Grouping.TOGETHER:
         yield from ("same", "all")
+    (first, *more) = clause.groups
+    if more and all(group.destinations is first.destinations for group in more):
+        yield from ("both", "all", _ORDER)  # one after the other to one place
     places = [target for group in clause.groups for item in group.destinations for target in
               (item.targets or (item,)) if not item.denied]  # fmt: skip
     if len(places) > 1 or clause.grouping is not Grouping.ANY:

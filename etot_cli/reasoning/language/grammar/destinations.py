@@ -184,6 +184,13 @@ _with = spanned(
     ),
     lambda text, np: Destination(Toward.WITH, (np,), text),
 )
+_beside_something = valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found))
+_BESIDE_IT = sequence(
+    EXACTLY,
+    one_of(places.NEARBY),
+    phrase("it, them"),
+    build=lambda near, said: _beside(near, NounPhrase(pronoun=said, text=said)),
+)
 _place = either(
     INTO,
     ONTO,
@@ -197,7 +204,7 @@ _place = either(
     valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
     valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
-    valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found)),
+    _beside_something,
     sequence(
         _ABREAST,
         BESIDES,
@@ -222,12 +229,17 @@ _place = either(
         ),
     ),
     sequence(
-        either(_ABREAST, sequence(BESIDES, COMMA)),
+        either(_ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
         either(ONTO, _to, INTO),
         build=lambda found, surface: replace(surface, beside=found),
     ),
 )
-destination = Rule(sequence(optional(places.SOMEWHERE), _place))
+destination = Rule(
+    sequence(
+        optional(places.SOMEWHERE),
+        either(_place, sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something))),
+    )
+)
 _any_of_them = separated(destination, small_words.OR, most=5)
 DESTINATIONS = Rule(
     either(

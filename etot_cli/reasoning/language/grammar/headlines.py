@@ -21,6 +21,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     sequence,
 )
+from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
+from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
@@ -96,6 +98,8 @@ LEFT_SO = Rule(
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
+        UNTOUCHED,
+        BOTH_LEFT_SO,
     )
 )
 """How something is to be in the end ("drawer shut")."""

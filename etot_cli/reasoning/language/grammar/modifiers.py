@@ -120,7 +120,7 @@ PLAIN_MODIFIER = either(
         build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
     ),
 )
-_INSIDE_IT = "inside, in there, in, (inside|in) (it|them|which)"
+_INSIDE_IT = "[still] inside, [still] in there, in, [still] (inside|in) (it|them|which)"
 _UPON_IT = "on [top of] (it|them), on top"
 _POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"
@@ -175,8 +175,14 @@ _contents = either(
     sequence(
         "where",
         noun_phrase,
-        "(is|are|stands|stand|lies|lie|sits|sit|belongs) [currently]",
-        build=lambda np: Modifier(Prep.WITH, (np,)),
+        either(
+            phrase("is, are, stands, stand, lies, lie, sits, sit, belongs", ()),
+            phrase(
+                "(is|are|stands|stand|lies|lie|sits|sit) (now|currently), (was|were) [before]",
+                (HERE_BEFORE,),
+            ),
+        ),
+        build=lambda np, words: Modifier(Prep.WITH, (np,), words),
     ),
     quiet(
         sequence(

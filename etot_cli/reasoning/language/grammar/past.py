@@ -36,7 +36,7 @@ _TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|
 _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
-        f"{verbs.BE}, {small_words.GONE}, (is|are) out of the way",
+        f"{verbs.BE}, {small_words.GONE}, (is|are) out [of the way], (is|are) (up|down|back|away)",
         DESTINATIONS,
         build=put_to,
     ),

@@ -74,6 +74,9 @@ _SUBJECT = either(
     sequence(verbs.WANTED, NP_LIST, optional("to be")),
     sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
 )
+BOTH_ARE = sequence(NP_LIST, _IS, _MORE, _WITH_IT, build=_all_of_it)
+BOTH_LEFT_SO = sequence(NP_LIST, _SO, _MORE, _WITH_IT, build=_all_of_it)
+"""The same as it is told how things are in the end, and without a verb."""
 BOTH_SO = either(
     sequence(_SUBJECT, _SO, _MORE, _WITH_IT, build=_all_of_it),
     sequence(

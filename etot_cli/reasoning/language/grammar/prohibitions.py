@@ -122,6 +122,11 @@ OTHERS_STILL = sequence(
     ),
     build=lambda: AvoidClause(Avoid.MOVE, None),
 )
+UNTOUCHED = either(
+    sequence(_EVERYTHING_ELSE, manner.UNTOUCHED, build=lambda: AvoidClause(Avoid.MOVE, None)),
+    sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
+)
+"""The same without a verb ("bolts untouched")."""
 KEEP_STILL = either(
     sequence(THINGS, _STAYS, build=partial(AvoidClause, Avoid.MOVE)),
     OTHERS_STILL,

@@ -47,8 +47,9 @@ _PARTICLE = """
 def _quantified(things: Things, said: str) -> Things | None:
     """Things of which it is said before the place that each of them, or all, go there."""
     nps = tuple(all_of((np,), said) for np in things.phrases)
-    if len(nps) > 1 and all(singular(np.head) == np.head for np in things.phrases):
-        nps = tuple((np,) for np in things.phrases)  # "the cup and the jar both"
+    single = all(singular(np.head) == np.head for np in things.phrases)
+    if len(nps) > 1 and (single or (said == "both" and len(nps) == 2)):
+        nps = tuple((np,) for np in things.phrases)  # "the cup and the scissors both"
     several = len(nps) > 1 or nps[0] != things.phrases[:1]
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 

@@ -37,7 +37,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
-from etot_cli.reasoning.language.grammar.successions import FIRST_THEN, FROM_FIRST_TO_LAST
+from etot_cli.reasoning.language.grammar.successions import (
+    FIRST_THEN,
+    FROM_FIRST_TO_LAST,
+    put_in_turn,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -64,6 +68,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 _STACKS = frozenset(spellings(nouns.STACK))
@@ -129,10 +134,14 @@ FLANKED = sequence(
 def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
     things, said = found
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
+    if all({"other", "others", "rest"} & {*np.determiner.split(), *np.words} for np in others):
+        # "With the other pens"; in "the rag in the jar with the other brush" they rather tell which
+        told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
+        return replace(put_to(things, (where,)), far_fetched=2 * told)
     described = any(item.modifiers for item in (*others, *things.phrases))
     known = (*THE_WORDS, *([""] if said == "in with" else ()))  # "in with teddy"
     named = not described and all(np.words and np.determiner in known for np in others)
-    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
     return put_to(things, (where,)) if named else None
 
 
@@ -211,11 +220,12 @@ PUT = either(
                 either(
                     sequence(verbs.PUT, "them [both|all], both [of them], all of them"),
                     sequence("both [of them], all of them, they [both|all]", verbs.MODAL),
+                    "both [of them], all [of them]",
                 ),
             ),
         ),
         DESTINATIONS,
-        build=put_to,
+        build=put_in_turn,
     ),
     quiet(
         sequence(
@@ -254,7 +264,7 @@ PUT = either(
         either(INTO, ONTO),
         build=lambda where: put_to(Things((NounPhrase(pronoun="it", text="it"),)), (where,)),
     ),
-    sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
@@ -325,6 +335,6 @@ VERBLESS = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=_put_down),
-    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
 )
 """Places for things without a word for doing; only whole sentences are so."""

@@ -51,11 +51,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, SO
+from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE, states
+from etot_cli.reasoning.language.grammar.states import ENSURE, STATE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Destination,
@@ -68,6 +69,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.taking import emptied
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -83,7 +85,8 @@ from etot_cli.reasoning.language.grammar.topics import (
     one_of_them,
     shared_out,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
+from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 
 def _verbless(
@@ -124,6 +127,18 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
     return None
 
 
+IN_THE_END = either(
+    plain(
+        either(
+            sequence(STATE, build=lambda state: EnsureClause((state,))),
+            sequence(ALL_THINGS, verbs.BE, manner.EMPTIED, build=emptied),
+            BOTH_ARE,
+            TOLD_APART,
+        )
+    ),
+    HEADLINE,
+)
+"""How things are, where it is said that they are to be so in the end."""
 _NOW = optional(small_words.BY_NOW)
 _AND = either(COMMA, "and, and then, then")
 _WITH_MORE_BEFORE_IT = either(
@@ -203,7 +218,10 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     sequence(verbs.TIDY_AWAY, NAMED, "[away|up] (~comma|and)", CHAIN, build=all_put),
     sequence(
-        f"{small_words.TASK}, {small_words.END_STATE}", plain(sequence(states, build=EnsureClause))
+        f"{small_words.TASK}, {small_words.END_STATE}",
+        IN_THE_END,
+        some(joint("and", LIST, IN_THE_END), most=6),
+        build=chained,
     ),
     sequence(
         plain(IF_NOT_SO),

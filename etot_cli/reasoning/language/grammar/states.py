@@ -137,7 +137,7 @@ _NOT_FALLING = sequence(
     noun_phrase,
     build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
-STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds"))
+STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds, has, have"))
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
@@ -183,6 +183,20 @@ def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClaus
     return None if clause is None else replace(clause, far_fetched=cost)
 
 
+_ALL = phrase("both, all")
+
+
+def _together(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] | None:
+    """Several things, of which it is said that all of them are meant."""
+    one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
+    return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
+
+
+_BE_TOGETHER = silent(phrase(_TO_BE))
+_TOGETHER = either(
+    sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=_together),
+    sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=_together),
+)
 OF_SEVERAL = 2
 """How far-fetched it is that one thing is meant where several are spoken of."""
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
@@ -287,7 +301,7 @@ ENSURE = either(
     *(
         sequence(*said, _ALL_SO, build=partial(_so_wanted, cost))
         for cost, said in (
-            (0, (verbs.WANTED, NP_LIST, silent(phrase(_TO_BE)))),
+            (0, (verbs.WANTED, _TOGETHER)),
             (1, (verbs.WANTED, NP_LIST)),
             (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
             (0, (verbs.THERE_BE, NP_LIST)),

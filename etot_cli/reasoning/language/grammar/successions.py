@@ -15,10 +15,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
     NounPhrase,
+    PutClause,
+    PutGroup,
     Things,
+    put_to,
 )
 from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 
 def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
@@ -32,6 +37,14 @@ def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -
         return None
     nps = coordinated(first, tuple(np for _, np in more))
     return None if nps is None else Things(nps)
+
+
+def put_in_turn(things: Things, where: tuple[Destination, ...]) -> PutClause:
+    """Each of some things to one place, in the order in which they are named."""
+    phrases = (*things.phrases, *(np for item in where for np in item.targets))
+    if not all(np.pronoun or np.determiner in THE_WORDS for np in phrases):
+        return put_to(things, where)  # "a cup, then a plate into a box" is one box
+    return PutClause(tuple(PutGroup(Things((np,)), where) for np in things.phrases))
 
 
 FIRST_THEN = sequence(

@@ -93,6 +93,17 @@ _CLITICS = (
     (r"\b(i)(m|ve)\b", r"\1'\2"),
     (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
     (r"\bu\b", "you"),
+    (
+        r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
+        r" what (?=(?:is|are)\b)",
+        r"\1 that ",
+    ),
+    (r"\bgimme\b", "give me"),
+    (r"\blemme\b", "let me"),
+    (r"\bwanna\b", "want to"),
+    (r"\bgotta\b", "have to"),
+    (r"\breal (?=quick\b)", ""),
+    (r"(?<=[a-z] )quick(?=[.,!]|$)", "please"),
     (r"(?<=\w) \+ (?=\w)", " and "),
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),

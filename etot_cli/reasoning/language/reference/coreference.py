@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
-from etot_cli.reasoning.builtin.goal import Place, Relation
+from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -92,6 +92,7 @@ def meant_by_it(
         ReferenceProblem: nothing before it fits.
     """
     if role in TARGETS:
+        excluded = (*excluded, *discourse.replaced)
         # "Close the box after putting the cup beside the tray in it": not in the tray.
         told_by = {*_telling(discourse)} - {*excluded}
         if told_by:
@@ -148,6 +149,11 @@ def meant_by_it(
         else:
             # One of several things that were acted on together is not "it".
             found = places or acted_on or landmarks
+            spared = _left_out(discourse, clause) if role is Role.THEME and not acted_on else ()
+            if len(spared) == 1:
+                # "All toys into the box except the bear, and put it on the shelf"
+                named = [discourse.referents[index].text for index in found]
+                raise AmbiguousReference(text, [spared[0].name, *named])
             if role is not Role.THEME and found == landmarks != ():
                 # What was opened before, rather than what but tells which jar goes in there.
                 earlier = _earlier(discourse, clause, role, excluded)
@@ -177,6 +183,12 @@ def _earlier(
         if before < clause and (acted_on or places):
             return acted_on or places
     return ()
+
+
+def _left_out(discourse: Discourse, clause: int) -> tuple[Thing, ...]:
+    """What a clause has left out of several things."""
+    said = (m.referent for m in discourse.mentions if m.clause == clause and m.role is Role.THEME)
+    return tuple(dict.fromkeys(t for index in said for t in discourse.left_out.get(index, ())))
 
 
 def _telling(discourse: Discourse) -> Iterator[int]:

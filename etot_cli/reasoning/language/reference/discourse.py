@@ -51,6 +51,10 @@ class Discourse:
 
     swept: frozenset[int] = frozenset()
     """Referents of everything that is to be taken off the desk, which needs another place."""
+    replaced: frozenset[int] = frozenset()
+    """Referents that the clause that is being read puts something else in the place of."""
+    cleared: frozenset[Thing] = frozenset()
+    """What the clause before took out of what it empties."""
     remarked: frozenset[int] = frozenset()
     """Referents of which something was said that is neither known of a thing nor asked for."""
 

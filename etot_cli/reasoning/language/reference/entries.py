@@ -11,7 +11,7 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.spelling import is_english
 from etot_cli.reasoning.language.grammar.text import normalized
-from etot_cli.reasoning.language.words.categories import CATEGORIES, PACKED, PACKS
+from etot_cli.reasoning.language.words.categories import CATEGORIES, PACKED, PACKS, SERVED, SERVING
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -150,6 +150,11 @@ class Entry:
         (*said, pack) = self.called[0]
         named = (said == [word] and not before) or said[-2:] == [before, word]
         return solid and named and pack in PACKS and word in PACKED
+
+    def is_serving_of(self, word: str) -> bool:
+        """Whether its label is for a vessel that this is drunk or eaten from ("water glass")."""
+        (*said, vessel) = self.called[0]
+        return said == [word] and vessel in SERVING and word in SERVED
 
     def is_sort_named(self, noun: str) -> bool:
         """Whether its one word is for a sort of what a noun names ("textbook")."""

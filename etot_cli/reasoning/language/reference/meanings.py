@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.spoken_of import candidates
-from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
+from etot_cli.reasoning.language.reference.usual_form import GENERAL, leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
@@ -113,6 +113,8 @@ class Meanings:
         phrase = self.told_by_themes(phrase)
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
+            with suppress(ReferenceProblem):
+                return self._told_otherwise(phrase, role)
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         chosen = one_of_several(phrase, role, self.discourse)
         if chosen is not None:
@@ -138,6 +140,22 @@ class Meanings:
         # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
         upon = role is Role.SURFACE and self.resolver.is_called(resolved.noun)
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
+
+    def _told_otherwise(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What "the other battery, the one in the drawer" is told by, of several batteries.
+
+        Raises:
+            ReferenceProblem: it is not.
+        """
+        resolved = self.resolved_as(replace(phrase, determiner="the"), role, None)
+        every = replace(phrase, determiner="all", modifiers=())
+        several = len(things_in(self.resolved_as(every, role, None).options)) > 1
+        spared = any(item.prep in (Prep.EXCEPT, Prep.CONTRAST) for item in phrase.modifiers)
+        if not (
+            phrase.modifiers and several and not spared and [*map(len, resolved.options)] == [1]
+        ):
+            raise ReferenceProblem(phrase.text, UNCLEAR)
+        return resolved
 
     def told_by_themes(self, phrase: NounPhrase) -> NounPhrase:
         """In "the same shelf as the red one" that is one of what is moved, not a red shelf."""
@@ -302,12 +320,28 @@ class Meanings:
         with suppress(ReferenceProblem):
             narrower = None if alike is None else resolve(alike)
         try:
-            resolved = resolve(phrase, among=among)
+            resolved = self._of_cleared(phrase, role, resolve) or resolve(phrase, among=among)
         except ReferenceProblem:
             if narrower is None or not phrase.words[:-1]:
                 raise  # "the one on the right" is no contrast
             return narrower
         return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
+
+    def _of_cleared(
+        self, phrase: NounPhrase, role: Role, resolve: Callable[..., Resolved]
+    ) -> Resolved | None:
+        """After "clear the shelf" "both boxes" and "everything" are what was on it, if any was."""
+        cleared, quantity = self.discourse.cleared, quantity_of(phrase.determiner)
+        general = phrase.head in GENERAL or matches_any(phrase.head, THING_NOUNS)
+        plural = general or singular(phrase.head) != phrase.head
+        known = quantity.definite and (general or phrase.determiner.split()[:1] != ["all"])
+        if role is not Role.THEME or phrase.modifiers or quantity.other or not (plural and known):
+            return None
+        with suppress(ReferenceProblem):
+            found = resolve(phrase, among=tuple(cleared))
+            things = things_in(found.options)
+            return found if {*things} <= cleared and (general or things[1:]) else None
+        return None
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
         """All that a pronoun in a modifier may mean, or "the other brush" there."""

@@ -94,7 +94,8 @@ class Places:
             if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.toward is Toward.HERE:
-                found = list(self._here(destination.word, themes))
+                there = self._where_they_are(destination.word, themes) if stays else ()
+                found = list(there or self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE:
                 surface = self._surroundings.surface(destination.beside, themes)
                 if surface is None and not any(b.relation.landmarks for b in destination.beside):
@@ -271,6 +272,8 @@ class Places:
             can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
             for thing in on
         )
+        if to and fits_in and all(self._has_door(thing) for thing in things):
+            fits_on = False  # what is brought to the microwave goes in
         if to and not goes_in(laid, things, self._scene):
             fits_in = False  # who brings it to a mug may want it beside that
         if fits_in and (toward is not Toward.ON or not fits_on):
@@ -285,6 +288,12 @@ class Places:
             names = " or ".join(dict.fromkeys(thing.name for thing in things))
             self.discourse.notes.append(f"read 'on' as into {names}")
         return found
+
+    def _has_door(self, thing: Thing) -> bool:
+        """Whether a thing is furniture whose parts are doors."""
+        info = self._scene.infos.get(thing.name)
+        parts = info.parts if info is not None else ()
+        return bool(parts) and all(part.joint_type == "hinge" for part in parts)
 
     def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
         """Of several lids that may be meant, all or none lie on a vessel's rim."""
@@ -315,6 +324,19 @@ class Places:
             raise ReferenceProblem(text, "say which one of them", 2)
         near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
         return [replace(place, beside=near) for place in surfaces]
+
+    def _where_they_are(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
+        """In the one thing spoken of that holds them ("keep the bowl in there")."""
+        spoken = dict.fromkeys(item.referent for item in self.discourse.mentions)
+        states = self._scene.states
+        around = {
+            states[thing.name].inside if thing.name in states else None
+            for thing in self.discourse.things(*themes)
+        }
+        if word not in spellings(THEREIN) or len(around) != 1:
+            return ()
+        held = [i for i in spoken if {t.name for t in self.discourse.things(i)} == around]
+        return (Place(Relation.INSIDE, held[-1]),) if held else ()
 
     def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
         discourse = self.discourse

@@ -134,7 +134,7 @@ class Referents(Meanings):
         """After "take the pen from the mug" "the pen" is that one, even where another one is
         labelled "pen" and nothing more.
         """
-        one = resolved.definite and len(resolved.options) == 1
+        one = resolved.definite and not resolved.other and len(resolved.options) == 1
         for mention in reversed(self.discourse.mentions) if one else ():
             options = self.discourse.referents[mention.referent].options
             said = mention.clause < self.discourse.clause and mention.noun == resolved.noun

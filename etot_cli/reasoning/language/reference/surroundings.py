@@ -61,7 +61,7 @@ class Surroundings:
             ReferenceProblem: nothing can be there.
         """
         beside = [self._of_themes(item, themes, below) for item in beside]
-        near = tuple(near for item in beside for near in self._near(item, themes))
+        near = tuple(near for item in beside for near in self._near(item, themes, below))
         moved = set(self._discourse.things(*self._discourse.put))
         for item in near:
             things = self._discourse.things(*item.landmarks)
@@ -114,7 +114,7 @@ class Surroundings:
     def _are_fixed(self, things: Iterable[Thing]) -> bool:
         return not any(t.name == DESK or self._scene.infos[t.name].movable for t in things)
 
-    def _near(self, beside: Beside, themes: Sequence[int]) -> list[Near]:
+    def _near(self, beside: Beside, themes: Sequence[int], below: Set[str]) -> list[Near]:
         """A relation to the things that its phrases mean; "next to the two cups" is to each."""
         if beside.relation.landmarks == 0:
             return [Near(beside.relation)]
@@ -122,7 +122,7 @@ class Surroundings:
         for phrase in beside.phrases:
             if is_robot(phrase) or phrase.text in ("each other", "one another"):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
-            landmarks += self._landmark(phrase, themes, beside.relation)
+            landmarks += self._landmark(phrase, themes, beside.relation, below)
         if beside.relation is Nearby.AWAY:
             landmarks = [each for index in landmarks for each in self._discourse.each(index)]
         if beside.text.startswith(("closer", "nearer")):
@@ -189,13 +189,15 @@ class Surroundings:
         if flat and beside.text.startswith(("on ", "at ")) and note not in self._discourse.notes:
             self._discourse.notes.append(note)
 
-    def _landmark(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> list[int]:
+    def _landmark(
+        self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby, below: Set[str]
+    ) -> list[int]:
         """Referents of a landmark, each a single thing; "the two bowls" gives two."""
         found = []
         discourse = self._discourse
         single = phrase.pronoun and phrase.pronoun not in PLURAL_PRONOUNS and not phrase.modifiers
         indices = (
-            (self._beside_it(phrase, themes, relation),)
+            (self._beside_it(phrase, themes, relation, below),)
             if single and not phrase.determiner
             else self._phrases.refer(phrase, Role.ANY, themes)
         )
@@ -219,7 +221,9 @@ class Surroundings:
                     found.append(self._discourse.add(alone, phrase.text, Role.ANY))
         return found
 
-    def _beside_it(self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby) -> int:
+    def _beside_it(
+        self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby, below: Set[str]
+    ) -> int:
         """What "next to it" is beside.
 
         In "the can left of the jar and the tin right of it" that is the jar, in "the can next to
@@ -240,7 +244,12 @@ class Surroundings:
             discourse.mention_again(mark, Role.ANY)
             return mark
         inside = discourse.put_into
-        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside])
+        upon = [
+            item
+            for item in range(len(discourse.referents))
+            if {thing.name for thing in discourse.things(item)} <= below
+        ]
+        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside, *upon])
         said = [item.clause for item in discourse.mentions if item.referent == index]
         rivals = [mark] if mark != index and clause in said else []
         infos = self._scene.infos

@@ -116,6 +116,7 @@ class Vocabulary:
         told = [entry for entry in self.objects if entry.only_tells(noun)]
         kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
         packed = [e for e in told if e.is_pack_of(kind, word) or (not kind and e.is_box_of(noun))]
+        packed += [e for e in told if e.is_serving_of(word) and not place]
         said = is_descriptive(word) or word in STATES or word in MATERIALS
         if said or (word in PURPOSES and not packed):
             return []
@@ -123,10 +124,16 @@ class Vocabulary:
         if for_it and not told:  # what is thrown away goes into the bin, whatever kind it is
             told = [e for e in self.objects if {*map(singular, e.heads)} & BINS]
             told = [e for e in told if e.info is not None and e.info.container]
-        if not for_it:  # a yarn basket is no yarn
-            told = [entry for entry in told if entry.info is None or not entry.info.container]
+        if not for_it:  # a yarn basket is no yarn, but who wants the water takes the water glass
+            told = [
+                entry
+                for entry in told
+                if entry.info is None
+                or not entry.info.container
+                or (not place and entry.is_serving_of(word))
+            ]
         twin = word not in RUBBISH and any(word in group for group in TWINS)
-        if twin and not all(entry.is_portion() for entry in told):
+        if twin and not packed and not all(entry.is_portion() for entry in told):
             return []  # a remote of the TV is no TV
         sorts = len({entry.called[:1] for entry in told}) > 1
         if is_general_noun(word) or (

@@ -154,6 +154,9 @@ PACKS = _OF_A_PIECE | word_set(
     "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder stick"
 )
 """Nouns for what food and drink come in, or come off in."""
+SERVING = word_set("glass mug cup bowl teacup tumbler goblet jug pitcher carafe")
+SERVED = _DRINKS | word_set("water soup stew porridge cereal oatmeal broth cocoa chili")
+"""What a vessel may be called by that it is served in ("my soup")."""
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware

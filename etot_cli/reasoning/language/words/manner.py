@@ -56,9 +56,15 @@ KEPT_HELD = """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
-    [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are), alone, untouched,
+    [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are) [now],
+    [just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+UNTOUCHED = """
+    [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
+    [left|kept] (as|where|like) (it|they) (is|are) [now], [left|kept] as is, left alone
+"""
+"""Behind what is to stay so, in a headline."""
 IS_LEFT = """
     ~comma (which|that) ((is|are) (fine|good|ok|okay|alright)|[can|may|should] (stay|stays))
     (there|here|put|where (it is|they are)|as (it is|they are)) [~comma]

@@ -73,7 +73,9 @@ BOTH_SIDES = {
 }
 SOMEWHERE = "(somewhere|anywhere|some place) [safe] [~comma]"
 """Before a place that is said more closely."""
-BETWEEN = "[in|in the gap|in the space] between"
+UP_OR_DOWN = "up, down"
+"""Before a place, which is there."""
+BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"

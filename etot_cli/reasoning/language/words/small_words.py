@@ -86,14 +86,14 @@ FRAMES = f"""
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
-    be sure to, remember to, (do not|don t) forget to, [would|do] you mind, mind,
+    be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
     (how|what) about, why do not you, i (wonder|was wondering) if you (could|would),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
-    (would|could) you be so (kind|good|nice) (as to|and),
-    mind [that] you, be so kind as to, be so (good|nice) as to, if you would, do me a favor and,
+    (would|could) you be so (kind|good|nice) (as to|and|to), please you,
+    mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
     do me a favour and,
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
 """
@@ -179,6 +179,7 @@ EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
 THEN_JOINTS = """
     [and] when (that is|you have) done [that], [and] once that is done,
+    [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],
     [and|but] [only] then, [and] after [all [of]] (that|this),
     [and] afterwards, [and] next, [and] (finally|lastly),
     and last [of all], after which,

@@ -82,9 +82,10 @@ CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swingin
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
-    (make|making|be) (sure|certain) [that], see to it [that], make it so [that]
+    (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
+    (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
-ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up)"
+ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up|set|set up|lay|prepare|sort)"
 NOTHING_IS = """
     nothing (should|must|may|can|is to|has to) (be|stay|remain) [left] (in|on),
     there (should|must|has to|needs to|is to) be nothing [left] (in|on),
