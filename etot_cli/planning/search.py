@@ -198,8 +198,9 @@ class _Search:
         self._propose()
         self._known.goal_holds = not self._branches and self._known.does_it((), scene)
 
-    def _propose(self) -> None:
-        """Takes the next of the proposed branches into the tree."""
+    def _propose(self) -> bool:
+        """Takes the next of the proposed branches into the tree; False where there are no more."""
+        count = len(self._branches)
         try:
             for branch in islice(self._proposals, BRANCHES_AT_ONCE):
                 self._branches.append(branch)
@@ -208,6 +209,7 @@ class _Search:
             if stop.reason is not StopReason.MAX_CHOICES:
                 raise
             self._cut = LimitKind.MAX_CHOICES
+        return len(self._branches) > count
 
     def _widen(self) -> bool:
         """Takes up what was left aside, now that all in the queue has failed; False at the end.
@@ -217,11 +219,14 @@ class _Search:
         """
         if self._known.found:
             return False
-        self._propose()
-        while self._untried and not self._queue and not self._known.found:
-            if self._out_of_time():
-                raise OutOfTimeError
-            self._take(self._untried.popleft())
+        more = True
+        while more and not self._queue and not self._known.found:
+            # Whole lots of branches may begin with what has failed already.
+            more = self._propose()
+            while self._untried and not self._queue and not self._known.found:
+                if self._out_of_time():
+                    raise OutOfTimeError
+                self._take(self._untried.popleft())
         return bool(self._queue)
 
     def _revise(self, node: PlanNode) -> None:

@@ -21,6 +21,7 @@ from etot_cli.specs.footprint import (
     rectangle,
     shifted,
     turned,
+    within,
 )
 from etot_cli.specs.objects import Cup, DrawerUnit, ObjectBase, Sphere, is_fastened
 from etot_cli.specs.placement import (
@@ -28,6 +29,7 @@ from etot_cli.specs.placement import (
     Solid,
     compartment,
     drawer_of,
+    hollow_beneath,
     inner_diameter,
     open_parts,
     place_all,
@@ -252,6 +254,8 @@ def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> 
     here, there = placed[first], placed[second]
     if here.footprint is None or there.footprint is None:
         return 0.0
+    if _covers(one, here, there) or _covers(two, there, here):
+        return 0.0
     level = (one.on or one.inside or DESK) == (two.on or two.inside or DESK)
     planar = all(item.at is None or len(item.at) == 2 for item in (one, two))
     depth = 0.0
@@ -264,6 +268,15 @@ def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> 
         if other.footprint is not None and _meet(part, other):
             depth = max(depth, overlap(part.footprint, other.footprint))
     return depth
+
+
+def _covers(item: ObjectBase, place: Placed, other: Placed) -> bool:
+    """Whether another object is under a vessel that stands upside down, clear of its walls."""
+    hollow = hollow_beneath(item, place)
+    if hollow is None or other.footprint is None:
+        return False
+    outline, roof = hollow
+    return other.top <= roof and within(other.footprint, outline)
 
 
 def _meet(first: Placed | Solid, second: Placed | Solid) -> bool:

@@ -107,6 +107,13 @@ def overlap(first: Footprint, second: Footprint) -> float:
     return depth
 
 
+def within(shape: Footprint, around: Disc) -> bool:
+    """Whether an outline lies in a round one."""
+    if isinstance(shape, Disc):
+        return math.hypot(shape.x - around.x, shape.y - around.y) + shape.radius <= around.radius
+    return all(contains(around, corner) for corner in shape.corners)
+
+
 def contains(shape: Footprint, point: Vector) -> bool:
     """Whether a point lies inside an outline or on it."""
     if isinstance(shape, Disc):

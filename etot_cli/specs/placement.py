@@ -41,6 +41,10 @@ from etot_cli.specs.scene import Scene
 
 Size = tuple[float, float, float]
 
+UPSIDE_DOWN = -0.99
+"""Height of a unit vector along its own z axis up to which a vessel stands on its rim: 8° askew,
+more than a quaternion that is written with two digits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Placed:
@@ -112,7 +116,8 @@ def _place(scene: Scene, name: str, placed: dict[str, Placed]) -> Placed:
         footprint = None
     else:
         vessel = scene.objects.get(below)
-        if item.inside is not None and vessel is not None and stands_in(item, vessel):
+        is_turned_by_itself = item.inside is not None and item.quaternion is None
+        if is_turned_by_itself and vessel is not None and stands_in(item, vessel):
             size = (size[1], size[1], size[0])
         footprint, height = _outline(item, size, x, y)
     if item.at is not None and len(item.at) == 3:
@@ -196,6 +201,18 @@ def _sinking(ball: Sphere, cup: Cup) -> float:
     """How far below the rim the lowest point of a ball in a vessel's mouth lies [m]."""
     radius, opening = ball.diameter / 2, inner_diameter(cup) / 2
     return radius - math.sqrt(max(radius * radius - opening * opening, 0.0))
+
+
+def hollow_beneath(item: ObjectBase, placed: Placed) -> tuple[Disc, float] | None:
+    """The room under a vessel that stands upside down: its outline where it is narrowest, and the
+    height of its roof [m]; None for all others.
+    """
+    if not isinstance(item, Cup) or item.quaternion is None:
+        return None
+    if rotated(item.quaternion, (0.0, 0.0, 1.0))[2] > UPSIDE_DOWN:
+        return None
+    narrowest = min(item.diameter, item.foot_diameter or item.diameter)
+    return Disc(placed.x, placed.y, narrowest / 2 - item.wall), placed.top - item.floor
 
 
 @dataclass(frozen=True, slots=True)

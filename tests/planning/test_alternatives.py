@@ -136,6 +136,12 @@ def test_later_branches_run_into_known_failures_and_are_corrected() -> None:
     assert order(simulator) == ["a", "x", "x a", "x a b"]
 
 
+def test_a_whole_lot_of_branches_may_begin_with_a_known_failure() -> None:
+    doomed = [f"a w{number}" for number in range(2 * BRANCHES_AT_ONCE + 1)]
+    result = run(ToySimulator(fails("a")), ToyReasoner([*doomed, "b"]))
+    assert result.status is SearchStatus.FEASIBLE and names(result.plan) == "b"
+
+
 def test_more_choices_than_are_looked_at_are_a_limit() -> None:
     class Cut(ToyReasoner):
         def propose(self, assignment: Assignment, scene: SceneState) -> Iterator[Branch]:

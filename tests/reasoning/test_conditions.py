@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
 from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
-from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
 from etot_cli.skills.action import format_plan
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import SceneState
@@ -78,6 +79,23 @@ def test_branches(conditions: list[dict[str, Any]], wanted: list[str]) -> None:
 def test_denied_place() -> None:
     state = scenes.toy_in_drawer()
     assert plans(state, {"not": {"inside": ["toy", "drawer"]}}) == ["[PICK UP, toy] [PUT ON, desk]"]
+
+
+@pytest.mark.parametrize("count", [3, 4, 6, 9])
+def test_any_number_of_things_leaves_the_desk(count: int) -> None:
+    names = [f"ball_{index}" for index in range(count)]
+    balls = [scenes.ball(name, (0.3, 0.1 * index)) for index, name in enumerate(names)]
+    state = scenes.scene(*balls, scenes.cup("bowl", (0.5, -0.2)), scenes.cup("mug", (0.5, -0.4)))
+    conditions = [Condition.model_validate({"not": {"on": [name, "desk"]}}) for name in names]
+    branches = BuiltinReasoner().propose(Assignment("", tuple(conditions)), state)
+    first = " ".join(f"[PICK UP, {name}] [PUT INTO, bowl]" for name in names)
+    assert format_plan(next(branches).actions) == first
+    if 2**count <= MAX_ALTERNATIVES:
+        assert len(list(branches)) == 2**count - 1
+        return
+    assert format_plan(next(branches).actions) == first.replace("bowl", "mug")
+    with pytest.raises(ReasonerStopped):
+        list(branches)
 
 
 @pytest.mark.parametrize(

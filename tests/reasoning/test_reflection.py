@@ -127,8 +127,23 @@ def test_what_the_branch_put_there_leaves_room_for_more() -> None:
     (found, *_) = BuiltinReasoner().reflect(first)
     assert format_plan(found.actions) == plan
     (disc,) = found.actions[1].keepout
-    x, y, _ = before.states["apple"].position
+    x, y, z = before.states["apple"].position
     assert (disc.x, disc.y) == (pytest.approx(x, abs=1e-3), pytest.approx(y, abs=1e-3))
+    # Once: where that does not help there is too little room.
+    moved = changed(before, apple={"position": (x + 0.03, y, z)})
+    again = replace(first, branch=found, record=replace(first.record, before=moved))
+    assert not list(BuiltinReasoner().reflect(again))
+
+
+def test_a_vessel_that_keeps_the_hand_from_its_contents_stays_where_it_is() -> None:
+    start = changed(scenes.apple_and_holder(), apple={"inside": "holder", "on": ("holder",)})
+    aside = changed(start, holder={"on": ("desk",)})
+    plan = "[PICK UP, holder] [PUT ON, desk] (safe place) [PICK UP, apple]"
+    step = failed(start, plan, 2, cause(CauseKind.NO_GRASP, "holder", "apple"), aside)
+    assert revision(step) is None
+    # What else is in the way may be taken away, and then so may the vessel.
+    more = failed(start, plan, 2, cause(CauseKind.NO_GRASP, "holder", "drawer"), aside)
+    assert revision(more) is not None
 
 
 def test_what_was_filled_before_it_could_not_be_picked_up_is_moved_first() -> None:

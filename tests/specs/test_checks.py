@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -224,6 +225,46 @@ def test_contents_of_one_vessel(tmp_path: Path) -> None:
     # What is beside the bowl is behind its wall, however long its contents are.
     pen = "{kind: pen, length: 0.25, diameter: 0.01, inside: bowl}"
     ok(tmp_path, bowl=bowl, pen=pen, ball=BALL.format("at: [0.4, 0.17]"))
+
+
+@pytest.mark.parametrize("heading", [0, 45, 90, 200])
+@pytest.mark.parametrize("kind", ["pen", "capsule"])
+def test_rods_that_stand_in_one_vessel(kind: str, heading: float, tmp_path: Path) -> None:
+    bowl = "{kind: bowl, at: [0.4, 0.0], diameter: 0.12, height: 0.09}"
+    stands = "inside: bowl, quaternion: [0.70711, 0, -0.70711, 0]"
+    rod = f"{{{{kind: {kind}, diameter: 0.012, length: 0.13, at: [{{}}, {{}}], {stands}}}}}"
+    x, y = (0.5 * f(math.radians(heading)) for f in (math.cos, math.sin))
+    for apart, fits in ((0.04, True), (0.02, True), (0.008, False)):
+        rods = [rod.format(0.4 + sign * apart * x, sign * apart * y) for sign in (-1, 1)]
+        scene = objects(bowl=bowl, one=rods[0], two=rods[1])
+        if fits:
+            ok(tmp_path, bowl=bowl, one=rods[0], two=rods[1])
+        else:
+            assert "overlaps 'one'" in scene_error(tmp_path, scene)
+
+
+@pytest.mark.parametrize(
+    ("diameter", "at", "fits"),
+    [
+        (0.035, (0.4, 0.0), True), (0.055, (0.4, 0.0), True), (0.035, (0.41, 0.0), True),
+        (0.065, (0.4, 0.0), False), (0.035, (0.42, 0.0), False), (0.035, (0.45, 0.0), False),
+    ],
+)  # fmt: skip
+def test_what_is_under_a_cup(
+    diameter: float, at: tuple[float, float], fits: bool, tmp_path: Path
+) -> None:
+    """It lies clear of the walls; 62 mm are clear in the middle, and the walls are 4 mm thick."""
+    cup = "{kind: cup, at: [0.4, 0.0], diameter: 0.07, height: 0.085, wall: 0.004, %s}"
+    over, upright = cup % "quaternion: [0, 1, 0, 0]", cup % "yaw_deg: 0"
+    ball = f"{{kind: sphere, diameter: {diameter}, at: [{at[0]}, {at[1]}]}}"
+    if fits:
+        ok(tmp_path, cup=over, ball=ball)
+        ok(tmp_path, ball=ball, cup=over)
+    else:
+        assert "overlaps 'cup'" in scene_error(tmp_path, objects(cup=over, ball=ball))
+    assert "overlaps 'cup'" in scene_error(tmp_path, objects(cup=upright, ball=ball))
+    low = over.replace("0.085", "0.036")
+    assert "overlaps" in scene_error(tmp_path, objects(cup=low, ball=ball))
 
 
 @pytest.mark.parametrize(

@@ -38,6 +38,9 @@ from etot_cli.world.state import STAYS_OPEN_AT, PartInfo, SceneState, owner_of
 MAX_CHOICES = 4096
 """Ways of resolving a goal that are looked at: half a second's work, and more branches than could
 ever be simulated."""
+MAX_ALTERNATIVES = 256
+"""Alternative goals that are followed: a tenth of a second's work, and more branches than a search
+of 200 actions tells apart."""
 
 
 def branches_of(
@@ -80,6 +83,11 @@ def branches_of(
             continue
         seen.add(candidate.branch.actions)
         yield candidate.branch
+    if len(goals) > MAX_ALTERNATIVES:
+        raise ReasonerStopped(
+            StopReason.MAX_CHOICES,
+            f"only the first {MAX_ALTERNATIVES} ways to make the goal true were looked at",
+        )
     if not seen:
         raise InstructionError(f"no well-formed plan does what is asked for: {objection}")
 

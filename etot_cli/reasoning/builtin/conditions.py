@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, product
+from itertools import chain, islice, product
 
 from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Goal,
@@ -20,7 +22,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import BESIDE_KEYS, Condition
@@ -42,8 +44,6 @@ _CONVERSE = {
     Nearby.AWAY: Nearby.AWAY,
 }
 """What holds of a landmark and a thing where the key holds of the thing and the landmark."""
-MAX_ALTERNATIVES = 256
-"""Alternatives that nested ``any`` conditions may multiply into."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,8 @@ class _Atom:
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
-    """Alternative goals, each of which makes all conditions true.
+    """Alternative goals, each of which makes all conditions true; one more than are followed where
+    there are more than that.
 
     Args:
         conditions: must all hold in the end.
@@ -145,8 +146,11 @@ def _alternatives(
         pair: tuple[str, str] | None = getattr(condition, key)
         if pair is not None:
             atom = _Atom(key, pair, denied)
-            elsewhere = _off_the_desk(pair[0], scene) if denied and pair[1] == DESK else []
-            return [(atom,), *((item,) for item in elsewhere)]
+            off_desk = denied and pair[1] == DESK
+            elsewhere = [(item,) for item in _off_the_desk(pair[0], scene)] if off_desk else []
+            # Where it lies on the desk now it does not get off it by being left alone.
+            stays = not (elsewhere and pair[0] in scene.states and is_on(scene, *pair))
+            return [*([(atom,)] if stays else []), *elsewhere]
     for key in ("in_hand", "open", "closed", "upright", "present"):
         name: str | None = getattr(condition, key)
         if name is not None:
@@ -186,8 +190,20 @@ def _off_the_desk(name: str, scene: SceneState) -> list[_Atom]:
 
 
 def _conjunctions(options: Iterable[list[tuple[_Atom, ...]]]) -> list[tuple[_Atom, ...]]:
-    combined = islice(product(*options), MAX_ALTERNATIVES)
-    return [tuple(atom for atoms in selected for atom in atoms) for selected in combined]
+    """One option of each, in all ways.
+
+    Neighbours in that order have all but the last choices in common, and fail together. Where there
+    are more ways than are followed, those come first in which all choose alike.
+    """
+    given = list(options)
+    ways: Iterable[tuple[tuple[_Atom, ...], ...]] = product(*given)
+    if math.prod(map(len, given)) > MAX_ALTERNATIVES:
+        most = max(map(len, given))
+        alike = (tuple(one[min(k, len(one) - 1)] for one in given) for k in range(most))
+        ways = dict.fromkeys(chain(alike, islice(ways, MAX_ALTERNATIVES + 1)))
+    return [
+        tuple(atom for atoms in way for atom in atoms) for way in islice(ways, MAX_ALTERNATIVES + 1)
+    ]
 
 
 @dataclass

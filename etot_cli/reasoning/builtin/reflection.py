@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.keepouts import room_for
 from etot_cli.reasoning.builtin.regrasping import regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -37,6 +36,7 @@ from etot_cli.reasoning.builtin.relocation import (
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     Purpose,
+    brought_before,
     cycle_of,
     inserted,
     moved_before,
@@ -48,6 +48,7 @@ from etot_cli.reasoning.builtin.revision import (
     without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
+from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
@@ -184,17 +185,18 @@ class _Case:
 
     def _earlier(self, before: int, name: str) -> Iterator[Correction]:
         """The branch with the failed cycle brought before the one that is at ``before``."""
-        own, other = cycle_of(self.actions, self.index), cycle_of(self.actions, before)
-        if other.start < own.start and before not in own:
-            actions = moved_before(self.actions, own, other.start)
-            yield Correction(
-                reachable_throughout(actions, self.start),
-                f"{self.action} comes before {name} is in the way",
-            )
-            if not relocations(self.actions, name):
-                # Of two that change places one has to wait elsewhere.
-                waiting = inserted(actions, other.start, set_aside(self.failed, name))
-                yield Correction(waiting, f"{name} waits elsewhere until {self.action} is done")
+        earlier = brought_before(self.actions, self.index, before)
+        if earlier is None:
+            return
+        yield Correction(
+            reachable_throughout(earlier, self.start),
+            f"{self.action} comes before {name} is in the way",
+        )
+        if not relocations(self.actions, name):
+            # Of two that change places one has to wait elsewhere.
+            other = cycle_of(self.actions, before).start
+            waiting = inserted(earlier, other, set_aside(self.failed, name))
+            yield Correction(waiting, f"{name} waits elsewhere until {self.action} is done")
 
     def _taken_out_first(self, before: int, name: str) -> Iterator[Correction]:
         """What came along in or on an object waits elsewhere from before that was moved on."""
@@ -214,16 +216,6 @@ class _Case:
             return [name for name in self.scene.states if is_on(self.scene, name, target)]
         return []
 
-    def _elsewhere_there(self, put: int, name: str) -> Iterator[Correction]:
-        """The branch with what was put into the same place before leaving its spot there free."""
-        action, held = self.actions[put], self.acted
-        if held is None or action.where:
-            return
-        room = room_for(self.scene, name, held)
-        other = replace(action, keepout=tuple(sorted({*action.keepout, room})))
-        actions = (*self.actions[:put], other, *self.actions[put + 1 :])
-        yield Correction(actions, f"{name} leaves room for {held} in {action.target}")
-
     # -- by verb -----------------------------------------------------------------------------------
 
     def _brought_out(self, furniture: str, vessels: Iterable[str]) -> Iterator[Correction]:
@@ -237,13 +229,18 @@ class _Case:
                 yield from relocated(self.failed, vessel, None, self.index)
 
     def _of_pick(self) -> Iterator[Correction]:
-        for name in self._culprits():
+        culprits = self._culprits()
+        # What keeps the hand from its own contents does so wherever it stands.
+        vessels = carriers(self.scene, self.action.target)
+        anywhere = self.cause.kind is CauseKind.NO_GRASP and vessels.issuperset(culprits)
+        for name in culprits:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None:
                 yield from self._earlier(placed, name)
                 yield from self._taken_out_first(placed, name)
             elif self.scene.infos[name].movable:
-                yield from self._out_of_the_way(name)
+                if not anywhere:
+                    yield from self._out_of_the_way(name)
             else:
                 yield from opened_wider(self.failed, name)
                 yield from self._taken_before_opening(name)
@@ -326,8 +323,8 @@ class _Case:
             if placed is not None:
                 if self.actions[placed + 1].target != self.action.target:
                     yield from self._earlier(placed, name)
-                elif self.is_full:
-                    yield from self._elsewhere_there(placed + 1, name)
+                elif self.is_full and self.acted is not None:
+                    yield from side_by_side(self.failed, index, self.acted, name)
             elif self.scene.infos[name].movable:
                 yield from self._out_of_the_way(name)
             else:
@@ -353,7 +350,9 @@ class _Case:
             within = is_inside(self.scene, name, part.address)
             if placed is not None:
                 put_there = self.actions[placed + 1].target == part.address
-                if not (within or put_there):
+                if within:
+                    yield from lowered(self.failed, placed, name, part)
+                elif not put_there:
                     yield from self._earlier(placed, name)
             elif not within or self.scene.openness(part) >= STAYS_OPEN_AT:
                 yield from self._out_of_the_way(name)

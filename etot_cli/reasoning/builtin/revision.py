@@ -174,6 +174,16 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
     return actions
 
 
+def brought_before(actions: Actions, index: int, before: int) -> Actions | None:
+    """A branch with the cycle of ``index`` brought before that of ``before``; None where it is
+    there already, or the same.
+    """
+    own, other = cycle_of(actions, index), cycle_of(actions, before)
+    if own.start <= other.start or before in own:
+        return None
+    return moved_before(actions, own, other.start)
+
+
 def reachable_throughout(actions: Actions, scene: SceneState) -> Actions:
     """The branch, with a drawer opened and closed again where it would shut away what is needed.
 

@@ -1,0 +1,64 @@
+"""Several things in or on one place: what comes first leaves room for the rest, and what is there
+already and takes the floor away goes out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.keepouts import room_for
+from etot_cli.reasoning.builtin.relations import bearers, is_inside, radius
+from etot_cli.reasoning.builtin.relocation import Correction, relocated
+from etot_cli.reasoning.builtin.revision import brought_before, placed_by, reachable_throughout
+from etot_cli.reasoning.protocol import FailedStep
+from etot_cli.world.state import DESK, PartInfo, owner_of
+
+
+def side_by_side(failed: FailedStep, index: int, name: str, other: str) -> Iterator[Correction]:
+    """The branch with an object beside one that it puts into or onto the same before: the larger
+    one has the first choice, or the other leaves room where it is now.
+
+    Args:
+        failed: the failed step.
+        index: place of the object's PICK UP or PUT in the branch.
+        name: the object.
+        other: what takes its place.
+    """
+    actions, scene = failed.branch.actions, failed.record.before
+    before = placed_by(actions, other, index)
+    if before is None:
+        return
+    put = actions[before + 1]
+    if put.target != DESK and radius(scene.infos[name]) > radius(scene.infos[other]):
+        # What comes to a place leaves room there for another of its own size.
+        earlier = brought_before(actions, index, before)
+        if earlier is not None:
+            ordered = reachable_throughout(earlier, failed.start)
+            yield Correction(ordered, f"{name}, which is larger, comes before {other}")
+    if not put.where and not put.keepout:
+        # Once: further spots made no difference in 26 problems with just enough room, and where
+        # there is too little for all there is no end of them.
+        kept = replace(put, keepout=(room_for(scene, other, name),))
+        changed = (*actions[: before + 1], kept, *actions[before + 2 :])
+        yield Correction(changed, f"{other} leaves room for {name} in {put.target}")
+
+
+def lowered(failed: FailedStep, placed: int, name: str, part: PartInfo) -> Iterator[Correction]:
+    """The branch without what an object that it puts into a part comes to stand on in there.
+
+    Args:
+        failed: the failed step, in which the object blocks the part.
+        placed: place of the object's PICK UP in the branch.
+        name: the object.
+        part: the part.
+    """
+    actions, scene = failed.branch.actions, failed.record.before
+    wanted = owner_of(actions[placed + 1].target)
+    for under in sorted(bearers(scene, name) - {wanted}):
+        if not is_inside(scene, under, part.address):
+            continue
+        if placed_by(actions, under, placed) is None:
+            yield from relocated(failed, under, None, placed)
+        else:
+            yield from side_by_side(failed, placed, name, under)
