@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Goal, Put, Step
+from etot_cli.reasoning.builtin.goal import Goal, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import DESK, SceneState
 
 
 def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None:
@@ -122,9 +122,20 @@ class Understanding:
             }
             for put in (step, after)
         )
+        desk = {(place.relation, *place.beside) for place in step.places if self._is_desk(place)}
+        if desk == {(Relation.ON,)} and all(place.beside for place in after.places):
+            # "Bring it to the table and put it to the right of the box", which stands there
+            marks = [i for place in after.places for near in place.beside for i in near.landmarks]
+            known = self.context.discourse.things(*marks)
+            return all(
+                place.where is None or self._is_desk(place) for place in after.places
+            ) and all(touches(thing, Thing(DESK), self._scene) for thing in known)
         whole = step.run == after.run and not any(t.part or t.board for _, t in where)
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
         return step == after or (whole and one == other != set())
+
+    def _is_desk(self, place: Place) -> bool:
+        return place.where is not None and self.context.discourse.is_desk(place.where)
 
     def goal(self) -> Goal:
         """The goal so far.

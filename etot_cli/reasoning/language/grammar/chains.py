@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
 )
 from etot_cli.reasoning.language.grammar.taking import is_emptying
+from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
 
@@ -168,8 +169,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
-        if said == "listed" and isinstance(done[-1].clause, PutClause):
-            return None  # several things with their places are one clause
+        if said == "listed" and isinstance(put := done[-1].clause, PutClause):
+            if not any(sources(group.things) for group in put.groups):
+                return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):
             return None  # behind another verb that may be said of this, too
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):

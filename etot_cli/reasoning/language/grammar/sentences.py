@@ -200,7 +200,14 @@ _WITH_MORE_BEFORE_IT = either(
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
-    sequence(verbs.TIDY, NAMED, COMMA, PLACED, build=each_sorted),
+    sequence(
+        verbs.TIDY,
+        NAMED,
+        optional("by (color|colour|kind|type|size)"),
+        COMMA,
+        PLACED,
+        build=each_sorted,
+    ),
     sequence(
         verbs.SWAP,
         THINGS,

@@ -98,6 +98,7 @@ _CLITICS = (
         r" what (?=(?:is|are)\b)",
         r"\1 that ",
     ),
+    (r"\bfor me (?=(?:out|off|from|on|in|into|onto|to|and)\b)", ""),
     (r"\bgimme\b", "give me"),
     (r"\blemme\b", "let me"),
     (r"\bwanna\b", "want to"),

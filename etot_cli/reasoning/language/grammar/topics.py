@@ -216,6 +216,9 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
             named = [np for state in states for np in state.subjects]
         case _:
             return None
+    topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
+    if len({np.head for np in topics}) > 1 and any(np.head == "ones" for np in named):
+        return None  # of the cups and the plates "the red ones" would be plates alone
     alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
     told = all(np.is_elliptic or last for np, last in zip(named, alone, strict=True))
     return (*topic, *rest) if told else None
