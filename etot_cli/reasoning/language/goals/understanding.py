@@ -82,9 +82,12 @@ class Understanding:
                 frozenset(self.context.discourse.put) if spoken.instead else frozenset()
             )
             said = len(self.context.discourse.mentions)
+            before_it = {mention.referent for mention in self.context.discourse.mentions}
             steps = tuple(steps_of(spoken.clause, self.context))
             further = spoken is not reading[0] or spoken.order is Order.THEN
-            room = further and any(
+            # "Take the dish out of the oven … Put the pan in the oven instead"
+            named = {*self.context.discourse.things(*before_it)}
+            room = any(
                 touches(thing, at, self._scene)
                 for step in steps
                 if isinstance(step, Put)
@@ -92,6 +95,7 @@ class Understanding:
                 if place.where is not None
                 for at in self.context.discourse.things(place.where)
                 for thing in moved
+                if further or at in named
             )
             _check_instead(spoken, self.context.last, room=room)
             if isinstance(spoken.clause, MoveClause) and not spoken.clause.opens and ahead(spoken):
