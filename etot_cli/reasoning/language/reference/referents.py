@@ -103,7 +103,12 @@ class Referents(Meanings):
         now = item is not None and not item.denied and HERE_BEFORE not in item.words
         if item is None or not now or not self.discourse.placed:
             return self.meaning(phrase, role)
-        fitting = resolved = self.meaning(plain.without_modifier(item), role)
+        fitting: Resolved | None = None
+        with suppress(ReferenceProblem):
+            fitting = self.meaning(plain.without_modifier(item), role)
+        if fitting is None:
+            return self.meaning(phrase, role)  # "both tubes from the rack" of three
+        resolved = fitting
         with suppress(ReferenceProblem):
             resolved = self.meaning(phrase, role)
         if not fitting.every or len(fitting.options) != 1:
