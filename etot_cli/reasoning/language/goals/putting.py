@@ -63,6 +63,7 @@ from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
+    Modifier,
     NounPhrase,
     PutClause,
     PutGroup,
@@ -93,6 +94,8 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     check_swept(context, clause)
+    if clause.stays:
+        clause = replace(clause, groups=tuple(map(_rest_there, clause.groups)))
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
@@ -173,6 +176,17 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
+
+
+def _rest_there(group: PutGroup) -> PutGroup:
+    """Who leaves "the rest" on the tray leaves what else is there."""
+    (np, *more), (where, *others) = group.things.phrases, group.destinations
+    prep = {Toward.ON: Prep.ON, Toward.INSIDE: Prep.IN}.get(where.toward)
+    rest = np.words[-1:] in (("the rest",), ("the others",), ("the other ones",))
+    if more or others or prep is None or not rest or np.modifiers or len(where.targets) != 1:
+        return group
+    there = NounPhrase("all other", ("objects",), (Modifier(prep, where.targets),), text=np.text)
+    return replace(group, things=Things((there,)))
 
 
 def ensure(context: Context, state: State) -> None:

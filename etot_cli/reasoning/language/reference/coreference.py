@@ -163,7 +163,11 @@ def meant_by_it(
                     found = (*found, *earlier)
             if role is Role.THEME and found == landmarks:
                 # "Take everything off the tray and put it away": what stood there, or that.
-                found = (*_whatever(discourse, clause), *found)
+                whatever = _whatever(discourse, clause)
+                if whatever and found:
+                    named = discourse.referents[whatever[0]].text
+                    discourse.notes.append(f"read '{text}' as {named}")
+                found = whatever or found
         parts = [m.referent for m in discourse.mentions if m.clause == clause]
         if not found and role is Role.SURFACE and _is_part(discourse, parts[-1:]):
             raise ReferenceProblem(text, UNCLEAR, 2)  # "close the drawer and put the cup on it"
