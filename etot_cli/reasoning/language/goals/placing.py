@@ -200,15 +200,20 @@ def where_is(
     still = [index for index in said if index not in moved]
     when = where.word.split()[-1]
 
+    gone = {*context.discourse.things(*context.discourse.put)}
+
+    def is_moved(index: int) -> bool:
+        return index in context.discourse.put or {*context.discourse.things(index)} <= gone
+
     def was(index: int) -> bool:
         # "The cup in the box and the pen where the cup is now" is where it was by then.
-        moved_on = when == "now" and index in context.discourse.put
+        moved_on = when == "now" and is_moved(index)
         return when in ("was", "were", "before") or moved_on
 
     def at(index: int) -> tuple[Place, ...]:
         if pronoun:
             return moved.get(index, ())
-        if was(index) is not (index in context.discourse.put):
+        if was(index) is not is_moved(index):
             return ()  # where something was is free only once it has gone
         if was(index):
             things = context.only(index, REASONS["where"])

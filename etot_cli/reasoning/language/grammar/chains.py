@@ -169,9 +169,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
-        if said == "listed" and isinstance(put := done[-1].clause, PutClause):
-            if not any(sources(group.things) for group in put.groups):
-                return None  # several things with their places are one clause
+        put = done[-1].clause if said == "listed" else None
+        if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):
+            return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):
             return None  # behind another verb that may be said of this, too
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):

@@ -77,6 +77,8 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
         return (replace(first, determiner=_QUANTITIES.get(said, said)),)
     if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
         return (replace(first, determiner=said),)
+    if said == "all" and not more and first.pronoun == "it":  # "take the fruit, put it all …"
+        return (replace(first, determiner="all", pronoun="them"),)
     return nps
 
 

@@ -133,7 +133,7 @@ KEEP_STILL = either(
     sequence(
         # After "the cups" rather one of them that is left out.
         either(
-            sequence(verbs.KEEP, THINGS, manner.AS_IT_IS),
+            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, there, here"),
             sequence(
                 f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
             ),

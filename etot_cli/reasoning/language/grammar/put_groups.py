@@ -39,7 +39,7 @@ _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONA
 
 
 _PARTICLE = """
-    down, up, away, back, over, out, inside, out of the way,
+    down, up, away, back, over, out, inside, out of the way, together,
     one (by one|at a time|after the other|after another)
 """
 

@@ -165,8 +165,8 @@ def meant_by_it(
                 # "Take everything off the tray and put it away": what stood there, or that.
                 whatever = _whatever(discourse, clause)
                 if whatever and found:
-                    named = discourse.referents[whatever[0]].text
-                    discourse.notes.append(f"read '{text}' as {named}")
+                    meant = discourse.referents[whatever[0]].text
+                    discourse.notes.append(f"read '{text}' as {meant}")
                 found = whatever or found
         parts = [m.referent for m in discourse.mentions if m.clause == clause]
         if not found and role is Role.SURFACE and _is_part(discourse, parts[-1:]):

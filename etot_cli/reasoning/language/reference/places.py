@@ -319,7 +319,9 @@ class Places:
         meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
         things = [thing for options in meant for thing in things_in(options)]
         upon = {t for p in places if p.where is not None for t in self.discourse.things(p.where)}
-        for phrase in (np for b in destination.beside if not b.relation.landmarks for np in b.phrases):
+        for phrase in (
+            np for b in destination.beside if not b.relation.landmarks for np in b.phrases
+        ):
             # "On the tray at the back of the table" may say which tray, but no part of it.
             if not {*things_in(self._phrases.meaning(phrase, Role.ANY).options)} & {*things, *upon}:
                 raise ReferenceProblem(phrase.text, f"it is no part of {text}", 2)

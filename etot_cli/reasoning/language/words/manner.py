@@ -56,7 +56,7 @@ KEPT_HELD = """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
-    [exactly|right|just] where (it|they) (is|are|was|were), as (it|they) (is|are) [now],
+    [exactly|right|just] where (it|they|he|she) (is|are|was|were), as (it|they) (is|are) [now],
     [just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """

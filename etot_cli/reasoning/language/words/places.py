@@ -144,7 +144,7 @@ AMONG = """
 ON_IT = "on"
 """Of a lid: on what was filled."""
 SAME_PLACE = "(in|on|to|at|into|onto) the same (place|spot)"
-THEREIN = "inside, in there [with (it|them)], in, into it"
+THEREIN = "inside, in there [with (it|them|him|her)], in, into it"
 HERE = f"{THEREIN}, on there, there, on top"
 HOME = """
     back [to its place],
