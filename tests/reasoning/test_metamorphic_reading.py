@@ -125,7 +125,8 @@ SIDED = [
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(
         r"(?i)right (next|away|behind|then)|^right,|"
-        r"(is|be|been|were|someone|i|anything|nothing) left\b",
+        r"(is|be|been|were|someone|i|anything|nothing) left\b"
+        r"|left (open|closed|shut|untouched|alone)",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)

@@ -28,7 +28,6 @@ from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import PickClause
-from etot_cli.reasoning.language.grammar.trees import reading_cost
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.protocol import ReasonerStopped
 
@@ -47,8 +46,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     found: dict[Goal, Understanding] = {}
     cost, undecided = -1, 0
     unclear: AmbiguousReference | None = None
-    for reading in sentence.readings:
-        simplicity = reading_cost(reading)
+    for reading, simplicity in zip(sentence.readings, sentence.costs, strict=True):
         odd = all(taken_up_again(item.timed) for item in found.values())
         if found and simplicity > cost and not undecided and not odd:
             break

@@ -78,6 +78,8 @@ class Sentence:
 
     text: str
     readings: tuple[tuple[Spoken, ...], ...]
+    costs: tuple[int, ...]
+    """How far-fetched they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +177,8 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
         word = next(word for word in over.values() if word is not None)
         why = "it would be read over here; say it in a sentence of its own"
         raise UnreadableError(word, before, why)
-    return Sentence(spaced(words), tuple(sorted(found, key=reading_cost)))
+    costs = sorted(((reading_cost(reading), n) for n, reading in enumerate(found)))
+    return Sentence(spaced(words), tuple(found[n] for _, n in costs), tuple(c for c, _ in costs))
 
 
 def shown(words: tuple[str, ...]) -> str:

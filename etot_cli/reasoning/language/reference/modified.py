@@ -189,4 +189,10 @@ def left_out(
     left = [thing for thing in things if thing not in out]
     if not left:
         raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
+    contrasted = (m.phrases for m in phrase.modifiers if m.prep is Prep.CONTRAST)
+    bare = (np for np in sum(contrasted, ()) if not (np.determiner or np.modifiers))
+    for np in (np for np in bare if len(np.words) == 1):
+        entries = [vocabulary.entries()[thing] for thing in left]
+        if any(entry.grade(np.head) is not None for entry in entries):
+            raise ReferenceProblem(np.text, "it would be one itself", 1)
     return left, out

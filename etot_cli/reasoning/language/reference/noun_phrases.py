@@ -15,6 +15,7 @@ from itertools import product
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
@@ -83,6 +84,8 @@ class Resolver:
         self._vocabulary = vocabulary
         self.as_labelled = vocabulary.as_labelled
         self.called_after = vocabulary.called_after
+        self._known: dict[tuple[object, ...], Resolved | ReferenceProblem] = {}
+        """What phrases without pronouns mean: readings of one sentence share most of them."""
 
     def colors_of(self, thing: Thing) -> frozenset[str]:
         """The basic colours that a thing is called by, or the one that it has."""
@@ -123,6 +126,29 @@ class Resolver:
         Raises:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
+        key = (phrase, role, noun, tuple(excluded), tuple(among), parts_first)
+        if any(pronouns(phrase)):
+            return self._resolve(*key, pronoun)  # what that means is for the discourse to say
+        if key not in self._known:
+            try:
+                self._known[key] = self._resolve(*key, pronoun)
+            except ReferenceProblem as problem:
+                self._known[key] = problem
+        known = self._known[key]
+        if isinstance(known, ReferenceProblem):
+            raise known
+        return known
+
+    def _resolve(
+        self,
+        phrase: NounPhrase,
+        role: Role,
+        noun: str | None,
+        excluded: tuple[Thing, ...],
+        among: tuple[Thing, ...],
+        parts_first: bool,
+        pronoun: Pronoun,
+    ) -> Resolved:
         phrase = usual_form(self.as_labelled(phrase))
         if not phrase.words and (noun is None or phrase.determiner in _INCOMPLETE):
             raise ReferenceProblem(phrase.text, UNCLEAR)
