@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import gap
@@ -127,7 +128,7 @@ def _put(
     grouping: Grouping,
 ) -> None:
     where = context.discourse.add(resolved, text, _ROLES[toward])
-    places = tuple(context.places.relations_to(toward, where, themes))
+    places = tuple(in_or_on(context.discourse, toward, where, themes))
     context.discourse.put |= {*themes}
     context.steps.append(Put(tuple(themes), places, grouping))
     context.discourse.last_places = places

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.world.spatial import Nearby
@@ -300,7 +301,7 @@ def cover(context: Context, clause: CoverClause) -> None:
         place
         for phrase in clause.things.phrases
         for index in _covered(context, phrase, themes)
-        for place in context.places.relations_to(Toward.ON, index, themes)
+        for place in in_or_on(context.discourse, Toward.ON, index, themes)
     )
     if any(place.relation is Relation.INSIDE for place in places):
         raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)

@@ -21,12 +21,12 @@ from etot_cli.reasoning.language.reference.coreference import (
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.instances import check_not_part
+from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
-from etot_cli.reasoning.language.reference.vessels import bears, goes_in, lies_on
+from etot_cli.reasoning.language.reference.vessels import bears, lies_on
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
@@ -152,9 +152,9 @@ class Places:
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
                 for so in (partial(self._holds, themes), is_open)[not stays :]:
                     self.discourse.as_it_stands(index, so)
-            ways = self.relations_to(toward, index, themes)
+            ways = in_or_on(self.discourse, toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
-                ways = self.relations_to(Toward.ON, index, themes)
+                ways = in_or_on(self.discourse, Toward.ON, index, themes)
             found += ways if destination.word == FILLED else self._on_first(phrase, ways)
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)
@@ -258,51 +258,6 @@ class Places:
             raise ReferenceProblem(text, "what goes on it would be in it, too; say 'in'", 3)
         return index
 
-    def relations_to(self, toward: Toward, index: int, themes: Sequence[int]) -> list[Place]:
-        """In or on a referent, whichever fits it and what is asked for."""
-        found = []
-        things = self.discourse.things(index)
-        fits_in = any(can_be(thing, Role.CONTAINER, self._scene) for thing in things)
-        laid = [thing for thing in self.discourse.things(*themes) if thing not in things]
-        if toward is Toward.ON and fits_in:
-            self._check_alike(laid, things, index)
-        to = toward is Toward.TO
-        on = (thing for thing in things if not to or space.is_support(thing, self._scene))
-        fits_on = any(
-            can_be(thing, Role.SURFACE, self._scene) and lies_on(laid, thing, self._scene)
-            for thing in on
-        )
-        if to and fits_in and all(self._has_door(thing) for thing in things):
-            fits_on = False  # what is brought to the microwave goes in
-        if to and not goes_in(laid, things, self._scene):
-            fits_in = False  # who brings it to a mug may want it beside that
-        if fits_in and (toward is not Toward.ON or not fits_on):
-            found.append(Place(Relation.INSIDE, index))
-        if fits_on and (toward is not Toward.INSIDE or not fits_in):
-            found.append(Place(Relation.ON, index))
-            if toward is Toward.INSIDE:
-                names = " or ".join(dict.fromkeys(thing.name for thing in things))
-                self.discourse.notes.append(f"read 'in' as onto {names}")
-        if toward is Toward.ON and fits_in and not fits_on:
-            check_not_part(self.discourse.referents[index].text, things)
-            names = " or ".join(dict.fromkeys(thing.name for thing in things))
-            self.discourse.notes.append(f"read 'on' as into {names}")
-        return found
-
-    def _has_door(self, thing: Thing) -> bool:
-        """Whether a thing is furniture whose parts are doors."""
-        info = self._scene.infos.get(thing.name)
-        parts = info.parts if info is not None else ()
-        return bool(parts) and all(part.joint_type == "hinge" for part in parts)
-
-    def _check_alike(self, laid: Sequence[Thing], things: Sequence[Thing], index: int) -> None:
-        """Of several lids that may be meant, all or none lie on a vessel's rim."""
-        ways = {any(lies_on([one], thing, self._scene) for thing in things) for one in laid}
-        if len(ways) > 1:
-            text = f"on {self.discourse.referents[index].text}"
-            names = [thing.name for thing in laid]
-            raise AmbiguousReference(text, names, "only one stays on top of it, of")
-
     def _narrowed(
         self, places: list[Place], destination: Destination, themes: Sequence[int]
     ) -> list[Place]:
@@ -359,7 +314,7 @@ class Places:
             if all(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(inner)):
                 named = [discourse.referents[item].text for item in (inner, index)]
                 raise AmbiguousReference(word, named)
-            return tuple(self.relations_to(Toward.ON, index, themes))
+            return tuple(in_or_on(self.discourse, Toward.ON, index, themes))
         if word == ON_IT and not discourse.put_into:
             raise ReferenceProblem(word, UNCLEAR, 2)
         put = set(discourse.things(*discourse.put))
@@ -375,4 +330,4 @@ class Places:
                 raise ReferenceProblem(word, UNCLEAR, 2)
             return (place,)
         upon = self._upon_it(word, place.where, themes)
-        return tuple(self.relations_to(Toward.ON, upon, themes))
+        return tuple(in_or_on(self.discourse, Toward.ON, upon, themes))
