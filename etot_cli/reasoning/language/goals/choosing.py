@@ -173,8 +173,8 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
     discourse = context.discourse
     referent = discourse.referents[theme]
     fixed = [place.where for place in places if place.where is not None and not place.beside]
-    if theme in discourse.put:
-        return
+    if theme in discourse.put or referent.distinct_from:
+        return  # which "the other one" is depends on the choice before it
     targets = [target for index in fixed for target in discourse.things(index)]
     others = tuple((thing,) for thing in discourse.fitting.get(theme, ()) if not stays)
     every = referent.options if len(referent.options) > 1 else (*referent.options, *others)

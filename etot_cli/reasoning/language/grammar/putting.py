@@ -235,7 +235,7 @@ PUT = either(
                 sequence(
                     either(
                         sequence(ALL_THINGS, verbs.MODAL),
-                        sequence(verbs.WANTED, ALL_THINGS, verbs.DONE),
+                        sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
                     ),
                     phrase("with, together with, in with"),
                 ),

@@ -69,7 +69,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import emptied
+from etot_cli.reasoning.language.grammar.taking import EMPTY, emptied
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -162,6 +162,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(plain(EMPTY), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
         noun_phrase,
@@ -198,6 +199,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
+    sequence(verbs.STACK, NAMED, COMMA, PLACED, build=each_sorted),
     sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
     sequence(

@@ -330,17 +330,18 @@ class Meanings:
     def _of_cleared(
         self, phrase: NounPhrase, role: Role, resolve: Callable[..., Resolved]
     ) -> Resolved | None:
-        """After "clear the shelf" "both boxes" and "everything" are what was on it, if any was."""
+        """After "clear the shelf" "the box" and "everything" are what was on it, if any was."""
         cleared, quantity = self.discourse.cleared, quantity_of(phrase.determiner)
         general = phrase.head in GENERAL or matches_any(phrase.head, THING_NOUNS)
         plural = general or singular(phrase.head) != phrase.head
         known = quantity.definite and (general or phrase.determiner.split()[:1] != ["all"])
-        if role is not Role.THEME or phrase.modifiers or quantity.other or not (plural and known):
+        if role is not Role.THEME or phrase.modifiers or quantity.other or not known:
             return None
         with suppress(ReferenceProblem):
             found = resolve(phrase, among=tuple(cleared))
             things = things_in(found.options)
-            return found if {*things} <= cleared and (general or things[1:]) else None
+            several = len(things) > 1
+            return found if {*things} <= cleared and (general or several is plural) else None
         return None
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:

@@ -187,8 +187,10 @@ class Places:
         infos = [self._scene.infos[thing.name] for thing in things if thing.name != DESK]
         slides = all(part.joint_type == "slide" for info in infos for part in info.parts)
         noun = usual_form(phrase).words[-1:]
-        if not slides or (noun and matches_any(noun[0], JOINT_NOUNS["slide"])):
+        if not slides:
             return places
+        if noun and matches_any(noun[0], JOINT_NOUNS["slide"]):
+            return places[:1]
         self.discourse.notes.append(f"'to {phrase.text}': on it, or else into it")
         return places[::-1]
 
@@ -321,7 +323,17 @@ class Places:
         if word == "on top" and put & set(discourse.things(*themes)):
             raise ReferenceProblem(word, "say on top of what", 2)
         relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
-        place = latest_place(discourse, relation, themes, word)
+        before = discourse.last_places
+        try:
+            place = latest_place(discourse, relation, themes, word)
+        except AmbiguousReference:
+            raise
+        except ReferenceProblem:
+            if word not in spellings(THEREIN) or len(before) != 1:
+                raise
+            place = before[0]  # "take the milk out, put the juice in"
+            if place.relation is not Relation.INSIDE or place.beside:
+                raise
         if word == "on top" and place in discourse.last_places:
             raise ReferenceProblem(word, "say on top of what", 2)  # of that, or of what is there
         if relation is Relation.INSIDE or place.where is None:

@@ -131,9 +131,9 @@ RELATIONS = """
     granddaughter|grandson|grandmother|grandfather
 """
 WANT = """
-    (i|we) (want|need|prefer) [to (have|see)],
+    (i|we) [just|really|also] (want|need|prefer) [to (have|see)],
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
-    i d like, (can|could|may|might) (i|we) have, let us have,
+    i d like, (can|could|may|might) (i|we) have, let us have, (would|is) it [be] possible to have,
     (i|we) would rather (have|see)
 """
 OTHERS_WANT = f"""
@@ -163,7 +163,7 @@ LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
 """Before where something is to stay."""
-RECEIVE = "[should|must|shall|has to|needs to|is to] (get|gets|receive|receives)"
+RECEIVE = "[should|must|shall|has to|needs to|is to] [also] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
