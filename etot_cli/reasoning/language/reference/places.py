@@ -32,10 +32,11 @@ from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     SIDES,
     matches_any,
+    singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN
+from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -131,6 +132,11 @@ class Places:
         bare = bool(phrase.words) and all(word in SIDES for word in phrase.words)
         targets = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
         spoken = any(item.role in targets for item in self.discourse.mentions)
+        several = singular(phrase.head) != phrase.head and phrase.determiner in THE_WORDS
+        upon = any(item.prep in (Prep.ON, Prep.IN) for item in phrase.modifiers)
+        if toward is Toward.TO and several and upon:
+            # "Add it to the gears on the mat" is no word for on which of them
+            raise ReferenceProblem(phrase.text, "say whether on, into or next to which of them", 2)
         if bare and (toward is Toward.TO or not spoken):
             raise ReferenceProblem(phrase.text, "say to which side of what", 2)
         found = []
