@@ -13,6 +13,9 @@ NO_WORD = ""
 MAX_WORK = 4000
 """Results of all rules together for one sentence, a quarter of a second's work; sensible sentences
 need some hundreds."""
+MAX_AT_ONCE = 3000
+"""Ways to read the beginning of one rule, a tenth of a second's work; sensible sentences have up to
+280, and what is made up of many words that may belong anywhere tens of thousands."""
 MAX_NESTED = 100
 """Parsers within each other that are followed; sentences of the tests need up to 45, and the
 interpreter's own bound comes at some 250."""

@@ -12,7 +12,14 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, cached_property
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.input import NO_WORD, Find, Input, Result
+from etot_cli.reasoning.language.grammar.input import (
+    MAX_AT_ONCE,
+    NO_WORD,
+    Find,
+    Input,
+    Result,
+    TooManyReadings,
+)
 from etot_cli.reasoning.language.grammar.text import COLON, COMMA
 from etot_cli.reasoning.language.words.patterns import Begun
 
@@ -163,6 +170,8 @@ def sequence(*parts: Part, build: Callable[..., Any] = _only) -> Parser:
             ]
             if not partial:
                 return []
+            if len(partial) > MAX_AT_ONCE:
+                raise TooManyReadings
         built = ((end, build(*values)) for end, values in partial)
         return [(end, value) for end, value in built if value is not None]
 
@@ -239,6 +248,8 @@ def some(parser: Parser, least: int = 0, most: int = 12) -> Parser:
             ]
             if not partial:
                 break
+            if len(partial) > MAX_AT_ONCE:
+                raise TooManyReadings
             if count >= least:
                 found += partial
         return found
