@@ -42,7 +42,7 @@ _DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
 _JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
 MAX_READINGS = 200
-"""Readings of one sentence that are held against the scene; sensible sentences have up to 50."""
+"""Readings of one sentence that are held against the scene; sensible sentences have up to 96."""
 
 
 class UnreadableError(Exception):
