@@ -158,7 +158,7 @@ REWORDED: dict[str, dict[str, list[str]]] = {
             f"{store('holder')} [OPEN, drawer] {APPLE_IN} [CLOSE, drawer]"
         ],
         "Open the drawer and close it": ["[OPEN, drawer] [CLOSE, drawer]"],
-        "Move the apple to the drawer": [store("apple"), "[PICK UP, apple] [PUT ON, drawer]"],
+        "Move the apple to the drawer": [store("apple")],
     },
     "ball_before_drawer": {
         "Put the apple and the ball either in the drawer or in the holder": ALLOCATIONS,
