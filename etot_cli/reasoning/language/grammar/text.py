@@ -103,8 +103,6 @@ _CLITICS = (
     (r"\blemme\b", "let me"),
     (r"\bwanna\b", "want to"),
     (r"\bgotta\b", "have to"),
-    (r"\breal (?=quick\b)", ""),
-    (r"(?<=[a-z] )quick(?=[.,!]|$)", "please"),
     (r"(?<=\w) \+ (?=\w)", " and "),
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
