@@ -278,10 +278,23 @@ def _paired(parts: list[str]) -> list[str]:
     return [part.replace(",", ":") if pairs[1:] and part in pairs else part for part in parts]
 
 
-_LOOKED_FOR = re.compile(
-    rf"(?:(?:{'|'.join(spellings(small_words.FRAMES))}|please|now|first|then),? )*"
-    rf"(?:{'|'.join(spellings(small_words.LOOK_FOR))}) (?:(?!,).)*$"
-)
+_LOOK_FOR = re.compile(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
+_AHEAD = frozenset({*spellings(small_words.FRAMES), "please", "now", "first", "then"})
+
+
+def _is_looked_for(part: str) -> bool:
+    """Whether all that a sentence asks for is to find something ("please find the cup")."""
+    return any(_are_frames(part[: found.start()]) for found in _LOOK_FOR.finditer(part))
+
+
+def _are_frames(text: str) -> bool:
+    """Whether words are what may stand before a request, and nothing else."""
+    words = text.replace(",", "").split()
+    ends = {0}
+    for at in range(len(words)):
+        if at in ends:
+            ends |= {n for n in range(at + 1, len(words) + 1) if " ".join(words[at:n]) in _AHEAD}
+    return len(words) in ends
 
 
 def sentences_of(text: str) -> list[str]:
@@ -290,8 +303,9 @@ def sentences_of(text: str) -> list[str]:
     parts = _paired([" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain)])
     found: list[str] = []
     for part in parts:
-        if found and _LOOKED_FOR.match(found[-1]):
-            found[-1] += f", {part}"  # what is looked for, and what is to be done with it
+        if found and _is_looked_for(found[-1]):
+            # What is looked for, and what is to be done with it.
+            found[-1] = f"{found[-1].removesuffix(QUESTION).strip()}, {part}"
         elif part.removesuffix(QUESTION).strip(" ,:"):
             found.append(part)
     return found
