@@ -14,10 +14,11 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
+from etot_cli.reasoning.language.goals.plausibility import plans_of
 from etot_cli.reasoning.language.grammar.asides import without_asides
 from etot_cli.reasoning.language.grammar.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
-from etot_cli.reasoning.language.grammar.text import words_in
+from etot_cli.reasoning.language.grammar.text import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
@@ -43,6 +45,7 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
+_DECLARED = frozenset({"is", "are"})
 _OF_ITS_OWN = re.compile(r"\b(?:all|both|each|every|any)(?: of)? the\b")
 """Such words before a noun speak of what that names."""
 
@@ -69,8 +72,29 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         with suppress(UnreadableError, ReferenceProblem):
             return _below_heading(instruction, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
+            return _as_end_state(text, scene, vocabulary)
+        with suppress(UnreadableError, ReferenceProblem):
             return _beside_asides(instruction, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
+
+
+def _as_end_state(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is said to be so, of which something is not, and nothing else: that it is to be so.
+
+    Raises:
+        UnreadableError, ReferenceProblem: something else is said, or all of it holds.
+    """
+    sentences = sentences_of(text)
+    for sentence in sentences:
+        first, *more = sentence.split()
+        if first in VERB_WORDS | OTHER_VERBS or QUESTION in more or not _DECLARED & {*more}:
+            raise UnreadableError(sentence, "")
+    goal = _read(". ".join(f"in the end {said}" for said in sentences), scene, vocabulary)
+    with suppress(InstructionError, ReasonerStopped):
+        if not plans_of(goal, scene, ordered=False):
+            raise UnreadableError(text, "")
+    note = "what is said to be so is taken for what is to be so in the end"
+    return replace(goal, notes=(note, *goal.notes))
 
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:

@@ -47,6 +47,7 @@ _KEEPS = {
     Avoid.CLOSE: Keep.OPEN,
 }
 
+_THE_REST = (("the rest",), ("all the rest",))
 _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 
 
@@ -68,7 +69,13 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         _avoid_others(context, clause)
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
-    elliptic = (np.is_elliptic or leaves_noun_out(np) for np in clause.things.phrases)
+    if any(np.words in _THE_REST and not np.modifiers for np in clause.things.phrases):
+        _avoid_others(context, clause)
+        return
+    elliptic = (
+        np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
+        for np in clause.things.phrases
+    )
     if role is Role.ANY and any(elliptic):
         # "Leave the red one" speaks of what was moved rather than of where to.
         role = Role.PART if _moves_anyway(context, clause.things) else Role.THEME
@@ -113,6 +120,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
     context.discourse.step_back(before, indices)
+    if clause.avoid in (Avoid.TOUCH, Avoid.MOVE):
+        context.discourse.left_alone |= {*indices}
     # A drawer moves by being opened or closed, not with its chest.
     parts = [p for t in things if t.part for p in parts_of(context.scene, t)]
     ways = [
@@ -235,7 +244,9 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
     """Nothing but what was spoken of may be touched or moved; where things are to be with "nothing
     else" says what is to be there.
     """
-    if isinstance(context.last, EnsureClause) and not any(s.word for s in context.last.states):
+    named = clause.things is not None  # "do not touch the rest"
+    ensured = context.last.states if isinstance(context.last, EnsureClause) else ()
+    if ensured and not named and not any(state.word for state in ensured):
         only = (NounPhrase("only", text="nothing else"),)
         for step in context.done:
             if isinstance(step, Put):

@@ -131,6 +131,9 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         destinations, grouping = distributed(group, grouping)
         found = context.places.of(destinations, themes, stays=wherever or clause.stays)
         places = not_beside(context, found, ruled_out, themes)
+        if clause.stays and _is_left(context, group, themes, places):
+            avoid(context, AvoidClause(Avoid.MOVE, group.things))
+            continue
         check_contrasted(context, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
@@ -176,6 +179,21 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
+
+
+def _is_left(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> bool:
+    """Whether "the left one", which is left "there", is left where it is: the other one has gone to
+    where it is not.
+    """
+    there = all(item.toward is Toward.HERE and not item.beside for item in group.destinations)
+    others = all(np.is_elliptic or quantity_of(np.determiner).other for np in group.things.phrases)
+    at = [place.where for place in places if place.where is not None]
+    targets = context.discourse.things(*at)
+    things = context.discourse.things(*themes)
+    away = not any(touches(thing, at, context.scene) for thing in things for at in targets)
+    return there and others and away
 
 
 def _rest_there(group: PutGroup) -> PutGroup:

@@ -53,7 +53,8 @@ _WITHIN = re.compile(
 )
 """Words that a clause begins with wherever they stand."""
 _AHEAD = re.compile(
-    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are)\b)|though)\b"
+    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
+    r"|though)\b"
     r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
     r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
 )

@@ -217,10 +217,17 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
         case _:
             return None
     topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
-    if len({np.head for np in topics}) > 1 and any(np.head == "ones" for np in named):
+    bare = [not np.determiner and all(map(is_descriptive, np.words or (".",))) for np in named]
+    of_them = any(
+        np.head == "ones" or adjectives for np, adjectives in zip(named, bare, strict=True)
+    )
+    if len({np.head for np in topics}) > 1 and of_them:
         return None  # of the cups and the plates "the red ones" would be plates alone
     alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
-    told = all(np.is_elliptic or last for np, last in zip(named, alone, strict=True))
+    told = all(
+        np.is_elliptic or adjectives or last
+        for np, adjectives, last in zip(named, bare, alone, strict=True)
+    )
     return (*topic, *rest) if told else None
 
 

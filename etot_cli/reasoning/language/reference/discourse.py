@@ -46,6 +46,8 @@ class Discourse:
     """Referent → what its phrase leaves out of it."""
     fitting: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
     """Referent → what its phrase is true of as well, though it fits another thing better."""
+    among: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
+    """Referent → what its words for side and size single it out of."""
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
@@ -55,6 +57,8 @@ class Discourse:
     """Referents that the clause that is being read puts something else in the place of."""
     cleared: frozenset[Thing] = frozenset()
     """What the clause before took out of what it empties."""
+    left_alone: frozenset[int] = frozenset()
+    """Referents that must not be moved or touched."""
     remarked: frozenset[int] = frozenset()
     """Referents of which something was said that is neither known of a thing nor asked for."""
 
@@ -70,6 +74,7 @@ class Discourse:
             stacks=dict(self.stacks),
             left_out=dict(self.left_out),
             fitting=dict(self.fitting),
+            among=dict(self.among),
         )
 
     def each(self, referent: int) -> tuple[int, ...]:
@@ -114,6 +119,7 @@ class Discourse:
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
         self.left_out[index], self.fitting[index] = resolved.left_out, resolved.others
+        self.among[index] = resolved.among
         self.mentions.append(mention)
         return index
 
@@ -244,9 +250,13 @@ class Discourse:
             if since and mention.referent not in self.put:
                 continue
             said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
+            dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
             here = mention.role is Role.THEME and mention.clause == self.clause
-            moved = here or mention.referent in self.put  # "the apple and another fruit"
-            alike = moved or any(same_noun(word, noun or "") for word in said)
+            alike = (
+                here
+                or mention.referent in dealt_with
+                or any(same_noun(word, noun or "") for word in said)
+            )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
         return tuple(found)

@@ -11,7 +11,14 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.spelling import is_english
 from etot_cli.reasoning.language.grammar.text import normalized
-from etot_cli.reasoning.language.words.categories import CATEGORIES, PACKED, PACKS, SERVED, SERVING
+from etot_cli.reasoning.language.words.categories import (
+    CATEGORIES,
+    OF_A_SORT,
+    PACKED,
+    PACKS,
+    SERVED,
+    SERVING,
+)
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -221,11 +228,15 @@ class Entry:
 
 
 def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
-    """Nouns for a kind that fit something called by these nouns: a can is no bottle."""
+    """Nouns for a kind that fit something called by these nouns: a can is no bottle, a remote no
+    box, but milk may be in a carton.
+    """
     groups = KIND_GROUPS.get(kind, ())
     own = {singular(head) for head in heads}
     fitting = [group for group in groups if own & set(group)]
-    if not fitting and not own & COMMON_NOUNS:
+    if own & PACKED:
+        fitting += [group for group in groups if PACKS & {*group}]
+    if not fitting and not own & (COMMON_NOUNS | OF_A_SORT):
         fitting = list(groups[-1:] if kind == "pen" else groups)
     if kind in own:
         fitting = list(groups)

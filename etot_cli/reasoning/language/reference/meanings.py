@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
     of_spoken_owner,
     one_of_several,
     others,
+    singled_out_of,
     spoken_part,
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
@@ -315,6 +316,8 @@ class Meanings:
         single = not (quantity.definite or quantity.every or phrase.modifiers)  # "a cup"
         known = own if bare else phrase.head if single else None
         among = self.discourse.but_named(known or "")
+        if elliptic or leaves_out:
+            among = among or singled_out_of(phrase, noun, self.discourse)
         alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
         narrower: Resolved | None = None
         with suppress(ReferenceProblem):

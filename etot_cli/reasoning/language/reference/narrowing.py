@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     same_noun,
     singular,
 )
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
 _CONTRASTED = (SIZES, SIDES, LEVELS)
@@ -166,6 +167,23 @@ def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) ->
         words = (*own, *kept, phrase.head or "one")
         return replace(phrase, words=words) if contrasted and kept else None
     return None
+
+
+def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> tuple[Thing, ...]:
+    """After "the left cup on the tray" "the right one" is one of those on the tray, too: what the
+    earlier phrase singles out one of, none where nothing is contrasted.
+    """
+    sides = (word for m in phrase.modifiers if m.prep is Prep.SIDE for word in m.words)
+    own = [*phrase.words, *sides]
+    for mention in reversed(discourse.mentions):
+        if noun is None or not same_noun(mention.noun, noun):
+            continue
+        contrasted = any(
+            any(word in table for word in own) and any(word in table for word in mention.adjectives)
+            for table in _CONTRASTED
+        )
+        return discourse.among.get(mention.referent, ()) if contrasted else ()
+    return ()
 
 
 def narrowed_to(

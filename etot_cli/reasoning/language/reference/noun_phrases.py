@@ -229,6 +229,7 @@ class Resolver:
         check_modified(asked, modifiers, things, unmeant, self._vocabulary, self._scene)
         alone = [] if unmeant else things  # "the big one, not the small one": it tells them apart
         idle = idle_words(match, modifiers, alone, self._scene, phrase.text, notes)
+        among = tuple(things)
         things = select(match.selectors, modifiers, things, asked.count, self._scene, phrase.text)
         check_selected(asked, things, self._scene)
         check_on_side(asked, modifiers, things, rivals, self._scene)
@@ -241,6 +242,7 @@ class Resolver:
         return Resolved(
             options, quantity.definite, quantity.other, asked.head, every, tuple(notes),
             adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
+            among=among,
         )  # fmt: skip
 
     def names_stack(self, phrase: NounPhrase) -> bool:

@@ -23,6 +23,7 @@ class Resolved:
         left_out: what the phrase says that it does not mean.
         either: it is one of several phrases ("the apple or the pear").
         idle: words of it for a side or size that tell one thing from no other.
+        among: what its words for side and size single it out of.
         others: what it says would be true of as well, though it fits what is meant better.
     """
 
@@ -38,3 +39,4 @@ class Resolved:
     others: tuple[Thing, ...] = ()
     idle: tuple[str, ...] = ()
     either: bool = False
+    among: tuple[Thing, ...] = ()

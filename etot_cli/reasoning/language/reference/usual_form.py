@@ -67,7 +67,13 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
     if last in _OTHERS and len(phrase.words) == 1:
-        return replace(phrase, determiner="all other", words=())
+        of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
+        left = replace(phrase, determiner="all other", words=())
+        if of is None:
+            return left
+        (whole, *_) = of.phrases
+        modifiers = (*whole.modifiers, *left.without_modifier(of).modifiers)
+        return usual_form(replace(left, words=whole.words, modifiers=modifiers))
     if phrase.determiner.startswith("only "):
         phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
     out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)

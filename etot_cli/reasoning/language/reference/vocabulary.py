@@ -21,7 +21,12 @@ from etot_cli.reasoning.language.reference.entries import (
     object_entry,
     part_entries,
 )
-from etot_cli.reasoning.language.words.categories import CALLED, members_of
+from etot_cli.reasoning.language.words.categories import (
+    CALLED,
+    NO_PARTS,
+    PART_NOUNS,
+    members_of,
+)
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BINS,
@@ -148,14 +153,16 @@ class Vocabulary:
         return [replace(e, content=(*e.content, word)) for e in told] if fitting else []
 
     def of_category(self, noun: str) -> list[Entry]:
-        """Entries that count among what a noun like "fruit" or "tools" means, with it as a noun of
-        theirs.
+        """Entries that count among what a noun like "fruit", "tools" or "parts" means, with it as a
+        noun of theirs.
         """
         members = members_of(noun)
+        found = [entry for entry in self.objects if members and entry.counts_among(members)]
+        if singular(noun) in PART_NOUNS:
+            solid = (e for e in self.objects if e.info and e.info.movable and not e.info.container)
+            found = [entry for entry in solid if not entry.counts_among(NO_PARTS)]
         return [
-            replace(entry, generic=(), content=(*entry.content, singular(noun)))
-            for entry in self.objects
-            if members and entry.counts_among(members)
+            replace(entry, generic=(), content=(*entry.content, singular(noun))) for entry in found
         ]
 
     def called_after(

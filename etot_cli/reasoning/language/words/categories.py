@@ -95,7 +95,7 @@ _TOILETRIES = word_set(
 )
 _ELECTRONICS = word_set(
     "phone telephone cellphone smartphone laptop computer tablet keyboard monitor camera headphone "
-    "earphone earbud charger calculator"
+    "earphone earbud charger calculator remote controller console radio speaker"
 )
 _JEWELRY = word_set("ring necklace bracelet earring brooch pendant")
 _FLOWERS = word_set("rose tulip daisy lily sunflower daffodil orchid carnation")
@@ -157,6 +157,15 @@ PACKS = _OF_A_PIECE | word_set(
 SERVING = word_set("glass mug cup bowl teacup tumbler goblet jug pitcher carafe")
 SERVED = _DRINKS | word_set("water soup stew porridge cereal oatmeal broth cocoa chili")
 """What a vessel may be called by that it is served in ("my soup")."""
+PART_NOUNS = word_set("part component workpiece")
+_BASES = word_set(
+    "tray mat placemat plate board pad pallet platform base fixture jig rack book notebook notepad "
+    "paper cloth towel napkin scale"
+)
+OF_A_SORT = frozenset().union(*SORTS.values())
+"""What counts among any sort."""
+NO_PARTS = (OF_A_SORT | _BASES) - _FASTENERS
+"""What no :data:`PART_NOUNS` speak of: what has a use of its own, or bears what is worked on."""
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
