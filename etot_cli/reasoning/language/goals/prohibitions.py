@@ -122,6 +122,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     context.discourse.step_back(before, indices)
     if clause.avoid in (Avoid.TOUCH, Avoid.MOVE):
         context.discourse.left_alone |= {*indices}
+        out = [thing for i in indices for thing in context.discourse.left_out.get(i, ())]
+        if len(out) == 1:  # "all as it is except for the cup; that goes on the tray"
+            context.discourse.alone(out[0], Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
     parts = [p for t in things if t.part for p in parts_of(context.scene, t)]
     ways = [

@@ -142,6 +142,7 @@ def changed(
             | MoveClause(things=things)
             | TowerClause(things=things)
             | AgainClause(things=Things() as things)
+            | AvoidClause(things=Things() as things)
         ) if rest := without(things):
             return replace(clause, things=rest)
     return None

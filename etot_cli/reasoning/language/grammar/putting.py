@@ -165,7 +165,10 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
 
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
+_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home)"
 PUT = either(
+    sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
+    sequence("find[ing]", _A_PLACE, "for", THINGS, DESTINATIONS, build=put_to),
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(

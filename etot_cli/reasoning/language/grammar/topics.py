@@ -116,6 +116,7 @@ _REMARK = either(
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
+    sequence("(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into])", ALL_THINGS),
 )
 MAKING_ROOM = spanned(
     sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on", noun_phrase)))),

@@ -152,8 +152,9 @@ def meant_by_it(
             spared = _left_out(discourse, clause) if role is Role.THEME and not acted_on else ()
             if len(spared) == 1:
                 # "All toys into the box except the bear, and put it on the shelf"
-                named = [discourse.referents[index].text for index in found]
-                raise AmbiguousReference(text, [spared[0].name, *named])
+                if found:
+                    discourse.notes.append(f"read '{text}' as {spared[0].name}")
+                return discourse.alone(spared[0], role)
             if role is not Role.THEME and found == landmarks != ():
                 # What was opened before, rather than what but tells which jar goes in there.
                 earlier = _earlier(discourse, clause, role, excluded)

@@ -84,8 +84,12 @@ class Discourse:
         options = self.referents[referent].options
         if len(options) == 1:
             return (referent,)
-        singles = (Resolved(((t,),), definite=True, noun=t.name) for t in things_in(options))
-        return tuple(self.add(alone, alone.noun, Role.ANY) for alone in singles)
+        return tuple(self.alone(thing, Role.ANY) for thing in things_in(options))
+
+    def alone(self, thing: Thing, role: Role) -> int:
+        """A referent for one thing, spoken of in a role."""
+        single = Resolved(((thing,),), definite=True, noun=thing.name)
+        return self.add(single, thing.name, role)
 
     def add(
         self,

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
     one_of_several,
     others,
     singled_out_of,
+    spared_one,
     spoken_part,
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
@@ -118,6 +119,7 @@ class Meanings:
                 return self._told_otherwise(phrase, role)
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         chosen = one_of_several(phrase, role, self.discourse)
+        chosen = chosen or spared_one(phrase, self.discourse)
         if chosen is not None:
             return chosen
         phrase = as_rest(phrase, noun_before, self.discourse)

@@ -111,6 +111,19 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
     return Resolved(options, definite=False, other=choice, noun=noun, again=True)
 
 
+def spared_one(phrase: NounPhrase, discourse: Discourse) -> Resolved | None:
+    """After "all drawers except the middle one" "that one" is the one that is left out; None where
+    that is not said.
+    """
+    alone = phrase.determiner in ("that", "this") and phrase.words == ("one",)
+    if not alone or phrase.modifiers or not discourse.mentions:
+        return None
+    last = discourse.mentions[-1]
+    spared = [t for t in discourse.left_out.get(last.referent, ()) if t not in discourse.placed]
+    options = ((spared[0],),) if len(spared) == 1 else ()
+    return Resolved(options, definite=True, noun=last.noun) if options else None
+
+
 def others(resolved: Resolved, discourse: Discourse) -> Resolved:
     """All others of a choice made before: which they are depends on it."""
     things = resolved.options[0]

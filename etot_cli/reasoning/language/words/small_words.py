@@ -82,6 +82,7 @@ FRAMES = f"""
     ({WISH_IF}) you (would|could|can|might), {GREETINGS}, actually, go, go and, go ahead and,
     (can|could|would|will) (you|u), (can|could|will) i ask you to,
     (would|will) you be able to, could you possibly,
+    [is there] any (chance|way) [that] you (can|could|would),
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is, i (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,

@@ -134,7 +134,8 @@ WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)],
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) have, let us have, (would|is) it [be] possible to have,
-    (i|we) would rather (have|see)
+    (i|we) would rather (have|see),
+    what (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """
 OTHERS_WANT = f"""
     (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
