@@ -146,8 +146,8 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             if place is None or not _says_where(verb, place):
                 raise PlanSyntaxError(
                     f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
-                    "(horizontal), (vertical), (safe place) or, after PUT ON, a place such as "
-                    "(left of plate), (between cup and box) or (at edge), after any PUT (upright)"
+                    "(horizontal), (vertical), (safe place) or, after a PUT, (upright) or a place "
+                    "such as (left of plate) or (between cup and box), after PUT ON (at edge), too"
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
@@ -155,7 +155,9 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
 
 
 def _says_where(verb: Verb, place: Whereabouts) -> bool:
-    return verb is Verb.PUT_ON or (verb is Verb.PUT_INTO and place.relation is Nearby.UPRIGHT)
+    """Whether an action may ask for a place: in a container beside what else is in there."""
+    told = place.landmarks or place.relation is Nearby.UPRIGHT
+    return verb is Verb.PUT_ON or (verb is Verb.PUT_INTO and bool(told))
 
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"

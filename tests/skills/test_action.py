@@ -71,7 +71,8 @@ def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "[PUT INTO, cup] (left of plate)",
+        "[PUT INTO, cup] (at left)",
+        "[PICK UP, cup] (left of plate)",
         "[PUT ON, desk] (left of)",
         "[PUT ON, desk] (between a)",
         "[PUT ON, desk] (at 3)",
@@ -100,6 +101,10 @@ def test_landmarks_must_exist() -> None:
         (
             "[PUT ON, desk] (not near cup)",
             Action(Verb.PUT_ON, "desk", where=(Whereabouts(Nearby.NEAR, ("cup",), denied=True),)),
+        ),
+        (
+            "[PUT INTO, bin] (next to cup)",
+            Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.NEXT_TO, ("cup",)),)),
         ),
         (
             "[PUT INTO, bin] (Upright)",

@@ -429,6 +429,18 @@ def test_put_beside_things(where: str) -> None:
     assert after.states["box"].on == ("desk",)
 
 
+@pytest.mark.parametrize("where", ["next to ball", "left of ball", "behind ball"])
+@pytest.mark.slow
+def test_put_beside_things_in_a_container(where: str) -> None:
+    crate = {"kind": "bowl", "at": [0.45, -0.15], "diameter": 0.24, "height": 0.06, "mass": 0.3}
+    small = {"diameter": 0.04, "mass": 0.03, "inside": "crate", "at": [0.47, -0.15]}
+    run = episode(0, box=BOX | {"at": [0.36, 0.2]}, crate=crate, ball=BALL | small)
+    action = parse_plan(f"[PUT INTO, crate] ({where})")[0]
+    after = run.must("[PICK UP, box]", str(action))
+    assert all(holds(item, "box", after) for item in action.where)
+    assert after.states["box"].inside == "crate"
+
+
 @pytest.mark.slow
 def test_a_deep_cup_is_carried_with_what_is_in_it() -> None:
     ball = BALL | {"inside": "cup", "diameter": 0.06, "at": None}

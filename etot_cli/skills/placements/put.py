@@ -42,7 +42,7 @@ def put_places(
         action.keepout,
         absent=belief.riders(name),
         strict=on and action.safe,
-        preference=_preference(belief, action, name) if on else None,
+        preference=_preference(belief, action, name),
         at=tuple(
             where.point for where in action.where if where.point is not None and not where.denied
         ),

@@ -1,4 +1,4 @@
-"""Which spots of a surface an action asks for ("left of the plate"), as a test on points."""
+"""Which spots an action asks for ("left of the plate"), as a test on points."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -
     Args:
         world: the world.
         data: current poses.
-        action: a PUT ON.
+        action: a PUT ON or PUT INTO.
         name: the object in the hand.
 
     Returns:

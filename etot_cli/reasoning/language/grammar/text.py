@@ -157,6 +157,7 @@ def normalized(text: str) -> str:
         r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it", text
     )
     text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
+    text = re.sub(r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", "", text)
     text = re.sub(rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 ", text)
     text = re.sub(r"\bback down (?=(?:on|onto)\b)", "down ", text)
     text = re.sub(rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1", text)

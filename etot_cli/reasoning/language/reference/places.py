@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
-from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -97,6 +98,10 @@ class Places:
             if destination.toward is Toward.HERE:
                 there = self._where_they_are(destination.word, themes) if stays else ()
                 found = list(there or self._here(destination.word, themes))
+            elif destination.toward is Toward.BESIDE and (
+                around := self._around(destination.beside, themes)
+            ):
+                found = [around]
             elif destination.toward is Toward.BESIDE:
                 surface = self._surroundings.surface(destination.beside, themes)
                 if surface is None and not any(b.relation.landmarks for b in destination.beside):
@@ -275,6 +280,8 @@ class Places:
         slides = JOINT_NOUNS["slide"][:1]  # "to the drawer in the middle" is into it
         drawer = any(matches_any(np.words[-1], slides) for np in destination.targets if np.words)
         if not surfaces or (drawer and len(surfaces) < len(places)):
+            if within := self._within(places, destination.beside, themes):
+                return within
             raise ReferenceProblem(text, "there is no left or right inside a container", 2)
         # "On the plate on the left" is the left one of several, not the left part of any, and "on
         # the plate next to the cup" the one of several that is there.
@@ -294,6 +301,36 @@ class Places:
             raise ReferenceProblem(text, "say which one of them", 2)
         near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
         return [replace(place, beside=near) for place in surfaces]
+
+    def _around(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place | None:
+        """Beside what lies in a container is in there; None where it does not."""
+        around = self._surroundings.container(beside)
+        if around is None or any(item.relation is not Nearby.NEXT_TO for item in beside):
+            return None
+        near = self._surroundings.near(beside, themes, {around.name})
+        inside = Resolved(((around,),), definite=True, noun=around.part or around.name)
+        index = self.discourse.add(inside, around.address, Role.CONTAINER)
+        self.discourse.notes.append(f"{beside[0].text!r}: in {around.address}, where that is")
+        return Place(Relation.INSIDE, index, near)
+
+    def _within(
+        self, places: Sequence[Place], beside: Sequence[Beside], themes: Sequence[int]
+    ) -> list[Place]:
+        """Places in a container beside what lies in it; none where that lies elsewhere."""
+        around = self._surroundings.container(beside)
+        if around is None or any(item.relation.landmarks == 0 for item in beside):
+            return []
+        near = self._surroundings.near(beside, themes, {around.name})
+        found = []
+        for place in places:
+            options = () if place.where is None else self.discourse.referents[place.where].options
+            held = tuple(o for o in options if len(o) == 1 and o[0].name == around.name)
+            held = tuple(o for o in held if around.part in (None, o[0].part) or not o[0].part)
+            if place.where is not None and held and place.relation is Relation.INSIDE:
+                referent = self.discourse.referents[place.where]
+                self.discourse.referents[place.where] = replace(referent, options=held)
+                found.append(replace(place, beside=near))
+        return found
 
     def _where_they_are(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
         """In the one thing spoken of that holds them ("keep the bowl in there")."""

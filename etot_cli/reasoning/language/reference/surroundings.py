@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.words.lexicon import singular, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ACROSS
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, SceneState, owner_of
 
 _OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
 _OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
@@ -79,6 +79,25 @@ class Surroundings:
             ):
                 raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
         return near
+
+    def container(self, beside: Sequence[Beside]) -> Thing | None:
+        """The one thing that has held all that something is to be beside from the start; None where
+        there is no such thing.
+        """
+        moved = set(self._discourse.things(*self._discourse.put))
+        around: set[str | None] = set()
+        for phrase in (np for item in beside for np in item.phrases):
+            if phrase.pronoun or not phrase.words:
+                return None
+            with suppress(ReferenceProblem):
+                for thing in things_in(self._phrases.meaning(phrase, Role.ANY).options):
+                    state = self._scene.states.get(thing.name)
+                    around.add(None if state is None or thing in moved else state.inside)
+        (only, *more) = around or {None}
+        if only is None or more:
+            return None
+        owner, _, part = only.partition(".")
+        return Thing(owner, part or None)
 
     def _of_themes(self, beside: Beside, themes: Sequence[int], below: Set[str]) -> Beside:
         """Next to the red one, on the red tray: the tray is the place, and not what is meant."""
@@ -211,7 +230,8 @@ class Surroundings:
                 raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
             moved = discourse.things(*discourse.put)
             kept = (self._scene.states[thing.name] for thing in things if thing not in moved)
-            if any(state.inside is not None for state in kept):
+            around = (owner_of(state.inside) for state in kept if state.inside is not None)
+            if not below.issuperset(around):
                 raise ReferenceProblem(phrase.text, "it lies in a container", 2)
             if all(len(option) == 1 for option in referent.options):
                 found.append(index)
