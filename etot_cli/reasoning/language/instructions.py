@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular, word_set
+from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
@@ -106,7 +107,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    if said is None or not words or _DEPENDING & {*words} or ":" in said[2]:
+    counted = {*spellings(STACK)} & {*words}  # "a stack of three: …"
+    if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)

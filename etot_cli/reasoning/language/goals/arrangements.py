@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
 from etot_cli.reasoning.language.reference.space import carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
-from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
+from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color, head_of
 
 AS_WIDE_M = 0.001
 """Widths that differ by no more are the same: sizes from noisy captures are off by 0.9 % in the
@@ -81,6 +81,7 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
     discourse, infos = context.discourse, context.scene.infos
     for index in themes:
         _no_vessel(context, index)
+    _alike_in_kind(context, themes)
     said = [discourse.referents[index] for index in themes]
     first = next((referent for referent in said if len(referent.options) > 1), None)
     if first is None:
@@ -91,6 +92,11 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
     pool = things_in(first.options)
     widths = {max(infos[thing.name].size[:2]) for thing in pool}
     alike = max(widths) - min(widths) <= AS_WIDE_M
+    ends = [np for np in (clause.bottom, clause.middle, clause.top) if np]
+    if len(ends) == count and len(themes) == 1:
+        # "Stack three blocks, the red one at the bottom, the blue one in the middle, …"
+        layers = [_end(context, np, pool) for np in ends]
+        return [context.single(thing, thing.name) for thing in layers]
     singly = all(len(option) == 1 for referent in said for option in referent.options)
     if clause.upward is not None and alike and singly:
         return [*themes][:: 1 if clause.upward else -1]  # "one red block, then the other"
@@ -104,6 +110,31 @@ def _any_of(context: Context, themes: Sequence[int], clause: TowerClause) -> lis
         discourse.referents[one] = referent
         found.append(one)
     return found
+
+
+def _alike_in_kind(context: Context, themes: Sequence[int]) -> None:
+    """Of what "red" may mean beside "blue" and "green" a layer is what is called as the others are,
+    where all can be called alike in one way only.
+    """
+    discourse, infos = context.discourse, context.scene.infos
+    said = [discourse.referents[index] for index in themes]
+    if len(said) < 2 or all(len(referent.options) == 1 for referent in said):
+        return
+    kinds = [
+        {
+            head_of(infos[option[0].name].label.replace(" ", "_")): option
+            for option in referent.options
+            if len(option) == 1 and option[0].name in infos
+        }
+        for referent in said
+    ]
+    shared = set.intersection(*(set(kind) for kind in kinds))
+    if len(shared) != 1 or not all(basic_color(referent.text) for referent in said):
+        return
+    (noun,) = shared
+    for index, referent, kind in zip(themes, said, kinds, strict=True):
+        discourse.referents[index] = replace(referent, options=(kind[noun],))
+    discourse.notes.append(f"took each for a {noun}")
 
 
 def _no_vessel(context: Context, index: int) -> None:

@@ -116,7 +116,7 @@ def add_put(
             raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
         # "The box on the tray, not the pear": that is no tray, and must not be in the box.
         for index in (theme, *(place.where for place in places if place.where is not None)):
-            _check_left(context, referent.text, discourse.left_out.get(index, ()), options)
+            _take_off(context, referent.text, discourse.left_out.get(index, ()), options)
         discourse.referents[theme] = replace(referent, options=options)
         where = places[0].where if len(places) == 1 else None
         if where is not None and places[0].relation is Relation.INSIDE:
@@ -127,19 +127,23 @@ def add_put(
     context.steps.append(Put(tuple(themes), places, grouping, removal=removal))
 
 
-def _check_left(
+SET_ASIDE = "is set on the desk before"
+
+
+def _take_off(
     context: Context,
     text: str,
     out: Sequence[Thing],
     options: Sequence[Sequence[Thing]],
 ) -> None:
-    """Whether what is left out would come along in or on what is moved."""
+    """What is left out, but would come along in or on what is moved, is set on the desk before."""
     names = {thing.name for thing in things_in(options)}
     gone = set(context.discourse.things(*context.discourse.put))
     for thing in (item for item in out if item.name in context.scene.states and item not in gone):
-        for below in sorted(names & carriers(context.scene, thing.name)):
-            why = f"{below} would take {thing.name} along; say first where that is to go"
-            raise ReferenceProblem(text, why, 4)
+        if names & carriers(context.scene, thing.name):
+            context.discourse.notes.append(f"{text!r}: {thing.name} {SET_ASIDE}")
+            place = Place(Relation.ON, context.places.on_the_desk().where)
+            context.steps.append(Put((context.single(thing, thing.name),), (place,), removal=True))
 
 
 def side_by_side(group: PutGroup) -> tuple[PutGroup, bool]:

@@ -9,6 +9,7 @@ from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Goal, Pick, Put, Relation
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import SET_ASIDE
 from etot_cli.reasoning.language.goals.turns import Timed
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.reference.landmarks import ROUGHLY
@@ -26,8 +27,8 @@ MAX_BRANCHES = 16
 def guesses(context: Context, said: Sequence[Timed]) -> int:
     """How much speaks against a reading: words that are taken for something near them, since what
     is said is said of what it is true of ("everything on the desk that is red"), what is moved from
-    but roughly where a phrase says, and what has no room where it is to go ("clear the board into
-    the bowl").
+    but roughly where a phrase says, what has no room where it is to go ("clear the board into the
+    bowl"), and what is left out and has to be moved for all that.
     """
     things = context.discourse.things
     inside = [
@@ -50,7 +51,8 @@ def guesses(context: Context, said: Sequence[Timed]) -> int:
     }
     rough = [note.removesuffix(ROUGHLY).split(": ")[-1] for note in notes if note.endswith(ROUGHLY)]
     roughly = sum(bool(moved & {*names.split()}) for names in rough)
-    return cramped + roughly + sum(note.startswith(TAKEN_FOR) for note in notes)
+    said_so = sum(note.startswith(TAKEN_FOR) or note.endswith(SET_ASIDE) for note in notes)
+    return cramped + roughly + said_so
 
 
 def taken_up_again(said: Sequence[Timed]) -> bool:

@@ -105,18 +105,14 @@ def _announced(
     return tuple(np.called(*nouns) if nouns and np.is_elliptic else np for np in nps)
 
 
-def _of_its_ends(tower: Any, base: Any, ends: Any) -> tuple[TowerClause, ...]:
-    """A tower of what is named, and one of all that are called so, where that is not all."""
+def _of_its_ends(tower: Any, base: Any, ends: Any) -> TowerClause | None:
+    """A tower of what is named at its ends and in the middle."""
     named = _announced(tower, tuple(np for np, _ in ends))
     if named is None or len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
-        return ()
-    nouns = [np.words[-1] for np in named if len(np.words) > 1 and not tower[0]]
+        return None
     nps = _with_nouns(named)
     full = [(np, end) for np, (_, end) in zip(nps, ends, strict=True)]
-    every = NounPhrase("all", (f"{nouns[0]}s",), text=f"all {nouns[0]}s") if nouns else None
-    wholes = [Things(nps), *([Things((every,))] if every else [])]
-    found = (_tower(things, None, full, base) for things in wholes)
-    return tuple(tower for tower in found if tower is not None)
+    return _tower(Things(nps), None, full, base)
 
 
 def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
@@ -155,25 +151,22 @@ _LAYER = sequence(
     optional(either(_END, phrase(manner.UPON_THAT, "upon")), ""),
     build=lambda np, end: (np, end),
 )
+_MORE_LAYERS = some(
+    sequence(
+        either(
+            sequence(OPTIONAL_COMMA, phrase(f"{small_words.THEN_JOINTS}, followed by")),
+            sequence(LIST, build=lambda: ""),
+        ),
+        _LAYER,
+        build=lambda then, layer: (then, layer),
+    ),
+    least=1,
+    most=5,
+)
 _IN_A_ROW = separated(noun_phrase, LIST, most=6)
 _LAYERS = valued(
     either(
-        sequence(
-            _LAYER,
-            some(
-                sequence(
-                    either(
-                        sequence(OPTIONAL_COMMA, phrase(f"{small_words.THEN_JOINTS}, followed by")),
-                        sequence(LIST, build=lambda: ""),
-                    ),
-                    _LAYER,
-                    build=lambda then, layer: (then, layer),
-                ),
-                least=1,
-                most=5,
-            ),
-            build=_rising,
-        ),
+        sequence(_LAYER, _MORE_LAYERS, build=_rising),
         sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
         sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
     ),
@@ -207,7 +200,7 @@ _TOWER = either(
         either(
             sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
             sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
-            sequence(verbs.WANT, THINGS, "stacked [up]", optional(manner.UPON_EACH_OTHER)),
+            sequence(verbs.WANT, THINGS, "(stacked|piled) [up]", optional(manner.UPON_EACH_OTHER)),
         ),
         optional(_UPWARD, None),
         optional(DESTINATIONS, ()),
@@ -234,16 +227,7 @@ _TOWER = either(
             else _tower(things, before if after is None else after, ends, base)
         ),
     ),
-    variants(
-        sequence(
-            _A_TOWER,
-            optional(DESTINATIONS, ()),
-            _SO,
-            _ENDS,
-            build=lambda *found: found,
-        ),
-        lambda found: _of_its_ends(*found),
-    ),
+    sequence(_A_TOWER, optional(DESTINATIONS, ()), _SO, _ENDS, build=_of_its_ends),
     variants(
         sequence(_A_TOWER, optional(DESTINATIONS, ()), optional(_SO), _LAYERS),
         lambda found: [
@@ -259,6 +243,40 @@ _TOWER = either(
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),
 )
+
+
+_TOP_AND_BOTTOM = {"bottom", "top"}
+
+
+def _only_ends(ends: Any) -> TowerClause | None:
+    """A tower of what is said to be at the bottom, on top and perhaps in the middle."""
+    whole = _TOP_AND_BOTTOM <= {end for _, end in ends}
+    return _of_its_ends((0, ()), (), ends) if whole else None
+
+
+def _only_layers(first: Any, more: Any) -> TowerClause | None:
+    """A tower without a verb: one of its layers is said to be at the bottom and one on top."""
+    ends = {first[1], *(end for _, (_, end) in more)}
+    nps = _rising(first, more)
+    layers = None if nps is None or not ends >= _TOP_AND_BOTTOM else Things(_with_nouns(nps))
+    return None if layers is None else TowerClause(layers, upward=True)
+
+
+STACKED = either(
+    sequence(_ENDS, build=_only_ends),
+    sequence(_LAYER, _MORE_LAYERS, build=_only_layers),
+    sequence(
+        THINGS,
+        either(
+            f"(stacked|piled) [up] [{manner.UPON_EACH_OTHER}]",
+            f"in a (tower|stack|pile), {manner.UPON_EACH_OTHER}",
+        ),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
+    ),
+)
+"""The same without a verb ("three blocks stacked, the red one on top")."""
 
 
 def _based(base: tuple[Destination, ...], tower: TowerClause) -> TowerClause | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from etot_cli.reasoning.language.grammar.arrangements import STACKED
 from etot_cli.reasoning.language.grammar.clauses import (
     INSTEAD,
     LEFT_OUT,
@@ -109,6 +110,7 @@ PLACED = Rule(
         sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
         sequence(ALL_THINGS, build=taken_out),
         sequence(ALL_THINGS, "out, off", build=RemoveClause),
+        STACKED,
     )
 )
 """Where things go, or are taken from."""

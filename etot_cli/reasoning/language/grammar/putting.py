@@ -139,8 +139,8 @@ def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) ->
         # "With the other pens"; in "the rag in the jar with the other brush" they rather tell which
         told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
         return replace(put_to(things, (where,)), far_fetched=2 * told)
-    told = (m.prep for np in things.phrases for m in np.modifiers)
-    described = any(np.modifiers for np in others) or any(prep is not Prep.FROM for prep in told)
+    out_of = (m.prep is Prep.FROM for np in things.phrases for m in np.modifiers)
+    described = any(np.modifiers for np in others) or not all(out_of)
     inside = said == "in with"
     known = (*THE_WORDS, *([""] if inside else ()))  # "in with teddy", "in with it"
     named = not described and all(

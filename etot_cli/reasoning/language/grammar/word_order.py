@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
     is_descriptive,
     singular,
 )
@@ -110,7 +111,8 @@ def _named_behind(
     """Several things that are announced together; "the green one" is one of these."""
     noun = singular(whole.head)
     every = noun == whole.head and whole.words == ("everything",)
-    if not nps[1:] or not (every or whole.determiner in _ALL_THESE):
+    counted = NUMBERS.get(whole.determiner) == len(nps)
+    if not nps[1:] or not (every or counted or whole.determiner in _ALL_THESE):
         return None
     if noun == whole.head and not every:
         return None
@@ -124,6 +126,7 @@ NAMED_BEHIND = quiet(
         either(
             sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
             sequence(noun_phrase, verbs.MODAL),
+            sequence(verbs.WANTED, noun_phrase),
         ),
         DESTINATIONS,
         COMMA,

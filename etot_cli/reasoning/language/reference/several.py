@@ -97,6 +97,9 @@ class Phrases(Referents):
             if len(own) == 1:
                 self.discourse.referents[index] = replace(referent, options=own)
         named = {*self.discourse.things(*indices)}
+        count = quantity_of(things.whole.determiner).count
+        if named < {*every} and count == len(named):
+            return  # "two pieces of fruit: the apple and the pear"
         if named != {*every}:
             rest = ", ".join(thing.name for thing in every if thing not in named)
             why = f"{rest} would be meant as well" if rest else "not all that is named is called so"

@@ -231,7 +231,7 @@ class Surroundings:
             moved = discourse.things(*discourse.put)
             kept = (self._scene.states[thing.name] for thing in things if thing not in moved)
             around = (owner_of(state.inside) for state in kept if state.inside is not None)
-            if not below.issuperset(around):
+            if not below >= {*around}:
                 raise ReferenceProblem(phrase.text, "it lies in a container", 2)
             if all(len(option) == 1 for option in referent.options):
                 found.append(index)
