@@ -35,6 +35,8 @@ def check_taken(
     reached = {*context.discourse.things(*where)}
     for phrase in group.things.phrases:
         for prep, np in ((item.prep, np) for item in phrase.modifiers for np in item.phrases):
+            if np.pronoun:
+                continue  # by now "it" is where the things go
             told: set[Thing] = set()
             with suppress(ReferenceProblem):
                 told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}

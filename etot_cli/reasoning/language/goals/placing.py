@@ -127,6 +127,8 @@ def add_put(
     context.steps.append(Put(tuple(themes), places, grouping, removal=removal))
 
 
+_ROOM_THERE = frozenset({"on", "in"})
+"""Behind what room is made: where; "room for the cup" is made elsewhere."""
 SET_ASIDE = "is set on the desk before"
 
 
@@ -249,6 +251,10 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             context.discourse.is_about(named)
         if clause.remark:
             context.discourse.remarked |= {*named}
+            said = clause.remark.split()
+            made = said[0].startswith("mak") and {*said[:5]} & _ROOM_THERE
+            if len(named) == 1 and made:
+                (context.discourse.roomy,) = named
             if clause.remark != ASIDE:  # that is told anyway
                 context.discourse.notes.append(f"not checked: {clause.remark}")
         return

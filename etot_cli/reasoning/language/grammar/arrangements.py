@@ -250,7 +250,7 @@ _TOP_AND_BOTTOM = {"bottom", "top"}
 
 def _only_ends(ends: Any) -> TowerClause | None:
     """A tower of what is said to be at the bottom, on top and perhaps in the middle."""
-    whole = _TOP_AND_BOTTOM <= {end for _, end in ends}
+    whole = {end for _, end in ends} >= _TOP_AND_BOTTOM
     return _of_its_ends((0, ()), (), ends) if whole else None
 
 

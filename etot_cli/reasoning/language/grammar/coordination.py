@@ -75,6 +75,10 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     several = not first.determiner and singular(first.head) != first.head  # "pens, all of them"
     if said and not more and (several or first.determiner in THE_WORDS):
         return (replace(first, determiner=_QUANTITIES.get(said, said)),)
+    (*_, number) = first.determiner.split() or [""]
+    counted = said == "all" and NUMBERS.get(number, 1) > 1
+    if not more and (counted or (said, number) == ("both", "two")):  # "the two cups should both"
+        return (replace(first, determiner=f"{said} the {number}"),)
     if said in ("both", "all") and not more and first.pronoun in ("they", "them"):
         return (replace(first, determiner=said),)
     if said == "all" and not more and first.pronoun == "it":  # "take the fruit, put it all …"

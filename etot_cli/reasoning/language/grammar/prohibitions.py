@@ -127,8 +127,11 @@ UNTOUCHED = either(
     sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
 )
 """The same without a verb ("bolts untouched")."""
+_FINE = (
+    "(is|are) [just] (fine|good|ok|okay|alright) (there|as (it is|they are)|where (it is|they are))"
+)
 KEEP_STILL = either(
-    sequence(THINGS, _STAYS, build=partial(AvoidClause, Avoid.MOVE)),
+    sequence(THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)),
     OTHERS_STILL,
     sequence(
         # After "the cups" rather one of them that is left out.

@@ -149,6 +149,13 @@ def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) ->
     return put_to(things, (where,)) if named else None
 
 
+def _to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> PutClause | None:
+    """In or on what other things are in or on ("add the spoon to the forks in the drawer")."""
+    told = all(any(m.prep in (Prep.IN, Prep.ON) for m in np.modifiers) for np in others)
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
+    return replace(put_to(things, (where,)), far_fetched=2) if told else None
+
+
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
@@ -249,6 +256,14 @@ PUT = either(
             ),
             NP_LIST,
             build=_beside_others,
+        )
+    ),
+    quiet(
+        sequence(
+            either(sequence("add[ing]", ALL_THINGS), sequence(ALL_THINGS, "go[es], belong[s]")),
+            phrase("to"),
+            NP_LIST,
+            build=_to_others,
         )
     ),
     sequence(

@@ -55,7 +55,7 @@ from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
-from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import ENSURE, STATE
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
@@ -116,15 +116,19 @@ UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 
 def _swapped(things: Things, rest: Reading) -> Reading | None:
     """Two things that swap places, as it is said again ("swap them, the cup on the tray, …")."""
-    match rest:
-        case (Spoken(clause=PutClause() as clause) as said,):
-            return (replace(said, clause=SwapClause(things, placed=clause)),)
-        case (Spoken(clause=EnsureClause(states=said_so)) as said,):
-            groups = tuple(PutGroup(Things(so.subjects), so.destinations) for so in said_so)
-            known = all(so.destinations and not (so.denied or so.kept) for so in said_so)
-            swap = SwapClause(things, placed=PutClause(groups))
-            return (replace(said, clause=swap),) if known else None
-    return None
+    groups: list[PutGroup] = []
+    for said in rest:
+        match said.clause:
+            case PutClause(groups=placed):
+                groups += placed
+            case EnsureClause(states=states):
+                if not all(so.destinations and not (so.denied or so.kept) for so in states):
+                    return None
+                groups += (PutGroup(Things(so.subjects), so.destinations) for so in states)
+            case _:
+                return None
+    swap = SwapClause(things, placed=PutClause(tuple(groups)))
+    return (replace(rest[0], clause=swap),)
 
 
 IN_THE_END = either(
@@ -214,8 +218,12 @@ _WITH_MORE_BEFORE_IT = either(
         verbs.SWAP,
         THINGS,
         silent(optional("around, over")),
-        COMMA,
-        either(PLACED, plain(either(PUT, ENSURE))),
+        either(COMMA, sequence(OPTIONAL_COMMA, small_words.SO_THAT)),
+        sequence(
+            either(IN_THE_END, plain(either(PUT, ENSURE))),
+            some(joint("and", LIST, IN_THE_END), most=2),
+            build=chained,
+        ),
         build=_swapped,
     ),
     sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),

@@ -156,6 +156,11 @@ def normalized(text: str) -> str:
     text = re.sub(
         r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it", text
     )
+    text = re.sub(
+        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {_WHERE}|[,.;!?]|$)",
+        r"\1 in it",
+        text,
+    )
     text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
     text = re.sub(r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", "", text)
     text = re.sub(rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 ", text)

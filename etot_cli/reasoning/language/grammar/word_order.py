@@ -114,7 +114,7 @@ def _named_behind(
     counted = NUMBERS.get(whole.determiner) == len(nps)
     if not nps[1:] or not (every or counted or whole.determiner in _ALL_THESE):
         return None
-    if noun == whole.head and not every:
+    if noun == whole.head and not (every or counted):
         return None
     named = (np.called(noun) if np.is_elliptic else np for np in nps)
     return put_to(Things(tuple(named), whole=whole), where)

@@ -57,6 +57,8 @@ class Discourse:
     """Referents that the clause that is being read puts something else in the place of."""
     cleared: frozenset[Thing] = frozenset()
     """What the clause before took out of what it empties."""
+    roomy: int | None = None
+    """The referent of what room is made on or in, which "there" means then."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
     remarked: frozenset[int] = frozenset()

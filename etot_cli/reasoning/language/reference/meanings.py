@@ -74,7 +74,8 @@ class Meanings:
         noun, moved = self.discourse.last_noun(role), self.discourse.last_noun(Role.THEME)
         plain = usual_form(phrase)
         bare = plain.head in ("", "one", "ones") and not plain.pronoun
-        if bare and quantity_of(plain.determiner).other and role is not Role.ANY:
+        several = (quantity_of(plain.determiner).count or 1) > 1  # "with the other two"
+        if bare and quantity_of(plain.determiner).other and (several or role is not Role.ANY):
             # After "crate A" "the other one" is another crate; "take it from the basket and put it
             # on the others" speaks of those of its kind.
             for other in filter(None, dict.fromkeys((noun, head_of(noun or ""), moved))):

@@ -304,7 +304,7 @@ class Resolver:
         self, pronoun: Pronoun, phrase: NounPhrase, noun: str | None = None
     ) -> list[Thing]:
         """What a phrase inside a modifier may mean."""
-        if phrase.pronoun or (quantity_of(phrase.determiner).other and phrase.words):
+        if phrase.pronoun or quantity_of(phrase.determiner).other:
             ways = pronoun(phrase)
             if len(ways) != 1:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)

@@ -349,6 +349,8 @@ class Places:
         discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
+        if word == "there" and discourse.roomy is not None:
+            return tuple(in_or_on(discourse, Toward.TO, discourse.roomy, themes))
         if word in ("there", "the same place") and discourse.last_places:
             return discourse.last_places
         if word == "the same place":

@@ -9,7 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Beside, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax import Beside, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS
@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot
 from etot_cli.reasoning.language.words.lexicon import singular, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.places import ACROSS
+from etot_cli.reasoning.language.words.places import ACROSS, Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState, owner_of
 
@@ -218,7 +218,7 @@ class Surroundings:
         indices = (
             (self._beside_it(phrase, themes, relation, below),)
             if single and not phrase.determiner
-            else self._phrases.refer(phrase, Role.ANY, themes)
+            else self._phrases.refer(self._told_there(phrase, below), Role.ANY, themes)
         )
         for index in indices:
             discourse.last_landmark = (discourse.clause, index, relation)
@@ -240,6 +240,23 @@ class Surroundings:
                     alone = Resolved(((thing,),), noun=thing.name)
                     found.append(self._discourse.add(alone, phrase.text, Role.ANY))
         return found
+
+    def _told_there(self, phrase: NounPhrase, below: Set[str]) -> NounPhrase:
+        """On a tray, "between the two cups" is between those on it, and "next to the cup" next to
+        the one on it, where there are others.
+        """
+        if phrase.pronoun or phrase.modifiers or not below - {DESK} or len(below) > 1:
+            return phrase
+        there = [Modifier(prep, (NounPhrase(words=tuple(below)),)) for prep in (Prep.ON, Prep.IN)]
+        ways: list[set[tuple[Thing, ...]]] = []
+        for told in (phrase, *map(phrase.told_by, there)):
+            ways.append(set())
+            with suppress(ReferenceProblem):
+                ways[-1] = {*self._phrases.meaning(told, Role.ANY).options}
+        plain, *within = ways
+        known = len(plain) == 1 and len({t for o in plain for t in o}) == 1
+        fitting = [at for at, way in zip(there, within, strict=True) if len(way) == 1]
+        return phrase if known or not fitting else phrase.told_by(fitting[0])
 
     def _beside_it(
         self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby, below: Set[str]

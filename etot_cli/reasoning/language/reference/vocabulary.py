@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.entries import (
     EXACT,
     HEAD,
+    PORTIONS,
     Entry,
     board_entries,
     cut_of,
@@ -209,6 +210,10 @@ class Vocabulary:
         for category, said in CALLED.items():
             if self.of_category(category):
                 text = re.sub(rf"\b{said}(?=s?\b)", category, text)
+        for portion in PORTIONS:
+            # "Both rolls of tape" where they are but called tape
+            if re.search(rf"\b{portion}s? of\b", text) and not self.is_known(portion):
+                text = re.sub(rf"\b{portion}(s?) of ([a-z]+)\b", self._portioned, text)
         called = {words for entry in self.objects for words in entry.called if is_odd(words)}
         odd = sorted(called, key=lambda words: (-len(words), words))
         for words in odd:
@@ -218,6 +223,12 @@ class Vocabulary:
             pattern = r"(?<!\w)" + r"[ ,]*\s".join(spelled) + r"(?!\w)"
             text = re.sub(pattern, lambda found: re.sub(r"[ ,]+", "_", found[0]), text)
         return _lettered(text, [words for words in odd if re.fullmatch(r"\D", words[-1])])
+
+    def _portioned(self, said: re.Match[str]) -> str:
+        """The noun of "roll of tape", in the number of the roll."""
+        several, noun = said.groups()
+        plural = f"{noun}s" if several and singular(noun) == noun else noun
+        return plural if self.is_known(singular(noun)) else said[0]
 
     def is_known(self, word: str) -> bool:
         """Whether some object of the scene is called so, at least in part."""

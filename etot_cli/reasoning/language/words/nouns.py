@@ -92,7 +92,7 @@ STACK = "stack, tower, pile"
 """Several things that lie upon each other."""
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
-    (that|which) (contains|holds|has|contain|hold|have)
+    (that|which) [already|still|now] (contains|holds|has|contain|hold|have) [already]
 """
 
 

@@ -112,7 +112,7 @@ REMARKS = """
     (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
     (is|are|stands|lies) in (my|the) way,
-    (is|are) (fine|good|ok|okay|alright) [there|where (it is|they are)],
+    (is|are) (fine|good|ok|okay|alright),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned),
