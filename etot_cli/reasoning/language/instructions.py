@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular, word_set
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.protocol import ReasonerStopped
@@ -107,7 +107,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    counted = {*spellings(STACK)} & {*words}  # "a stack of three: …"
+    counted = {*spellings(STACK)} & {*words} and {*NUMBERS} & {*words}  # "a stack of three: …"
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})

@@ -233,7 +233,13 @@ _WITH_MORE_BEFORE_IT = either(
         either(sequence(COMMA, PLACED), sequence("and, and then, ~comma and", CHAIN)),
         build=shared_out,
     ),
-    sequence(verbs.TIDY_AWAY, NAMED, "[away|up] (~comma|and)", CHAIN, build=all_put),
+    sequence(
+        f"{verbs.TIDY_AWAY}, put[ting] away, stow[ing] [away]",
+        NAMED,
+        "[away|up] (~comma|and)",
+        CHAIN,
+        build=all_put,
+    ),
     sequence(
         f"{small_words.TASK}, {small_words.END_STATE}",
         IN_THE_END,

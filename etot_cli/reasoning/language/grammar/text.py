@@ -182,6 +182,9 @@ def normalized(text: str) -> str:
         text,
     )
     text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 only ", text)
+    text = re.sub(
+        r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3", text
+    )
     text = _NOTHING_ELSE.sub(r"\1 \2, and nothing else", text)
     text = re.sub(r",\s*(?:please\s*,|right (?=at\b))", ", ", text)
     text = re.sub(rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1", text)

@@ -132,7 +132,7 @@ _ALREADY = sequence(
 AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
 """How things are by now, before what is asked for in that case."""
 SAID = either(
-    sequence(_STATED, build=partial(ReorientClause, only_named=True)),
+    sequence(either(_STATED, _ALREADY), build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, _remark),
     sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
@@ -239,8 +239,12 @@ def shared_out(topic: Reading, rest: Reading) -> Reading | None:
 
 def all_put(topic: Reading, rest: Reading) -> Reading | None:
     """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
-    put = rest[0].clause
-    told = isinstance(put, PutClause) and all(
-        np.pronoun == "them" for group in put.groups for np in group.things.phrases
-    )
-    return (*topic, *rest) if told else None
+    match rest[0].clause:
+        case PutClause(groups=groups):
+            named = [np for group in groups for np in group.things.phrases]
+        case EnsureClause(states=states):
+            named = [np for state in states for np in state.subjects]
+        case _:
+            return None
+    spoken = all(np.pronoun in ("them", "they") or np.text.endswith(" of them") for np in named)
+    return (*topic, *rest) if spoken else None

@@ -81,23 +81,29 @@ class Surroundings:
         return near
 
     def container(self, beside: Sequence[Beside]) -> Thing | None:
-        """The one thing that has held all that something is to be beside from the start; None where
-        there is no such thing.
+        """The one thing that holds all that something is to be beside by then; None where there is
+        no such thing.
         """
-        moved = set(self._discourse.things(*self._discourse.put))
-        around: set[str | None] = set()
+        around: set[Thing | None] = set()
         for phrase in (np for item in beside for np in item.phrases):
             if phrase.pronoun or not phrase.words:
                 return None
             with suppress(ReferenceProblem):
-                for thing in things_in(self._phrases.meaning(phrase, Role.ANY).options):
-                    state = self._scene.states.get(thing.name)
-                    around.add(None if state is None or thing in moved else state.inside)
+                options = self._phrases.meaning(phrase, Role.ANY).options
+                around |= {self._holder(thing) for thing in things_in(options)}
         (only, *more) = around or {None}
-        if only is None or more:
-            return None
-        owner, _, part = only.partition(".")
-        return Thing(owner, part or None)
+        return None if more else only
+
+    def _holder(self, thing: Thing) -> Thing | None:
+        """What a thing is in, or has been put into; None where it is in nothing."""
+        discourse = self._discourse
+        if thing in discourse.things(*discourse.put):
+            put = [at for at in discourse.put_into if thing in discourse.things(at)]
+            into = {t for at in put for t in discourse.things(discourse.put_into[at])}
+            return next(iter(into)) if len(into) == 1 else None
+        state = self._scene.states.get(thing.name)
+        owner, _, part = ("" if state is None else state.inside or "").partition(".")
+        return Thing(owner, part or None) if owner else None
 
     def _of_themes(self, beside: Beside, themes: Sequence[int], below: Set[str]) -> Beside:
         """Next to the red one, on the red tray: the tray is the place, and not what is meant."""

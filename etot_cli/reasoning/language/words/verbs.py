@@ -115,7 +115,8 @@ MODAL = f"""
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
-    [then|next|finally|afterwards] go[es] [back], belong[s], live[s]
+    [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
+    move[s] [up|down|over|back]
 """
 THERE_BE = f"there ({_MUST}) be"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
