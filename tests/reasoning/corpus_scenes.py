@@ -1242,3 +1242,99 @@ def tea_table() -> SceneState:
         item("vial_c", "cylinder", (0.48, -0.15), size=(0.03, 0.03, 0.08), label="vial C"),
         item("tray", "box", (0.55, -0.40), size=(0.26, 0.20, 0.02), color="black"),
     )  # fmt: skip
+
+def work_cell() -> SceneState:
+    """Bolts on a tray and in a bin, parts and tools by it."""
+    return scene(
+        item("red_bin", "bowl", (0.55, 0.32), size=(0.18, 0.18, 0.09), color="red"),
+        item("blue_bin", "bowl", (0.55, -0.32), size=(0.18, 0.18, 0.09), color="blue"),
+        item("tray", "box", (0.60, 0.00), size=(0.2, 0.28, 0.015), color="gray"),
+        item("bolt_1", "cylinder", (0.60, 0.08), size=(0.03, 0.03, 0.05), color="gray",
+             label="bolt", on="tray"),
+        item("bolt_2", "cylinder", (0.60, -0.08), size=(0.03, 0.03, 0.05), color="gray",
+             label="bolt", on="tray"),
+        item("bolt_3", "cylinder", (0.55, -0.32), size=(0.03, 0.03, 0.05), color="gray",
+             label="bolt", on="blue_bin", inside="blue_bin"),
+        item("gear", "cylinder", (0.38, 0.20), size=(0.07, 0.07, 0.03), color="yellow"),
+        item("bracket", "box", (0.38, -0.20), size=(0.06, 0.05, 0.04), color="black"),
+        item("screwdriver", "pen", (0.32, 0.00), size=(0.03, 0.16, 0.03), color="orange"),
+        cup("holder", (0.30, 0.40), size=(0.09, 0.09, 0.11), color="white"),
+        item("marker", "pen", (0.30, 0.40), size=(0.015, 0.015, 0.13), color="green",
+             on="holder", inside="holder"),
+    )  # fmt: skip
+
+def fruit_counter() -> SceneState:
+    """Fruit on a plate and in a bowl, a mug in a closed microwave."""
+    return scene(
+        cabinet("microwave", (0.66, 0.29), 0.0, color="gray"),
+        cup("yellow_mug", (0.66, 0.29), size=(0.09, 0.09, 0.09), color="yellow", on="microwave",
+             inside="microwave"),
+        item("plate", "box", (0.43, 0.03), size=(0.22, 0.22, 0.02), color="white"),
+        item("lemon", "sphere", (0.43, 0.09), size=(0.055, 0.055, 0.055), color="yellow",
+             on="plate"),
+        item("red_bowl", "bowl", (0.42, -0.18), size=(0.18, 0.18, 0.07), color="red"),
+        item("blue_bowl", "bowl", (0.42, -0.37), size=(0.18, 0.18, 0.07), color="blue"),
+        item("orange", "sphere", (0.42, -0.37), size=(0.07, 0.07, 0.07), color="orange",
+             on="blue_bowl", inside="blue_bowl"),
+        item("apple", "sphere", (0.27, -0.08), size=(0.07, 0.07, 0.07), color="red"),
+        item("banana", "capsule", (0.27, 0.10), size=(0.04, 0.15, 0.04), color="yellow"),
+        cup("red_mug", (0.61, 0.00), size=(0.09, 0.09, 0.09), color="red"),
+        cup("blue_mug", (0.61, -0.24), size=(0.09, 0.09, 0.09), color="blue"),
+    )  # fmt: skip
+
+def snack_bar() -> SceneState:
+    """An open fridge, a closed drawer, two bins, things of no known pack."""
+    return scene(
+        cabinet("fridge", (0.67, -0.32), 0.95, color="white"),
+        item("milk", "box", (0.67, -0.32), size=(0.07, 0.07, 0.16), color="white", on="fridge",
+             inside="fridge"),
+        drawers("drawer", (0.67, 0.33), {"top": 0.0}, color="brown"),
+        item("spoon", "box", (0.67, 0.33), size=(0.14, 0.03, 0.015), color="gray", on="drawer",
+             inside="drawer"),
+        item("trash_bin", "bowl", (0.63, 0.10), size=(0.16, 0.16, 0.14), color="gray"),
+        item("lemonade_can", "cylinder", (0.63, 0.10), size=(0.06, 0.06, 0.11), color="green",
+             on="trash_bin", inside="trash_bin"),
+        item("recycling_bin", "bowl", (0.63, -0.09), size=(0.16, 0.16, 0.14), color="blue"),
+        item("book", "box", (0.44, 0.02), size=(0.14, 0.2, 0.03), color="purple"),
+        item("remote", "box", (0.48, 0.02), size=(0.04, 0.12, 0.02), color="black", on="book"),
+        item("coke_can", "cylinder", (0.27, 0.24), size=(0.06, 0.06, 0.11), color="red"),
+        item("sponge", "box", (0.29, -0.11), size=(0.07, 0.1, 0.03), color="yellow"),
+    )  # fmt: skip
+
+def tower_table() -> SceneState:
+    """Blocks, one on another, cups of their colours, a car on a shelf."""
+    return scene(
+        item("shelf", "shelf", (0.66, 0.28), boards=("lower", "upper",), size=(0.22, 0.34, 0.4),
+             color="brown"),
+        item("toy_car", "box", (0.66, 0.28), size=(0.1, 0.05, 0.05), color="red", on="shelf.upper"),
+        item("red_block", "box", (0.30, 0.02), size=(0.045, 0.045, 0.045), color="red"),
+        item("yellow_block", "box", (0.30, 0.02), size=(0.045, 0.045, 0.045), color="yellow",
+             on="red_block"),
+        item("green_block", "box", (0.28, -0.15), size=(0.045, 0.045, 0.045), color="green"),
+        item("blue_block", "box", (0.46, -0.02), size=(0.045, 0.045, 0.045), color="blue"),
+        item("tray", "box", (0.39, 0.24), size=(0.24, 0.18, 0.02), color="black"),
+        item("basket", "bowl", (0.44, -0.34), size=(0.2, 0.2, 0.1), color="brown"),
+        item("ball", "sphere", (0.44, -0.34), size=(0.055, 0.055, 0.055), color="yellow",
+             on="basket", inside="basket"),
+        cup("green_cup", (0.61, -0.09), size=(0.08, 0.08, 0.09), color="green"),
+        cup("purple_cup", (0.62, -0.26), size=(0.1, 0.1, 0.1), color="purple"),
+    )  # fmt: skip
+
+def kids_room() -> SceneState:
+    """A pile of blocks, a toy box, an open drawer with a car in it."""
+    return scene(
+        item("toy_box", "bowl", (0.55, 0.30), size=(0.24, 0.24, 0.12), color="green"),
+        drawers("dresser", (0.62, -0.30), {"top": 0.9, "bottom": 0.0}, color="white"),
+        item("teddy", "box", (0.55, 0.30), size=(0.07, 0.06, 0.09), color="brown", on="toy_box",
+             inside="toy_box"),
+        item("red_block", "box", (0.60, 0.02), size=(0.05, 0.05, 0.05), color="red"),
+        item("blue_block", "box", (0.60, 0.02), size=(0.05, 0.05, 0.05), color="blue",
+             on="red_block"),
+        item("yellow_block", "box", (0.32, 0.27), size=(0.05, 0.05, 0.05), color="yellow"),
+        item("ball", "sphere", (0.29, -0.08), size=(0.07, 0.07, 0.07), color="orange"),
+        item("book", "box", (0.42, 0.06), size=(0.16, 0.2, 0.02), color="purple"),
+        item("red_car", "box", (0.42, 0.06), size=(0.1, 0.05, 0.04), color="red", on="book"),
+        item("blue_car", "box", (0.42, -0.30), size=(0.1, 0.05, 0.04), color="blue",
+             on="dresser", inside="dresser.top"),
+        item("crayon", "pen", (0.30, 0.15), size=(0.015, 0.1, 0.015), color="pink"),
+    )  # fmt: skip

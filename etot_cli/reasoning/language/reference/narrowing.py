@@ -185,6 +185,9 @@ def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) ->
 def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -> tuple[Thing, ...]:
     """After "the left cup on the tray" "the right one" is one of those on the tray, too: what the
     earlier phrase singles out one of, none where nothing is contrasted.
+
+    Raises:
+        AmbiguousReference: the earlier phrase tells a side of something else.
     """
     sides = (word for m in phrase.modifiers if m.prep is Prep.SIDE for word in m.words)
     own = [*phrase.words, *sides]
@@ -195,7 +198,11 @@ def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -
             any(word in table for word in own) and any(word in table for word in mention.adjectives)
             for table in _CONTRASTED
         )
-        return discourse.among.get(mention.referent, ()) if contrasted else ()
+        among = discourse.among.get(mention.referent, ()) if contrasted else ()
+        if len(among) == 1 and not {*own} & {*mention.adjectives}:
+            # "The cup on the left of the plate … the right one": on the right of that, or of all?
+            raise AmbiguousReference(phrase.text, ["one of all", "one beside the same"])
+        return among
     return ()
 
 

@@ -53,6 +53,7 @@ from etot_cli.reasoning.language.reference.usual_form import (
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.lexicon import (
     SAID_OF_BOARDS,
+    SIDES,
     matches_any,
     singular,
 )
@@ -69,6 +70,11 @@ _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 
 Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
 """All that a pronoun may mean, each the things of one referent."""
+
+
+def _sides_of(modifiers: Sequence[Modifier]) -> list[str]:
+    """Words for the sides of others that a thing is on ("the cup to the left of the plate")."""
+    return [m.prep.value for m in modifiers if m.prep.value in SIDES and m.phrases]
 
 
 class Resolver:
@@ -241,8 +247,8 @@ class Resolver:
         every = quantity.every or (asked.count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, asked.head, every, tuple(notes),
-            adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
-            among=among,
+            adjectives=(*words[:-1], *_sides_of(modifiers)), left_out=tuple(unmeant),
+            others=others, idle=idle, among=among,
         )  # fmt: skip
 
     def names_stack(self, phrase: NounPhrase) -> bool:
