@@ -48,6 +48,8 @@ class Discourse:
     """Referent → what its phrase is true of as well, though it fits another thing better."""
     among: dict[int, tuple[Thing, ...]] = field(default_factory=dict)
     """Referent → what its words for side and size single it out of."""
+    sides: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    """Referent → words for the sides of other things that its phrase says it is on."""
     undecided: frozenset[int] = frozenset()
     """Referents of "the …" where several things fit and nothing tells them apart."""
 
@@ -77,6 +79,7 @@ class Discourse:
             left_out=dict(self.left_out),
             fitting=dict(self.fitting),
             among=dict(self.among),
+            sides=dict(self.sides),
         )
 
     def each(self, referent: int) -> tuple[int, ...]:
@@ -125,7 +128,7 @@ class Discourse:
             self.undecided |= {index}
         self.referents.append(Referent(resolved.options, text, distinct))
         self.left_out[index], self.fitting[index] = resolved.left_out, resolved.others
-        self.among[index] = resolved.among
+        self.among[index], self.sides[index] = resolved.among, resolved.sides
         self.mentions.append(mention)
         return index
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
@@ -172,10 +172,7 @@ def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) ->
         if not same_noun(mention.noun, noun):
             continue
         before = mention.adjectives
-        contrasted = not own or any(
-            any(word in table for word in own) and any(word in table for word in before)
-            for table in _CONTRASTED
-        )
+        contrasted = not own or _are_contrasted(own, before)
         kept = [w for w in before if w not in own and not any(w in t for t in _CONTRASTED)]
         words = (*own, *kept, phrase.head or "one")
         return replace(phrase, words=words) if contrasted and kept else None
@@ -194,16 +191,21 @@ def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -
     for mention in reversed(discourse.mentions):
         if noun is None or not same_noun(mention.noun, noun):
             continue
-        contrasted = any(
-            any(word in table for word in own) and any(word in table for word in mention.adjectives)
-            for table in _CONTRASTED
-        )
-        among = discourse.among.get(mention.referent, ()) if contrasted else ()
-        if len(among) == 1 and not {*own} & {*mention.adjectives}:
+        sides = discourse.sides.get(mention.referent, ())
+        if any(_are_contrasted(own, (side,)) and side not in own for side in sides):
             # "The cup on the left of the plate … the right one": on the right of that, or of all?
             raise AmbiguousReference(phrase.text, ["one of all", "one beside the same"])
-        return among
+        contrasted = _are_contrasted(own, mention.adjectives)
+        return discourse.among.get(mention.referent, ()) if contrasted else ()
     return ()
+
+
+def _are_contrasted(words: Collection[str], others: Collection[str]) -> bool:
+    """Whether words of both tell things apart by the same quality."""
+    return any(
+        any(word in table for word in words) and any(word in table for word in others)
+        for table in _CONTRASTED
+    )
 
 
 def narrowed_to(

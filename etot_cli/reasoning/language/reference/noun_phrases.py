@@ -72,9 +72,9 @@ Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
 """All that a pronoun may mean, each the things of one referent."""
 
 
-def _sides_of(modifiers: Sequence[Modifier]) -> list[str]:
+def _sides_of(modifiers: Sequence[Modifier]) -> tuple[str, ...]:
     """Words for the sides of others that a thing is on ("the cup to the left of the plate")."""
-    return [m.prep.value for m in modifiers if m.prep.value in SIDES and m.phrases]
+    return tuple(m.prep.value for m in modifiers if m.prep.value in SIDES and m.phrases)
 
 
 class Resolver:
@@ -247,8 +247,8 @@ class Resolver:
         every = quantity.every or (asked.count is None and match.plural)
         return Resolved(
             options, quantity.definite, quantity.other, asked.head, every, tuple(notes),
-            adjectives=(*words[:-1], *_sides_of(modifiers)), left_out=tuple(unmeant),
-            others=others, idle=idle, among=among,
+            adjectives=words[:-1], left_out=tuple(unmeant), others=others, idle=idle,
+            among=among, sides=_sides_of(modifiers),
         )  # fmt: skip
 
     def names_stack(self, phrase: NounPhrase) -> bool:

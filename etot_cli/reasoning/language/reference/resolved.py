@@ -24,6 +24,7 @@ class Resolved:
         either: it is one of several phrases ("the apple or the pear").
         idle: words of it for a side or size that tell one thing from no other.
         among: what its words for side and size single it out of.
+        sides: words for the sides of other things that it is on.
         others: what it says would be true of as well, though it fits what is meant better.
     """
 
@@ -40,3 +41,4 @@ class Resolved:
     idle: tuple[str, ...] = ()
     either: bool = False
     among: tuple[Thing, ...] = ()
+    sides: tuple[str, ...] = ()
