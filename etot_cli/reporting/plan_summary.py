@@ -159,4 +159,5 @@ def _answer(report: PlanReport, failures: Sequence[Failure]) -> str:
         reasons.append(f"{where}: {first.text or first.node.status}")
     if len(failures) > 1:
         reasons.append(f"{len(failures) - 1} more")
+    reasons += [_refused(doubt) for doubt in report.doubts[: not reasons]]
     return "; ".join(reasons) or "no branch was proposed"

@@ -1243,6 +1243,7 @@ def tea_table() -> SceneState:
         item("tray", "box", (0.55, -0.40), size=(0.26, 0.20, 0.02), color="black"),
     )  # fmt: skip
 
+
 def work_cell() -> SceneState:
     """Bolts on a tray and in a bin, parts and tools by it."""
     return scene(
@@ -1263,6 +1264,7 @@ def work_cell() -> SceneState:
              on="holder", inside="holder"),
     )  # fmt: skip
 
+
 def fruit_counter() -> SceneState:
     """Fruit on a plate and in a bowl, a mug in a closed microwave."""
     return scene(
@@ -1281,6 +1283,7 @@ def fruit_counter() -> SceneState:
         cup("red_mug", (0.61, 0.00), size=(0.09, 0.09, 0.09), color="red"),
         cup("blue_mug", (0.61, -0.24), size=(0.09, 0.09, 0.09), color="blue"),
     )  # fmt: skip
+
 
 def snack_bar() -> SceneState:
     """An open fridge, a closed drawer, two bins, things of no known pack."""
@@ -1301,6 +1304,7 @@ def snack_bar() -> SceneState:
         item("sponge", "box", (0.29, -0.11), size=(0.07, 0.1, 0.03), color="yellow"),
     )  # fmt: skip
 
+
 def tower_table() -> SceneState:
     """Blocks, one on another, cups of their colours, a car on a shelf."""
     return scene(
@@ -1319,6 +1323,7 @@ def tower_table() -> SceneState:
         cup("green_cup", (0.61, -0.09), size=(0.08, 0.08, 0.09), color="green"),
         cup("purple_cup", (0.62, -0.26), size=(0.1, 0.1, 0.1), color="purple"),
     )  # fmt: skip
+
 
 def kids_room() -> SceneState:
     """A pile of blocks, a toy box, an open drawer with a car in it."""

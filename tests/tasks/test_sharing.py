@@ -22,6 +22,67 @@ def planned(name: str, goal: list[Any], objects: dict[str, Any], folder: Path) -
     return report
 
 
+def chest(y: float, width: float = 0.24) -> dict[str, Any]:
+    """A chest of one drawer with a handle, opening towards the right."""
+    return {
+        "kind": "drawer_unit", "at": [0.47, y], "yaw_deg": -90, "size": [width, 0.20, 0.10],
+        "wall": 0.006, "mass": 2.5, "color": "brown", "drawers": [{
+            "name": "drawer", "travel": 0.14,
+            "handle": {"width": 0.08, "depth": 0.04, "thickness": 0.01, "vertical": False},
+        }],
+    }  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_the_smaller_one_may_come_first(seed: int, tmp_path: Path) -> None:
+    """In the middle of the drawer the block leaves the ball no room, the ball leaves the block
+    some.
+    """
+    rng = random.Random(seed)
+    objects = {
+        "chest": chest(rng.uniform(0.25, 0.27)),
+        "block": {"kind": "box", "size": [0.06, 0.06, 0.05], "at": [0.32, -0.12], "mass": 0.09},
+        "ball": {"kind": "sphere", "diameter": 0.055, "at": [0.44, -0.18], "mass": 0.035},
+    }
+    goal = [{"inside": [name, "chest"]} for name in ("block", "ball")] + [{"closed": "chest"}]
+    planned("two_in_a_drawer", goal, objects, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_a_drawer_is_shut_before_something_goes_below_it(seed: int, tmp_path: Path) -> None:
+    """What comes out of the drawer waits on the desk while the drawer covers where it is to go."""
+    rng = random.Random(seed)
+    box = {"kind": "box", "size": [0.045, 0.045, 0.045], "inside": "chest", "mass": 0.046}
+    goal = [{"at": ["box", [0.45, rng.uniform(0.05, 0.07)]]}]
+    report = planned("below", goal, {"chest": chest(0.30), "box": box}, tmp_path)
+    assert report.plan.index("[CLOSE, chest]") < len(report.plan) - 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("at", [[0.66, 0.25], [0.70, 0.0], [0.60, 0.35]])
+def test_what_is_far_is_reached_with_a_level_hand(at: list[float], tmp_path: Path) -> None:
+    """A hand that points down does not reach that far."""
+    can = {"kind": "cylinder", "diameter": 0.05, "height": 0.08, "at": [0.4, -0.2], "mass": 0.1}
+    report = planned("far", [{"at": ["can", at]}], {"can": can}, tmp_path)
+    assert report.plan[0] == "[PICK UP, can] (horizontal)"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", [0, 1])
+def test_what_goes_elsewhere_is_not_taken_out_again(first: int, tmp_path: Path) -> None:
+    bowl = {"kind": "bowl", "diameter": 0.17, "height": 0.05, "mass": 0.4}
+    objects = {
+        "red_bowl": bowl | {"at": [0.45, 0.16]},
+        "blue_bowl": bowl | {"at": [0.45, -0.16]},
+        "ball": {"kind": "sphere", "diameter": 0.045, "inside": "red_bowl", "mass": 0.02},
+    }
+    goal = [{"inside": ["ball", "blue_bowl"]}, {"not": {"inside": ["ball", "red_bowl"]}}]
+    report = planned("elsewhere", goal[:: 1 - 2 * first], objects, tmp_path)
+    assert report.plan == ["[PICK UP, ball]", "[PUT INTO, blue_bowl]"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_what_takes_up_a_drawer_goes_out_first(seed: int, tmp_path: Path) -> None:

@@ -86,8 +86,8 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
 
 
 def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
-    """Statements without those on where an object is that follow from others: what stands on a
-    plate in a cupboard is in the cupboard.
+    """Statements without those on where an object is, or is not, that follow from others: what
+    stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
         ReferenceProblem: one object is to be at two places.
@@ -109,7 +109,18 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
             raise ReferenceProblem(name, f"it cannot be both at {one} and at {other}")
         # In a vessel it is on its floor.
         implied += [a for a in kept if len(kept) > 1 and a.key == "on"]
+    # What is put elsewhere, or kept in the hand, is where it must not be no longer.
+    away = {*places, *(a.names[0] for a in atoms if a.key == "in_hand" and not a.denied)}
+    denied = (a for a in atoms if a.denied and a.key in ("on", "inside") and a.names[0] in away)
+    implied += [a for a in denied if a.names[1] not in _ends_up(a.names[0], places, scene)]
     return [atom for atom in atoms if atom not in implied]
+
+
+def _ends_up(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState) -> frozenset[str]:
+    """All that an object is to be put on or in, directly or not."""
+    at = [atom.names[1] for atom in places.get(name, ())]
+    around = (_around(owner_of(place), places, scene) for place in at)
+    return frozenset().union(at, *around)
 
 
 def _around(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState) -> frozenset[str]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.relations import carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction
 from etot_cli.reasoning.protocol import FailedStep
-from etot_cli.skills.action import PUTS, GraspPose
+from etot_cli.skills.action import PUTS, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
 from etot_cli.world.state import CauseKind, owner_of
 
@@ -23,7 +23,8 @@ _STANDS = 0.5
 
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
     """The branch with the object grasped from above where it slipped; from the side where the hand
-    has no room above it, or where a rod stands in the hand, which lays it down from there.
+    has no room above it, does not reach that far or that high from above, or where a rod stands in
+    the hand, which lays it down from there.
 
     Args:
         failed: the failed step.
@@ -36,12 +37,26 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
         return
     if cause is CauseKind.SLIP:
         pose, how = GraspPose.VERTICAL, "from above"
-    elif (cause in _NO_ROOM_ABOVE and _is_roofed(failed)) or _stands_in_hand(failed):
+    elif (
+        (cause in _NO_ROOM_ABOVE and _is_roofed(failed))
+        or _is_out_of_reach(failed, cause)
+        or _stands_in_hand(failed)
+    ):
         pose, how = GraspPose.HORIZONTAL, "from the side"
     else:
         return
     posed = (*actions[:pick], replace(action, pose=pose), *actions[pick + 1 :])
     yield Correction(posed, f"{action.target} is grasped {how}")
+
+
+def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:
+    """Whether what is put down does not get there from above, or is let fall there: a hand that
+    points down reaches less far, and less high, than one that lies level.
+    """
+    verb = failed.branch.actions[failed.index].verb
+    return (cause is CauseKind.UNREACHABLE and verb in PUTS) or (
+        cause is CauseKind.REBOUND and verb is Verb.PUT_ON
+    )
 
 
 def _is_roofed(failed: FailedStep) -> bool:

@@ -169,6 +169,8 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     start = hand_free_at(actions, cycle.start, failed.start)
     for part in scene.infos[name].parts:
         inside = {one for one in scene.states if is_inside(scene, one, part.address)}
+        # What the cycle has in the hand by now was in there before it.
+        inside |= {one for one in taken if is_inside(failed.start, one, part.address)}
         needed = {part.address, f"{part.owner}.{part.name}"} & filled or inside & reached
         if start is None or needed or is_closed(scene, part):
             continue

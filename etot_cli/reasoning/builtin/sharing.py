@@ -17,7 +17,8 @@ from etot_cli.world.state import DESK, PartInfo, owner_of
 
 def side_by_side(failed: FailedStep, index: int, name: str, other: str) -> Iterator[Correction]:
     """The branch with an object beside one that it puts into or onto the same before: the larger
-    one has the first choice, or the other leaves room where it is now.
+    one has the first choice, the other leaves room where it is now, or they come the other way
+    round.
 
     Args:
         failed: the failed step.
@@ -30,18 +31,21 @@ def side_by_side(failed: FailedStep, index: int, name: str, other: str) -> Itera
     if before is None:
         return
     put = actions[before + 1]
-    if put.target != DESK and radius(scene.infos[name]) > radius(scene.infos[other]):
-        # What comes to a place leaves room there for another of its own size.
-        earlier = brought_before(actions, index, before)
-        if earlier is not None:
-            ordered = reachable_throughout(earlier, failed.start)
-            yield Correction(ordered, f"{name}, which is larger, comes before {other}")
+    larger = radius(scene.infos[name]) > radius(scene.infos[other])
+    # What comes to a place leaves room there for another of its own size.
+    swapped = brought_before(actions, index, before) if put.target != DESK else None
+    if swapped is not None and larger:
+        ordered = reachable_throughout(swapped, failed.start)
+        yield Correction(ordered, f"{name}, which is larger, comes before {other}")
     if not put.where and not put.keepout:
         # Once: further spots made no difference in 26 problems with just enough room, and where
         # there is too little for all there is no end of them.
         kept = replace(put, keepout=(room_for(scene, other, name),))
         changed = (*actions[: before + 1], kept, *actions[before + 2 :])
         yield Correction(changed, f"{other} leaves room for {name} in {put.target}")
+    if swapped is not None and not larger:
+        ordered = reachable_throughout(swapped, failed.start)
+        yield Correction(ordered, f"{name} comes before {other}")
 
 
 def lowered(failed: FailedStep, placed: int, name: str, part: PartInfo) -> Iterator[Correction]:

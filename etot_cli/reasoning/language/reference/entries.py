@@ -112,7 +112,7 @@ class Entry:
     def is_pair(self) -> bool:
         """Whether it is one thing called by a plural; one of the "drawers" is a drawer."""
         levels = self.info is None or self.info.parts or self.info.boards
-        return not levels and singular(self.heads[0]) != self.heads[0]
+        return bool(not levels and self.heads) and singular(self.heads[0]) != self.heads[0]
 
     def only_tells(self, word: str) -> bool:
         """Whether a word stands in its name before the noun and does not name it."""

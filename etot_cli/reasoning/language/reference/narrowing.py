@@ -186,8 +186,8 @@ def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -
     Raises:
         AmbiguousReference: the earlier phrase tells a side of something else.
     """
-    sides = (word for m in phrase.modifiers if m.prep is Prep.SIDE for word in m.words)
-    own = [*phrase.words, *sides]
+    asides = (word for m in phrase.modifiers if m.prep is Prep.SIDE for word in m.words)
+    own = [*phrase.words, *asides]
     for mention in reversed(discourse.mentions):
         if noun is None or not same_noun(mention.noun, noun):
             continue
