@@ -1343,3 +1343,81 @@ def kids_room() -> SceneState:
              on="dresser", inside="dresser.top"),
         item("crayon", "pen", (0.30, 0.15), size=(0.015, 0.1, 0.015), color="pink"),
     )  # fmt: skip
+
+def block_lab() -> SceneState:
+    """Blocks and bowls of their colours, two blocks of one colour, a tray, a cup."""
+    return scene(
+        item("red_block", "box", (0.32, 0.26), size=(0.045, 0.045, 0.045), color="red"),
+        item("green_block", "box", (0.32, 0.12), size=(0.045, 0.045, 0.045), color="green"),
+        item("large_blue_block", "box", (0.34, -0.06), size=(0.07, 0.07, 0.07), color="blue"),
+        item("small_blue_block", "box", (0.33, -0.20), size=(0.035, 0.035, 0.035), color="blue"),
+        item("yellow_block", "box", (0.56, 0.05), size=(0.045, 0.045, 0.045), color="yellow",
+             on="green_bowl", inside="green_bowl"),
+        item("red_bowl", "bowl", (0.56, 0.28), size=(0.17, 0.17, 0.06), color="red"),
+        item("green_bowl", "bowl", (0.56, 0.05), size=(0.17, 0.17, 0.06), color="green"),
+        item("blue_bowl", "bowl", (0.56, -0.17), size=(0.17, 0.17, 0.06), color="blue"),
+        item("white_tray", "box", (0.44, -0.35), size=(0.24, 0.18, 0.02), color="white"),
+        cup("purple_cup", (0.40, 0.39), size=(0.09, 0.09, 0.1), color="purple"),
+    )  # fmt: skip
+
+def cup_lab() -> SceneState:
+    """Three cups in a row, cans on a tray, a bowl in a microwave."""
+    return scene(
+        cup("cup_1", (0.32, 0.28), size=(0.08, 0.08, 0.1), color="white", label="paper cup"),
+        cup("cup_2", (0.32, 0.12), size=(0.08, 0.08, 0.1), color="white", label="paper cup"),
+        cup("cup_3", (0.32, -0.04), size=(0.08, 0.08, 0.1), color="white", label="paper cup"),
+        item("strawberry", "sphere", (0.32, 0.12), size=(0.035, 0.035, 0.035), color="red",
+             on="cup_2", inside="cup_2"),
+        item("plum", "sphere", (0.43, 0.05), size=(0.05, 0.05, 0.05), color="purple"),
+        item("tray", "box", (0.52, 0.29), size=(0.24, 0.28, 0.02), color="black"),
+        item("tomato_can", "cylinder", (0.58, 0.38), size=(0.07, 0.07, 0.1), color="red",
+             on="tray"),
+        item("bean_can", "cylinder", (0.58, 0.29), size=(0.07, 0.07, 0.1), color="green",
+             on="tray"),
+        item("crate", "bowl", (0.59, 0.03), size=(0.2, 0.2, 0.1), color="brown"),
+        cabinet("microwave", (0.60, -0.30), 0.95, color="black"),
+        item("yellow_bowl", "bowl", (0.60, -0.30), size=(0.12, 0.12, 0.05), color="yellow",
+             on="microwave", inside="microwave"),
+    )  # fmt: skip
+
+def hobby_bench() -> SceneState:
+    """Paints, brushes, a locomotive on a mat, a chest with an open drawer."""
+    return scene(
+        drawers("parts_chest", (0.60, -0.30), {"top": 0.0, "bottom": 0.9}, color="gray"),
+        item("pliers", "box", (0.60, -0.30), size=(0.13, 0.05, 0.02), color="black",
+             on="parts_chest", inside="parts_chest.top"),
+        item("glue", "cylinder", (0.45, -0.30), size=(0.035, 0.035, 0.07), color="yellow",
+             on="parts_chest", inside="parts_chest.bottom"),
+        item("red_paint", "cylinder", (0.36, 0.25), size=(0.045, 0.045, 0.05), color="red"),
+        item("blue_paint", "cylinder", (0.36, 0.36), size=(0.045, 0.045, 0.05), color="blue"),
+        cup("brush_cup", (0.60, 0.32), size=(0.08, 0.08, 0.1), color="white"),
+        item("brush_1", "pen", (0.60, 0.32), size=(0.015, 0.015, 0.17), color="brown",
+             label="brush", on="brush_cup", inside="brush_cup"),
+        item("brush_2", "pen", (0.52, 0.21), size=(0.17, 0.015, 0.015), color="brown",
+             label="brush"),
+        item("cutting_mat", "box", (0.36, 0.02), size=(0.2, 0.28, 0.005), color="green"),
+        item("locomotive", "box", (0.36, 0.02), size=(0.06, 0.14, 0.07), color="black",
+             on="cutting_mat"),
+        item("parts_bin", "bowl", (0.63, 0.02), size=(0.18, 0.18, 0.08), color="orange"),
+    )  # fmt: skip
+
+def bagel_counter() -> SceneState:
+    """A bowl in a microwave, fruit and a bagel, a plate."""
+    return scene(
+        cabinet("microwave", (0.62, 0.31), 0.0, color="gray"),
+        item("green_bowl", "bowl", (0.64, 0.37), size=(0.13, 0.13, 0.06), color="green",
+             on="microwave", inside="microwave"),
+        cup("red_mug", (0.32, 0.06), size=(0.09, 0.09, 0.09), color="red"),
+        cup("blue_mug", (0.32, -0.14), size=(0.09, 0.09, 0.09), color="blue"),
+        item("spoon", "pen", (0.32, -0.14), size=(0.02, 0.02, 0.15), color="gray", on="blue_mug",
+             inside="blue_mug"),
+        item("plate", "box", (0.56, -0.05), size=(0.26, 0.26, 0.015), color="white"),
+        item("bagel", "cylinder", (0.56, -0.05), size=(0.08, 0.08, 0.035), color="brown",
+             on="plate"),
+        item("fruit_bowl", "bowl", (0.60, -0.31), size=(0.2, 0.2, 0.08), color="brown"),
+        item("apple", "sphere", (0.60, -0.27), size=(0.07, 0.07, 0.07), color="red",
+             on="fruit_bowl", inside="fruit_bowl"),
+        item("lemon", "sphere", (0.60, -0.35), size=(0.055, 0.055, 0.055), color="yellow",
+             on="fruit_bowl", inside="fruit_bowl"),
+        item("banana", "capsule", (0.34, -0.32), size=(0.16, 0.04, 0.04), color="yellow"),
+    )  # fmt: skip

@@ -130,8 +130,10 @@ class Context:
             raise ReferenceProblem(referent.text, why, 2)
         return referent.options[0]
 
-    def home(self, thing: Thing) -> Place:
-        """Where a thing is at the start; on the desk the very spot."""
+    def home(self, thing: Thing, *, exact: bool = False) -> Place:
+        """Where a thing is at the start; the very spot on the desk, or (``exact``) beside others on
+        something that stays where it is.
+        """
         state = self.scene.states.get(thing.name)
         if state is None:
             raise ReferenceProblem(thing.name, "it has no place where it could be put", 2)
@@ -143,7 +145,12 @@ class Context:
         owner, _, board = state.on[0].partition(".")
         info = self.scene.infos.get(owner)
         surface = Thing(owner, board=board if info is not None and board in info.boards else None)
-        if owner != DESK:
+        shared = any(
+            other != thing.name and state.on[0] in self.scene.states[other].on
+            for other in self.scene.states
+        )
+        moved = any(item.name == owner for item in self.discourse.things(*self.discourse.put))
+        if owner != DESK and (moved or not (exact and shared)):
             return Place(Relation.ON, self._referent(surface))
         return self.spot(thing, Place(Relation.ON, self._referent(surface)))
 

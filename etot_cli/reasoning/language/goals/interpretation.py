@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import (
@@ -39,6 +40,11 @@ from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.world.state import SceneState
 
+_BACK = re.compile(
+    r"\b(?:put|place|return|bring|set|move)\b[^.,;]*(?<!the )\bback\b(?! (?:of|left|right)\b)"
+)
+"""What is said of what is to be returned to where it was taken from."""
+
 
 def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Vocabulary) -> Goal:
     """The goal of an instruction about a scene.
@@ -47,7 +53,9 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         ReferenceProblem: no reading of a sentence fits the scene, or several fit that ask for
             different things.
     """
-    state = Understanding(scene, Discourse(scene), Resolver(scene, vocabulary))
+    returning = any(_BACK.search(sentence.text) for sentence in sentences)
+    discourse = Discourse(scene, returning=returning)
+    state = Understanding(scene, discourse, Resolver(scene, vocabulary))
     for sentence in sentences:
         state = best_reading(state, sentence)
     goal = state.goal()

@@ -52,7 +52,7 @@ def put_back(
             text = context.discourse.referents[index].text
             raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
         for thing in things:
-            place = context.home(thing)
+            place = context.home(thing, exact=True)
             context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 
@@ -224,7 +224,8 @@ def where_is(
             return ()  # where something was is free only once it has gone
         if was(index):
             things = context.only(index, REASONS["where"])
-            return tuple(dict.fromkeys(map(context.home, things)))
+            homes = (context.home(thing, exact=True) for thing in things)
+            return tuple(dict.fromkeys(homes))
         return context.source((index,))
 
     away = [*themes, *still]

@@ -19,7 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
     things_in,
 )
-from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
+from etot_cli.reasoning.builtin.relations import bearers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import addresses, touches
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.nouns import is_only
@@ -226,7 +227,9 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
     """Says where things must not be put; "it" is what was put somewhere, not where that is."""
     assert clause.things is not None
     before = [place.where for place in context.discourse.last_places if place.where is not None]
-    indices = context.phrases.things(clause.things, Role.THEME, before)
+    indices = _whatever(context, clause) or context.phrases.things(
+        clause.things, Role.THEME, before
+    )
     places = rule_out(context, indices, clause.destinations, left=clause.not_left)
     context.discourse.last_places = places
     where = context.discourse.things(*(p.where for p in places if p.where is not None))
@@ -241,6 +244,27 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
         whole = known and [*context.discourse.things(at)] == there
         for index in (at,) if whole else (context.single(thing, thing.name) for thing in there):
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _whatever(context: Context, clause: AvoidClause) -> list[int]:
+    """In "put nothing into the box" everything that could be put there; none where it is not said
+    of anything.
+    """
+    phrases = clause.things.phrases if clause.things else ()
+    if [np.words for np in phrases] != [("anything",)] or phrases[0].modifiers:
+        return []
+    targets = [np for where in clause.destinations for np in where.targets]
+    options = [context.phrases.meaning(np, Role.PLACE).options for np in targets]
+    around = {thing.name for found in options for thing in things_in(found)}
+    states = context.scene.states
+    things = tuple(
+        Thing(name)
+        for name, info in context.scene.infos.items()
+        if info.movable and name in states and name not in around
+        if clause.not_left or not bearers(context.scene, name) & around
+    )
+    every = Resolved((things,), noun="object", every=True)
+    return [context.discourse.add(every, "anything", Role.THEME, several=True)]
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:

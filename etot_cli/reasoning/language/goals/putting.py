@@ -139,9 +139,11 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
         chosen_from = not (clause.stays or wherever)
+        # "Put just the apple there" is about what is put, not about what is there.
+        only = [np for np in group.things.phrases if np.determiner.split()[:1] != ["just"]]
         check_alone(
             context,
-            group.things.phrases,
+            only if chosen_from else group.things.phrases,
             themes,
             places,
             chosen=chosen_from,

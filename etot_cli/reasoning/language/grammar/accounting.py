@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
     AgainClause,
+    Avoid,
     AvoidClause,
     Beside,
     Destination,
@@ -76,7 +77,8 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
-    a little open, (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
+    a little open, before (you touch|touching|you do anything|doing anything) [to|with],
+    (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
@@ -180,8 +182,9 @@ def _said(node: object) -> Iterator[str]:
             yield _DENIAL
         case RemoveClause(without=without):
             yield from ("empty", *((_DENIAL,) if without else ()))
-        case AvoidClause():
+        case AvoidClause(avoid=avoid):
             yield from (_DENIAL, "other", "any", "after", "afterwards")
+            yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:
             yield "other"
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):

@@ -175,7 +175,9 @@ _LAYERS = valued(
 """All of a tower from the bottom up."""
 _TOWER_ENDS = optional(
     either(
-        sequence(optional(_SO), _ENDS),
+        sequence(_SO, _ENDS),
+        # In "a tower with the blue block at the bottom" "the blue" is no thing of its own.
+        sequence(_ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
         sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
     ),
     None,

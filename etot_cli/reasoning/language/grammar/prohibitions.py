@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -21,6 +22,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Destination,
+    NounPhrase,
     Things,
     Toward,
 )
@@ -35,6 +37,13 @@ def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
     places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
     return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+
+
+def _stays_empty(np: NounPhrase) -> AvoidClause:
+    """Nothing is to be put into what stays empty."""
+    anything = NounPhrase(words=("anything",), text="anything")
+    where = Destination(Toward.INSIDE, (np,))
+    return AvoidClause(Avoid.PUT, Things((anything,)), (where,), not_left=True)
 
 
 _FORBIDDEN = either(
@@ -115,12 +124,17 @@ _STAYS = sequence(
     verbs.LEFT_THERE,
     optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
+_THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 OTHERS_STILL = sequence(
     either(
         sequence(_EVERYTHING_ELSE, _STAYS),
+        sequence(
+            "nothing else",
+            "(should|must|shall|may|can|is to) (be (moved|touched|changed)|move|change)",
+        ),
         sequence("leav(e|ing), keep[ing]", _EVERYTHING_ELSE, optional(manner.AS_IT_IS)),
     ),
-    build=lambda: AvoidClause(Avoid.MOVE, None),
+    build=partial(AvoidClause, Avoid.MOVE, _THE_REST),
 )
 UNTOUCHED = either(
     sequence(_EVERYTHING_ELSE, manner.UNTOUCHED, build=lambda: AvoidClause(Avoid.MOVE, None)),
@@ -130,8 +144,15 @@ UNTOUCHED = either(
 _FINE = (
     "(is|are) [just] (fine|good|ok|okay|alright) (there|as (it is|they are)|where (it is|they are))"
 )
+_STAYS_EMPTY = either(
+    sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
+    sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
+)
 KEEP_STILL = either(
-    sequence(THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)),
+    sequence(_STAYS_EMPTY, build=_stays_empty),
+    sequence(
+        optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
+    ),
     OTHERS_STILL,
     sequence(
         # After "the cups" rather one of them that is left out.

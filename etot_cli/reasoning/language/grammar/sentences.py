@@ -211,8 +211,22 @@ _WITH_MORE_BEFORE_IT = either(
         NAMED,
         optional("by (color|colour|kind|type|size)"),
         COMMA,
-        PLACED,
+        either(PLACED, CHAIN),
         build=each_sorted,
+    ),
+    sequence(
+        "mov(e|ing), get[ting], put[ting], tak(e|ing)",
+        NAMED,
+        "out of the way by",
+        CHAIN,
+        build=about,
+    ),
+    sequence(
+        "before [you] touch[ing], before [you] do[ing] anything (to|with)",
+        NAMED,
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=add,
     ),
     sequence(
         verbs.SWAP,

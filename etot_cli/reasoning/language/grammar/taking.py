@@ -109,7 +109,7 @@ REMOVE = either(
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(verbs.BRING, THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
     sequence("lift[ing]", THINGS, "out, off", build=RemoveClause),
-    sequence(verbs.BRING, THINGS, "out of, off [of]", noun_phrase, build=_taken),
+    sequence(verbs.GET_OUT, THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(verbs.TAKE, THINGS, SOURCE, build=_taken),
     sequence(
         "clear[ing], empty[ing], rid",

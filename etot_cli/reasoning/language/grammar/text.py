@@ -93,6 +93,7 @@ _CLITICS = (
     (r"\b(i)(m|ve)\b", r"\1'\2"),
     (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
     (r"\bu\b", "you"),
+    (r"\bw/?(?= (?:the|a|my|it|that|this|all|both)\b)", "with"),
     (
         r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
         r" what (?=(?:is|are)\b)",

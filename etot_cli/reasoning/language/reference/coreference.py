@@ -108,6 +108,8 @@ def meant_by_it(
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that
+        if len(acted_on) == 1 and discourse.returning and role is Role.CONTAINER:
+            return acted_on[0]  # "take the bowl out of the oven, put the egg in it, put it back"
         if len(acted_on) == 1:
             rivals = [
                 place

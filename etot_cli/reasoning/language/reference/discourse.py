@@ -63,6 +63,8 @@ class Discourse:
     """The referent of what room is made on or in, which "there" means then."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
+    returning: bool = False
+    """Something is to be put back in the end, so that it is what other things are put into."""
     remarked: frozenset[int] = frozenset()
     """Referents of which something was said that is neither known of a thing nor asked for."""
 

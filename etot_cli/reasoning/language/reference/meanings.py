@@ -37,7 +37,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 )
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.spoken_of import candidates
+from etot_cli.reasoning.language.reference.spoken_of import candidates, openable
 from etot_cli.reasoning.language.reference.usual_form import GENERAL, leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
@@ -81,6 +81,10 @@ class Meanings:
             for other in filter(None, dict.fromkeys((noun, head_of(noun or ""), moved))):
                 with suppress(ReferenceProblem):
                     return self._meaning(phrase, role, other)
+        if noun and head_of(noun) != noun and (bare or leaves_noun_out(plain)):
+            # After "the red_paint", which is one word here, "the blue one" is paint.
+            with suppress(ReferenceProblem):
+                return self._meaning(phrase, role, head_of(noun))
         return self._meaning(phrase, role, noun)
 
     def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
@@ -358,6 +362,8 @@ class Meanings:
             person = phrase.pronoun in PERSONAL_PRONOUNS
             before = person or phrase.determiner == HERE_BEFORE
             indices = candidates(self.discourse, everywhere=before)
+            if phrase.pronoun == "it" and not before:  # what tells the thing may tell which
+                indices = tuple(dict.fromkeys((*indices, *openable(self.discourse))))
             indices = tuple(i for i in indices if not person or is_like_people(self.discourse, i))
             found = [self.discourse.things(index) for index in indices]
             if not found:

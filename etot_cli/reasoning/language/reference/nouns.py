@@ -178,7 +178,8 @@ def all_among(
     for word in match.selectors:
         if word in STATES:
             things = in_state(word, things, scene, every=True)
-    if phrase.among == len(things) or len(phrase.words) < 2:
+    among = phrase.among or quantity_of(phrase.determiner).among
+    if among == len(things) or len(phrase.words) < 2:
         return things
     alone = replace(phrase, words=phrase.words[-1:], modifiers=())
     found = matched(alone, alone.words, None, vocabulary)

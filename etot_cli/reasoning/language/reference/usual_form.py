@@ -59,6 +59,11 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         NUMBERS.get(w, 1) > 1 for w in phrase.words[1:-1]
     ):
         raise ReferenceProblem(phrase.text, "name them one by one", 3)
+    counted = phrase.words[1:] and NUMBERS.get(phrase.words[0], 1) > 1
+    if counted and phrase.determiner.endswith((" of the", " of these", " of those", " of my")):
+        # "Either one of the two cups"
+        determiner = f"{phrase.determiner} {phrase.words[0]}"
+        return usual_form(replace(phrase, determiner=determiner, words=phrase.words[1:]))
     last = phrase.head
     if last in GENERAL and len(phrase.words) == 1:
         determiner = GENERAL[last]

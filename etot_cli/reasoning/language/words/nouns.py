@@ -21,6 +21,7 @@ DETERMINERS = f"""
     ({_COUNT}) [of] [the|these|those|other|more|of the other],
     ({_COUNT}) of (the|these|those) ({_COUNT}),
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
+    (any|either) one of (the|these|those|my|your) ({_COUNT}),
     any of (the|these|those|),
     (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your)],
     half of the, none of the, no, neither [of the],

@@ -61,7 +61,8 @@ GREETINGS = f"""
     [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
-    (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP}
+    (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
+    (for|in) (this|the (first|next)) (trial|task|test|run|experiment|episode) [~comma]
 """
 WOULD_BE_NICE = """
     (i|we) would (be|feel) [very|really|so]

@@ -57,9 +57,11 @@ PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
-BRING = f"""
-    {TAKE}, get[ting], grab[bing], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
+GET_OUT = f"""
+    {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
 """
+"""Said of what is taken out of something; who grabs a thing there holds it."""
+BRING = f"{GET_OUT}, grab[bing]"
 REMOVE = """
     remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] down, extract[ing],
     tak(e|ing) (out|off|away|down),
@@ -132,7 +134,7 @@ RELATIONS = """
     granddaughter|grandson|grandmother|grandfather
 """
 WANT = """
-    (i|we) [just|really|also] (want|need|prefer) [to (have|see)],
+    (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) have, let us have, (would|is) it [be] possible to have,
     (i|we) would rather (have|see),
