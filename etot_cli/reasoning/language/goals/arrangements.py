@@ -235,7 +235,7 @@ def swap(context: Context, clause: SwapClause) -> None:
     stay = themes[1:] if clause.replaces else themes  # it may have been taken away before
     if any(index in gone for index in stay):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
-    homes = [context.home(thing, exact=True) for thing in things]
+    homes = [context.home(thing) for thing in things]
     if clause.placed:
         _placed(context, clause.placed, dict(zip(things, homes[::-1], strict=True)), text)
         return

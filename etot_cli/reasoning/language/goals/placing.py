@@ -52,7 +52,7 @@ def put_back(
             text = context.discourse.referents[index].text
             raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
         for thing in things:
-            place = context.home(thing, exact=True)
+            place = context.home(thing)
             context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 

@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.input import (
     Result,
     TooManyReadings,
 )
-from etot_cli.reasoning.language.grammar.text import COLON, COMMA
+from etot_cli.reasoning.language.grammar.text import COLON, COMMA, QUESTION
 from etot_cli.reasoning.language.words.patterns import Begun
 
 First = frozenset[str] | None
@@ -211,8 +211,8 @@ def either(*parts: Part) -> Parser:
     return Parser(_remembered(parse) if len(parts) > 2 else parse, first)  # two are asked as soon
 
 
-at_end = Parser(lambda given, at: [(at, NOTHING)] if at == len(given.words) else [])
-"""Finds nothing, where no words are left."""
+at_end = Parser(lambda given, at: [(at, NOTHING)] if given.words[at:] in ((), (QUESTION,)) else [])
+"""Finds nothing, where no words are left but for a question mark."""
 
 
 def optional(part: Part, default: Any = NOTHING) -> Parser:

@@ -82,6 +82,8 @@ _ALL_DONE = re.compile(
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
 """After what is asked for, "once everything is in" is about that."""
+_DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
+_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _CLITICS = (
@@ -163,6 +165,11 @@ def normalized(text: str) -> str:
         text,
     )
     text = re.sub(r"\bback (?=(?:(?:in|on) )?there\b)", "", text)
+    text = re.sub(rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={_NAMED})", r"\1\2 ", text)
+    text = re.sub(r"\b(left|right) from (?=(?:the|my|that|this|it)\b)", r"\1 of ", text)
+    text = re.sub(
+        r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be ", text
+    )
     text = re.sub(r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", "", text)
     text = re.sub(rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 ", text)
     text = re.sub(r"\bback down (?=(?:on|onto)\b)", "down ", text)
