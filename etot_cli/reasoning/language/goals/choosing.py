@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Whereabouts, holds
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, owner_of
 
 
 def check_taken(
@@ -162,6 +162,9 @@ def check_describes(
                     for item in context.discourse.things(*places_of)
                     if inside and can_be(item, Role.CONTAINER, context.scene)
                 ]
+                own = owner_of(context.scene.states[thing.name].inside or "")
+                if own in {item.name for item in vessels}:
+                    continue  # it comes along
                 if vessels:
                     named = [item.name for item in vessels]
                     raise AmbiguousReference("in it", [*named, *sorted(below)])
@@ -239,7 +242,8 @@ def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]
     """
     at = [place.where for place in places if place.where is not None and not place.beside]
     for thing in context.discourse.things(*(i for i in themes if i not in context.discourse.put)):
-        upon = carriers(context.scene, thing.name)
+        gone = {item.name for item in context.discourse.things(*context.discourse.put)}
+        upon = carriers(context.scene, thing.name) - gone
         for surface in context.discourse.things(*at):
             between = {name for name in upon if touches(Thing(name), surface, context.scene)}
             if between and not touches(thing, surface, context.scene):

@@ -335,7 +335,7 @@ SWAP = either(
         _THE_PLACE,
         build=_replacing,
     ),
-    sequence(verbs.SWAP, THINGS, optional("around, over"), build=SwapClause),
+    sequence(verbs.SWAP, THINGS, optional("around, round, over"), build=SwapClause),
     sequence(
         optional(f"have, let, make, can, could, may, {verbs.WANT}"),
         THINGS,

@@ -29,11 +29,15 @@ from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
+    Destination,
     EnsureClause,
     NounPhrase,
+    PutClause,
     RemoveClause,
     State,
     Things,
+    Toward,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import emptied
 from etot_cli.reasoning.language.grammar.topics import sources
@@ -58,6 +62,11 @@ def taken_out(things: Things) -> RemoveClause | None:
     all_of_them = len(sources(things)) == len(things.phrases)
     doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
     return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None
+
+
+def _put_in(things: Things) -> PutClause:
+    """What goes into what was opened or named before ("open the drawer, pen in")."""
+    return put_to(things, (Destination(Toward.HERE, word="in"),))
 
 
 def lacks_verb(clause: Clause) -> bool:
@@ -110,6 +119,7 @@ PLACED = Rule(
         sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
         sequence(ALL_THINGS, build=taken_out),
         sequence(ALL_THINGS, "out, off", build=RemoveClause),
+        sequence(ALL_THINGS, "in, inside", build=_put_in),
         STACKED,
     )
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, some
 from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
@@ -58,13 +58,16 @@ _HAS = sequence(
 _IS = sequence(f"{verbs.BE}, stay[s], remain[s]", _SO)
 _MORE = some(sequence(LIST, optional("to"), either(_IS, _HAS, _SO)), most=3)
 _WITH_IT = optional(
-    either(
-        sequence("with nothing [left] (in|inside|on) it", build=lambda: (_EMPTY,)),
-        sequence(
-            "with",
-            NP_LIST,
-            "[still] (in it|inside [it])",
-            build=lambda held: (("has", held, "inside"),),
+    sequence(
+        OPTIONAL_COMMA,
+        either(
+            sequence("with nothing [left] (in|inside|on) it", build=lambda: (_EMPTY,)),
+            sequence(
+                "with",
+                NP_LIST,
+                "[still] (in it|inside [it])",
+                build=lambda held: (("has", held, "inside"),),
+            ),
         ),
     ),
     (),

@@ -176,7 +176,11 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
 
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
-_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home)"
+_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home) [~comma]"
+_COMES_AND_GOES = """
+    [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
+    [should|must|has to|have to|can|to] (go|goes|be put)
+"""
 PUT = either(
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence("find[ing]", _A_PLACE, "for", THINGS, DESTINATIONS, build=put_to),
@@ -199,6 +203,7 @@ PUT = either(
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
+    sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
     sequence(
         ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
     ),

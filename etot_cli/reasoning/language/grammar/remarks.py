@@ -31,6 +31,7 @@ _OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|tr
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
     rf"(?:i|we|you|he|she|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
+    rf"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = re.compile(
@@ -38,7 +39,8 @@ _PERSON = re.compile(
 )
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
-    r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)|do not need)\b"
+    r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
+    r"|(?:do|will) not (?:need|use|miss))\b"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"

@@ -231,7 +231,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         verbs.SWAP,
         THINGS,
-        silent(optional("around, over")),
+        silent(optional("around, round, over")),
         either(COMMA, sequence(OPTIONAL_COMMA, small_words.SO_THAT)),
         sequence(
             either(IN_THE_END, plain(either(PUT, ENSURE))),

@@ -225,6 +225,13 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state),)),
     ),
+    sequence(
+        # "… and then that drawer can be closed"
+        NP_LIST,
+        "(can|may|could) be",
+        OPEN_OR_CLOSED,
+        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
+    ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     sequence(
         "(i|we) do not want",

@@ -35,7 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
-from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 from etot_cli.skills.action import GraspPose
@@ -132,7 +132,11 @@ def contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
 def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
     """What takes all out of things, and brings it somewhere."""
     contents = Things(tuple(contents_of(np, held) for np in things.phrases))
-    return RemoveClause(contents) if where is None else put_to(contents, where)
+    if where is None:
+        return RemoveClause(contents)
+    # "Empty the box on the right" rather says which box.
+    which = all(item.toward is Toward.BESIDE and not item.beside[0].phrases for item in where)
+    return replace(put_to(contents, where), far_fetched=2 * which)
 
 
 def is_emptying(clause: Clause) -> bool:
@@ -205,7 +209,7 @@ EMPTY = either(
         manner.EMPTIED,
         build=lambda things, said: emptied(Things(all_of(things.phrases, said))),
     ),
-    sequence(verbs.NOTHING_IS, ALL_THINGS, build=emptied),
+    sequence(verbs.NOTHING_IS, ALL_THINGS, silent(optional(small_words.ANY_MORE)), build=emptied),
 )
 
 

@@ -64,7 +64,9 @@ _ALL_NAMED = re.compile(
     r" (?=(?:in|on|into|onto|to)\b)"
 )
 """What a list before a colon names, all of it."""
-_MAY_GO = re.compile(r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?) go\b")
+_MAY_GO = re.compile(
+    r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
+)
 """A request in the words of a question."""
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -170,6 +172,7 @@ def normalized(text: str) -> str:
     text = re.sub(
         r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be ", text
     )
+    text = _without_padding(text)
     text = re.sub(r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", "", text)
     text = re.sub(rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 ", text)
     text = re.sub(r"\bback down (?=(?:on|onto)\b)", "down ", text)
@@ -208,6 +211,81 @@ def normalized(text: str) -> str:
     text = text.replace(":", " : ")
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
+
+
+_PADDING = (
+    (r"\b(mrs?|ms|dr)\. ", r"\1 "),
+    (
+        r"\b(?:(?:my|our|the) )?(?:gran(?:ny|dma|dpa|d)?|grand(?:mother|father)|mum|mom|dad|sister|"
+        r"brother|mother|father|wife|husband|teacher|nurse|guest|boss) 's (?=\w+)",
+        "my ",
+    ),
+    (r"\b(is|are) (open|closed|shut) again(?=,| and|[.;])", r"\1 \2"),
+    (
+        r"\b(?:everything|anything|all things|the things) (?:(?:that )?(?:you|one|i|we) can "
+        r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
+        "all the writing utensils",
+    ),
+    (
+        r"(^|[.;,] )((?:i |we )?need (?:the|my|our|a) [^,.;]*?), (?:it is|they are) "
+        r"((?:in|on|next to|beside|behind) [^,.;]*)(?=[,.;])",
+        r"\1\2 that is \3",
+    ),
+    # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
+    (
+        r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+)((?:,? and|,)(?: then)?) "
+        r"((?:(?:put|place) )?[^.,;]*?) (on|in)(?=[,.;!?]| and\b|$)",
+        lambda said: _in_turn(said),
+    ),
+    # What stands beside a place and says nothing of it: "back out of", "there on the table"
+    (r"\bback (?=(?:out of|off) )", ""),
+    (r"\bup(?: there)? (?=in its place\b)", ""),
+    (r"\b(?:up|down|over) there, (?=(?:on|in|next to) )", ""),
+    (r"(?<!in )(?<!on )(?<!is )(?<!are )\b(?:here|there) (?=(?:on|in) (?:the|my|our)\b)", ""),
+    (
+        r"\b(?:to|in|on|at) (?:a|some) (?:spot|place|position|location) "
+        r"(?=(?:between|next to|beside|near|behind|in front of|on|in|(?:to the )?(?:left|right) of)"
+        r"\b)",
+        "",
+    ),
+    (
+        r"(^|[.;,] )((?:just |please )*(?:open|close|shut) [^.;,]*?) over there(?=[.;,!?]|$)",
+        r"\1\2",
+    ),
+    (r"\b(first|second|third|fourth) (drawer|shelf|board|level) down\b", r"\1 \2 from the top"),
+    (
+        r"(?<!is )(?<!are )(?<!was )(?<!were )\balready (?=(?:in|on|inside) (?:the|my|it|there)\b)",
+        "",
+    ),
+    (r", (?:you choose|i do not (?:care|mind)|it does not matter) which(?: one)?(?=[,.;!?]|$)", ""),
+    (
+        r"\b((?:belongs?|goes|go|lives?) [^.;]*?), (?:so |and |please )*put (?:it|them) away"
+        r"(?=[.;!?]|$)",
+        r"\1",
+    ),
+    # "Everything in the box or in the bin" is everything in either.
+    (
+        r"\b(everything|all) (?:(?:that|which) is )?(in|on|from) ((?:the|my) (?:\w+ ){0,2}\w+) "
+        r"(?:and|or) (in|on|from) (?=(?:the|my)\b)",
+        r"\1 \2 \3 and everything \4 ",
+    ),
+    (rf"\bthe (?:piece|item) of (?=(?:{'|'.join(CATEGORIES)})\b)", "the 1 "),
+)
+
+
+def _in_turn(said: re.Match[str]) -> str:
+    """What goes "on" where something else went "off" of, or "in" where it went "out of"."""
+    away, where, joint, other, back = said.groups()
+    if {"lid", "cover", "cap"} & {*other.split()}:
+        return said[0]  # it goes on what was taken
+    place = {("off", "on"): f"on {where}", ("out of", "in"): f"in {where}"}.get((away, back), back)
+    return f"{away} {where}{joint} {other} {place}"
+
+
+def _without_padding(text: str) -> str:
+    for said, plain in _PADDING:
+        text = re.sub(said, plain, text)
+    return text
 
 
 def _without_uh(found: re.Match[str]) -> str:

@@ -80,6 +80,7 @@ def _remark(said: str, things: Things) -> ReorientClause | None:
 
 _STATED = either(
     sequence(
+        optional("(i|we) (noticed|notice|see|saw|think|believe|guess|know) [that]"),
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
@@ -116,7 +117,11 @@ _REMARK = either(
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
-    sequence("(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into])", ALL_THINGS),
+    sequence(
+        "(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into]), let me get (at|into)",
+        ALL_THINGS,
+    ),
+    sequence("(i|we) do not want", ALL_THINGS, "(rolling|lying|standing|sitting) (around|about)"),
 )
 MAKING_ROOM = spanned(
     sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on", noun_phrase)))),

@@ -210,7 +210,7 @@ class Vocabulary:
         for category, said in CALLED.items():
             if self.of_category(category):
                 text = re.sub(rf"\b{said}(?=s?\b)", category, text)
-        for portion in PORTIONS:
+        for portion in (*PORTIONS, "piece"):
             # "Both rolls of tape" where they are but called tape
             if re.search(rf"\b{portion}s? of\b", text) and not self.is_known(portion):
                 text = re.sub(rf"\b{portion}(s?) of ([a-z]+)\b", self._portioned, text)

@@ -52,8 +52,8 @@ PACKS = (
 )
 """Nouns for what food and the like is sold in."""
 TWINS: tuple[tuple[str, ...], ...] = (
-    ("train", "toy train", "locomotive"), ("rabbit", "bunny"), ("truck", "lorry"),
-    ("airplane", "aeroplane", "plane"),
+    ("train", "toy train", "locomotive"), ("teddy", "teddy bear"), ("rabbit", "bunny"),
+    ("truck", "lorry"),    ("airplane", "aeroplane", "plane"),
     ("fridge", "refrigerator"), ("closet", "wardrobe"), ("couch", "sofa", "settee"),
     ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),
     ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),

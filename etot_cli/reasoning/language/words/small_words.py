@@ -27,8 +27,9 @@ WITHOUT_MEANING = f"""
     (either|any|each|both) [one] [of (them|these|those)] ({_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}], whichever, if you can,
+    out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     if possible, at all times, properly, neatly, directly, straight,
-    behind you, after you, one (by|after) (one|another|the other),
+    ~comma if you would, behind you, after you, one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
@@ -59,6 +60,7 @@ TASK = f"""
 """
 GREETINGS = f"""
     [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
+    ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
@@ -112,7 +114,8 @@ REMARKS = """
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
     (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
-    (is|are|stands|lies) in (my|the) way,
+    (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
+    (has|have|needs|need) to (move|go),
     (is|are) (fine|good|ok|okay|alright),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
@@ -129,7 +132,8 @@ FOUND = """
 BY_NOW = "right now, now, at the moment, currently, still, already, just"
 """With how things are."""
 SOMEBODY_LEFT = f"""
-    (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left
+    (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left,
+    whoever (was|worked) here [before|last] [has] left
 """
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
@@ -159,7 +163,8 @@ LEADING_THEN = """
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
-    once (that is done|done), (when|once) you are [all] (done|finished), when (done|finished),
+    (once|when) (that is|it is|this is) done, once done, (when|once) you are [all] (done|finished),
+    when (done|finished),
     and then, subsequently, later
 """
 TRAILING_FIRST = "first, before, beforehand, before that, before (anything|everything) else"

@@ -89,7 +89,8 @@ ENSURE = """
 """
 ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up|set|set up|lay|prepare|sort)"
 NOTHING_IS = """
-    nothing (should|must|may|can|is to|has to) (be|stay|remain) [left] (in|on),
+    nothing (should|must|may|can|is to|has to) (be|stay|remain)
+    [left|lying|standing|sitting] (in|on),
     there (should|must|has to|needs to|is to) be nothing [left] (in|on),
     there (should|must|may|can) (not|no longer) be anything [left] (in|on),
     (ensure|make sure|see to it) [that] (nothing is|there is nothing) [left] (in|on),
