@@ -1421,3 +1421,13 @@ def bagel_counter() -> SceneState:
              on="fruit_bowl", inside="fruit_bowl"),
         item("banana", "capsule", (0.34, -0.32), size=(0.16, 0.04, 0.04), color="yellow"),
     )  # fmt: skip
+
+
+def lettered() -> SceneState:
+    """Three blocks called by a letter each."""
+    return scene(
+        item("A", "box", (0.35, 0.20), size=CUBE, color="red"),
+        item("B", "box", (0.35, 0.00), size=CUBE, color="blue"),
+        item("C", "box", (0.35, -0.20), size=CUBE, color="green"),
+        item("tray", "box", (0.55, -0.20), size=(0.2, 0.2, 0.01)),
+    )

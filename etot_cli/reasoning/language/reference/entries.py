@@ -285,9 +285,15 @@ def _twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
     return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
 
 
+def as_word(name: str) -> str:
+    """A letter that is all that something is called, as a word: "a_" is no article."""
+    return f"{name}_" if len(name) == 1 and name.isalpha() else name
+
+
 def object_entry(info: ObjectInfo) -> Entry:
     """The words of an object."""
-    called = [_words_of(info.label), _words_of(info.name)]
+    found = (_words_of(info.label), _words_of(info.name))
+    called = [(as_word(words[0]),) if len(words) == 1 else words for words in found]
     own: dict[str, None] = {}
     heads: dict[str, None] = {}
     numbers: dict[str, None] = {}
@@ -312,7 +318,7 @@ def object_entry(info: ObjectInfo) -> Entry:
         generic=generic,
         context=tuple(word for words in twins for word in words[:-1]),
         numbers=tuple(numbers),
-        exact=(info.name.casefold(),),
+        exact=tuple(dict.fromkeys((info.name.casefold(), as_word(info.name.casefold())))),
         color=info.color,
         info=info,
         called=tuple(dict.fromkeys(words for words in called if words)),

@@ -50,6 +50,13 @@ _SHORTEST = 3
 """Letters of the shortest word that a longer one is put together of ("cup board")."""
 
 
+_BEHIND_NAMES = (
+    r"(?=[,.;:!?]|$| (?:and|or|on|onto|in|into|to|from|off|next|beside|behind|near|between|with|at|"
+    r"is|goes|should|then|first|last|left|right)\b)"
+)
+"""What stands behind a name rather than behind an article."""
+
+
 class Vocabulary:
     """All entries of a scene, in scene order."""
 
@@ -210,6 +217,12 @@ class Vocabulary:
         for category, said in CALLED.items():
             if self.of_category(category):
                 text = re.sub(rf"\b{said}(?=s?\b)", category, text)
+        alone = [words[0] for e in self.objects if len(e.called) == 1 for words in e.called]
+        letters = {word[0] for word in alone if len(word) == 2 and word.endswith("_")}
+        for letter in sorted(letters):
+            # "Put a on b" where boxes are called A and B; "a cup" is no such thing.
+            told = _BEHIND_NAMES if letter in "ai" else ""
+            text = re.sub(rf"(?<![\w'~]){letter}(?![\w']){told}", f"{letter}_", text)
         for portion in (*PORTIONS, "piece"):
             # "Both rolls of tape" where they are but called tape
             if re.search(rf"\b{portion}s? of\b", text) and not self.is_known(portion):
