@@ -167,9 +167,9 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
 
 def is_warning(said: str) -> bool:
     """Whether this tells, behind "or", what else would happen ("it will fall")."""
-    return bool(_OR_WILL.match(said)) and not (_DOING - {"get"} | _ASKING - {"will", "would"}) & {
-        *said.split()
-    }
+    return bool(_OR_WILL.match(said)) and not (
+        _DOING - {"get"} | _ASKING - {"will", "would", "not"}
+    ) & {*said.split()}
 
 
 def is_comment(said: str, is_name: IsName) -> bool:

@@ -62,6 +62,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
     NounPhrase,
+    PickClause,
     PutClause,
     PutGroup,
     SwapClause,
@@ -129,6 +130,12 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
                 return None
     swap = SwapClause(things, placed=PutClause(tuple(groups)))
     return (replace(rest[0], clause=swap),)
+
+
+def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
+    """What stays so while something else is done; nothing is done with something in the hand."""
+    held = any(isinstance(said.clause, PickClause) for said in first)
+    return None if held else (*first, *rest)
 
 
 IN_THE_END = either(
@@ -284,6 +291,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     not_so(CHAIN),
+    sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(

@@ -10,7 +10,7 @@ from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, alt
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -191,6 +191,14 @@ EMPTY = either(
         build=lambda things, where: put_to(things, where) if things.are_any else None,
     ),
     sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=emptied),
+    sequence(
+        verbs.GET_OUT,
+        "everything, it all, all things",
+        "out of, off [of]",
+        sequence(NP_LIST, build=lambda nps: Things(nps) if nps[1:] else None),
+        optional(DIRECTED, None),
+        build=emptied,
+    ),
     sequence(
         "clear[ing], clean[ing], empty[ing]",
         ALL_THINGS,

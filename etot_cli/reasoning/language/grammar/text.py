@@ -214,6 +214,12 @@ def normalized(text: str) -> str:
 
 
 _PADDING = (
+    (r"(^|[.;,] )only then (?=\w)", r"\1then "),
+    (
+        r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
+        r"(two|three|four|five)\b(?! \w+s\b)",
+        r"the \1 of the \3 \2s",
+    ),
     (r"\b(mrs?|ms|dr)\. ", r"\1 "),
     (
         r"\b(?:(?:my|our|the) )?(?:gran(?:ny|dma|dpa|d)?|grand(?:mother|father)|mum|mom|dad|sister|"

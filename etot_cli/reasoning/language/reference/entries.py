@@ -73,6 +73,7 @@ class Entry:
         called: the words of its label and of its name.
         owner: the own words of what it is a part of.
         content: the noun behind the "of" of its label.
+        twins: other names, of several words each, of what is called as it is.
     """
 
     thing: Thing
@@ -87,6 +88,7 @@ class Entry:
     called: tuple[tuple[str, ...], ...] = ()
     owner: tuple[str, ...] = ()
     content: tuple[str, ...] = ()
+    twins: tuple[tuple[str, ...], ...] = ()
 
     def is_called(self, words: Sequence[str]) -> bool:
         """Whether words are its whole name or label."""
@@ -193,6 +195,10 @@ class Entry:
                 tastes = {*words} & PACKED
                 heads = heads | tastes if CATEGORIES["food"] <= members else heads - tastes
         return bool(heads & members) or bool(inner & members & PACKED)
+
+    def is_twin(self, words: Sequence[str]) -> bool:
+        """Whether words are another name of what is called as it is ("trash can" of a bin)."""
+        return tuple(words) in self.twins
 
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""
@@ -322,6 +328,7 @@ def object_entry(info: ObjectInfo) -> Entry:
         color=info.color,
         info=info,
         called=tuple(dict.fromkeys(words for words in called if words)),
+        twins=tuple(words for words in twins if len(words) > 1),
         content=tuple(words[-1] for words in called if "of" in words[1:]),
     )
 

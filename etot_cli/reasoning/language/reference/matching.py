@@ -253,7 +253,9 @@ def _match_in(
     """What fits among some entries, None when nothing does."""
     sifted = Sifted(graded_by(pool, head), head)
     called = (*adjectives, head, *((number,) if number else ()))
-    exactly = [item for item in sifted.graded if item[0].is_called(called)]
+    exactly = [item for item in sifted.graded if item[0].is_called(called)] or [
+        item for item in sifted.graded if item[0].is_twin(called)
+    ]
     if len(exactly) == 1 and len(called) > 1:
         every = tuple(entry for entry, _ in sifted.graded)
         named = tuple((word, every) for word in adjectives if is_selecting(word))

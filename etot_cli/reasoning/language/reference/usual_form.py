@@ -7,6 +7,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -71,6 +72,12 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             determiner = "all"  # whatever is so
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
+    if (
+        last in MASS_NOUNS
+        and phrase.determiner == "the"
+        and phrase.words[0].endswith(("most", "est"))
+    ):
+        return usual_form(replace(phrase, determiner="the 1"))  # "the leftmost fruit"
     if last in _OTHERS and len(phrase.words) == 1:
         of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
         left = replace(phrase, determiner="all other", words=())
