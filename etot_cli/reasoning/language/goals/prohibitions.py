@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import addresses, touches
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
@@ -127,11 +128,14 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         if len(out) == 1:  # "all as it is except for the cup; that goes on the tray"
             context.discourse.alone(out[0], Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
-    parts = [p for t in things if t.part for p in parts_of(context.scene, t)]
+    joints = sum(JOINT_NOUNS.values(), ())
+    drawers = all(matches_any(np.head, joints) for np in clause.things.phrases if np.words)
+    moving = {t: parts_of(context.scene, t) for t in things if t.part or drawers}
+    parts = [part for found in moving.values() for part in found]
     ways = [
         is_open(context.scene, p) or (is_closed(context.scene, p) and Keep.CLOSED) for p in parts
     ]
-    if clause.avoid is Avoid.MOVE and len(parts) == len(things) and all(ways):
+    if clause.avoid is Avoid.MOVE and all(moving.get(t) for t in things) and all(ways):
         for part, way in zip(parts, ways, strict=True):
             keep = Keep.OPEN if way is True else Keep.CLOSED
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))

@@ -74,7 +74,7 @@ _BEFORE = {
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
-_PRONOUNS = word_set("it they them that this those these")
+_PRONOUNS = word_set("it they them that this those these he him she her")
 
 
 @dataclass(frozen=True, slots=True)

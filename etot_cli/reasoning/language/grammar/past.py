@@ -83,6 +83,12 @@ _HAVING_DONE = either(
     ),
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
     sequence(
+        "(taken|took|lifted|pulled) (out|off|away)",
+        ALL_THINGS,
+        optional(SOURCE, None),
+        build=RemoveClause,
+    ),
+    sequence(
         "taken, took, removed, moved, cleared",
         ALL_THINGS,
         either(SOURCE, phrase("out, off, away", "")),

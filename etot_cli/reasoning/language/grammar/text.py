@@ -192,7 +192,7 @@ def normalized(text: str) -> str:
         r"look at \1,",
         text,
     )
-    text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 only ", text)
+    text = re.sub(r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just ", text)
     text = re.sub(
         r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3", text
     )
@@ -214,6 +214,21 @@ def normalized(text: str) -> str:
 
 
 _PADDING = (
+    # What alone "needs to go" there says nothing of what is there.
+    (
+        r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "
+        r"(?=(?:in|on|into|onto|to)\b)",
+        r"\1put just \2 ",
+    ),
+    (
+        r"(,?)(?: and)? (?:once|when|as soon as) (?:it is|they are) "
+        r"(?:there|in there|inside|in place),? "
+        rf"(?=(?:please )?(?:{_DOING})\b)",
+        r"\1 then ",
+    ),
+    (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
+    (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
+    (r"\bup (?=with\b)", ""),
     (r"(^|[.;,] )only then (?=\w)", r"\1then "),
     (
         r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
@@ -239,7 +254,7 @@ _PADDING = (
     ),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (
-        r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+)((?:,? and|,)(?: then)?) "
+        r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+?)((?: first)?(?:,? and|,)(?: then)?) "
         r"((?:(?:put|place) )?[^.,;]*?) (on|in)(?=[,.;!?]| and\b|$)",
         lambda said: _in_turn(said),
     ),

@@ -114,6 +114,7 @@ _STATED = either(
 )
 """How things are, said of them before something is asked of them."""
 _REMARK = either(
+    sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),

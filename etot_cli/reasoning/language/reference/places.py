@@ -317,16 +317,14 @@ class Places:
         self, places: Sequence[Place], beside: Sequence[Beside], themes: Sequence[int]
     ) -> list[Place]:
         """Places in a container beside what lies in it; none where that lies elsewhere."""
-        around = self._surroundings.container(beside)
-        if around is None or any(item.relation.landmarks == 0 for item in beside):
+        if any(item.relation.landmarks == 0 for item in beside):
             return []
-        near = self._surroundings.near(beside, themes, {around.name})
         found = []
         for place in places:
             options = () if place.where is None else self.discourse.referents[place.where].options
-            held = tuple(o for o in options if len(o) == 1 and o[0].name == around.name)
-            held = tuple(o for o in held if around.part in (None, o[0].part) or not o[0].part)
+            held = tuple(o for o in options if self._surroundings.are_in(o[0], beside))
             if place.where is not None and held and place.relation is Relation.INSIDE:
+                near = self._surroundings.near(beside, themes, {held[0][0].name})
                 referent = self.discourse.referents[place.where]
                 self.discourse.referents[place.where] = replace(referent, options=held)
                 found.append(replace(place, beside=near))

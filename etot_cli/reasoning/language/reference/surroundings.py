@@ -94,6 +94,22 @@ class Surroundings:
         (only, *more) = around or {None}
         return None if more else only
 
+    def are_in(self, thing: Thing, beside: Sequence[Beside]) -> bool:
+        """Whether a thing holds all that something is to be beside by then, what is called so and
+        is elsewhere left out of account.
+        """
+        found: set[Thing | None] = set()
+        for phrase in (np for item in beside for np in item.phrases):
+            if phrase.pronoun or not phrase.words:
+                return False
+            told = self._told_there(phrase, {thing.name})
+            with suppress(ReferenceProblem):
+                options = self._phrases.meaning(told, Role.ANY).options
+                found |= {self._holder(item) for item in things_in(options)}
+        names = {None if holder is None else holder.name for holder in found}
+        parts = {holder.part for holder in found if holder is not None}
+        return names == {thing.name} and (thing.part is None or parts <= {thing.part, None})
+
     def _holder(self, thing: Thing) -> Thing | None:
         """What a thing is in, or has been put into; None where it is in nothing."""
         discourse = self._discourse

@@ -18,6 +18,7 @@ WITHOUT_MEANING = f"""
     pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
+    [and] that is (it|all|everything),
     (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick), the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits),
