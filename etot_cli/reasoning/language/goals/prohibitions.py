@@ -129,7 +129,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             context.discourse.alone(out[0], Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
     joints = sum(JOINT_NOUNS.values(), ())
-    drawers = all(matches_any(np.head, joints) for np in clause.things.phrases if np.words)
+    drawers = all(np.words and matches_any(np.head, joints) for np in clause.things.phrases)
     moving = {t: parts_of(context.scene, t) for t in things if t.part or drawers}
     parts = [part for found in moving.values() for part in found]
     ways = [

@@ -262,7 +262,11 @@ _PADDING = (
     (r"\bback (?=(?:out of|off) )", ""),
     (r"\bup(?: there)? (?=in its place\b)", ""),
     (r"\b(?:up|down|over) there, (?=(?:on|in|next to) )", ""),
-    (r"(?<!in )(?<!on )(?<!is )(?<!are )\b(?:here|there) (?=(?:on|in) (?:the|my|our)\b)", ""),
+    (
+        r"(?<!in )(?<!on )(?<!is )(?<!are )(?<!from )(?<!of )\b(?:here|there) "
+        r"(?=(?:on|in) (?:the|my|our)\b)",
+        "",
+    ),
     (
         r"\b(?:to|in|on|at) (?:a|some) (?:spot|place|position|location) "
         r"(?=(?:between|next to|beside|near|behind|in front of|on|in|(?:to the )?(?:left|right) of)"
