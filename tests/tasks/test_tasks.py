@@ -22,7 +22,7 @@ PLANS = {
     "cupboard": ["[PICK UP, vase]", "[PUT ON, *]", "[OPEN, cupboard]"],
     "marker_and_mugs": ["[PICK UP, marker]", "[PUT INTO, pink_mug]"],
     "mugs_in_cupboard": [
-        *("[OPEN, cupboard]", "[PICK UP, red_mug] (horizontal)", "[PUT INTO, cupboard]"),
+        *("[PICK UP, red_mug] (horizontal)", "[PUT INTO, cupboard]"),
         *("[PICK UP, green_mug] (horizontal)", "[PUT INTO, cupboard]"),
         *("[PICK UP, blue_mug] (horizontal)", "[PUT INTO, cupboard]", "[CLOSE, cupboard]"),
     ],

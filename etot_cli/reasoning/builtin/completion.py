@@ -1,8 +1,9 @@
 """How a revision ends: with what the goal wants, and with nothing that nobody asked for.
 
 A branch has no steps for what already holds at its start. When a revision relocates such an object,
-its goal has to be restored at the end of the branch. What a revision left behind of an opening
-whose use has come earlier is dropped.
+its goal has to be restored at the end of the branch, and so has the place of what was brought out
+of somewhere only to be filled; what was in the hand is taken up again after that. What a revision
+left behind of an opening whose use has come earlier is dropped.
 """
 
 from __future__ import annotations
@@ -11,14 +12,18 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.choices import address_of
-from etot_cli.reasoning.builtin.goal import Goal, Open, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import is_at, is_open
-from etot_cli.reasoning.builtin.revision import Actions
+from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import container_address, is_open
+from etot_cli.reasoning.builtin.revision import Actions, purpose
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
-from etot_cli.world.state import SceneState
+from etot_cli.world.spatial import Whereabouts
+from etot_cli.world.state import DESK, SceneState, owner_of
+
+_Home = tuple[Relation, str, tuple[Whereabouts, ...]]
+"""In or on what an object is, and where there."""
 
 
 def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Branch:
@@ -36,10 +41,14 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     revised = replace(revised, actions=_without_last_openings(revised.actions, goals, start))
     sketch = Sketch(start, revised.actions)
     for name in _taken_away(revised.actions):
-        for relation, target in _wanted_from_start(name, goals, start):
-            if not sketch.holds(name, relation, target):
-                sketch.put(name, relation, target)
+        wanted = _wanted_from_start(name, goals, start)
+        for relation, target, where in wanted or _filled_elsewhere(name, revised.actions, start):
+            if not sketch.holds(name, relation, target, where):
+                sketch.put(name, relation, target, where=where)
                 break
+    held = purpose(revised.actions, start).held
+    if held is not None:
+        sketch.pick_up(held)  # it was put down for what had to go back
     actions = tuple(sketch.actions)
     opened = left_open(failed.branch.actions, start)
     if actions == revised.actions or check_plan(actions, start, opened):
@@ -67,22 +76,39 @@ def _taken_away(actions: Sequence[Action]) -> list[str]:
     return [name for name, put in puts.items() if name is not None and put.safe]
 
 
-def _wanted_from_start(
-    name: str, goals: Iterable[Goal], start: SceneState
-) -> list[tuple[Relation, str]]:
+def _filled_elsewhere(name: str, actions: Sequence[Action], start: SceneState) -> list[_Home]:
+    """Where a vessel was at the start that a branch brings elsewhere to put something into it; none
+    where it stood on the desk.
+    """
+    if not any(action.verb in PUTS and owner_of(action.target) == name for action in actions):
+        return []
+    state = start.states[name]
+    if state.inside is not None:
+        return [(Relation.INSIDE, container_address(start, state.inside) or state.inside, ())]
+    return [(Relation.ON, address, ()) for address in state.on[:1] if address != DESK]
+
+
+def _wanted_from_start(name: str, goals: Iterable[Goal], start: SceneState) -> list[_Home]:
     """Places of an object that hold at the start and that a goal asks for."""
-    thing = Thing(name)
-    found: dict[tuple[Relation, str], None] = {}
+    found: dict[_Home, None] = {}
     for goal in goals:
         for step in goal.steps:
-            if not isinstance(step, Put):
+            asked = step.what if isinstance(step, Put) else ()
+            if all(Thing(name) not in things_in(goal.referents[i].options) for i in asked):
                 continue
-            if all(thing not in things_in(goal.referents[index].options) for index in step.what):
-                continue
+            assert isinstance(step, Put)  # others ask for nothing here
             for place in step.places:
-                if place.where is None or place.beside:
-                    continue
-                for target in things_in(goal.referents[place.where].options):
-                    for address in address_of(target, place.relation, start):
-                        found[place.relation, address] = None
-    return [item for item in found if is_at(start, name, *item)]
+                where = tuple(_whereabouts(near, goal) for near in place.beside)
+                at = place.where
+                things = () if at is None else things_in(goal.referents[at].options)
+                addresses = [a for t in things for a in address_of(t, place.relation, start)]
+                if at is None:  # beside something, on what that stands on
+                    addresses = [*(start.states[name].on[:1] or (DESK,))]
+                found |= {(place.relation, address, where): None for address in addresses}
+    sketch = Sketch(start)
+    return [home for home in found if sketch.holds(name, *home)]
+
+
+def _whereabouts(near: Near, goal: Goal) -> Whereabouts:
+    marks = tuple(goal.referents[index].options[0][0].name for index in near.landmarks)
+    return Whereabouts(near.relation, marks, near.point, near.denied)

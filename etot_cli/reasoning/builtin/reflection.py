@@ -50,7 +50,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import PUTS, Action, Verb
+from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,
@@ -62,7 +62,7 @@ from etot_cli.world.state import (
 
 REACH_AROUND = 0.10
 """A part that opens this close to an object may keep the hand from it [m]."""
-_COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCKED})
+_COVERED = frozenset({CauseKind.NO_GRASP, CauseKind.UNREACHABLE, CauseKind.BLOCKED, CauseKind.SLIP})
 """Causes of a failed pick that an opened part may be behind, even when it is not named."""
 
 
@@ -310,6 +310,8 @@ class _Case:
         if toppled and owner_of(toppled[0]) == owner:
             return  # the container does not stand what is put into it
         yield from other_boards(self.failed)
+        if pick is not None and self._is_furniture_alone():
+            yield from regrasped(self.failed, pick, self.cause.kind)
         if self.action.safe and self.is_full:
             yield from other_places(self.failed, index)
             if self.action.target == DESK:
@@ -338,6 +340,26 @@ class _Case:
             yield from other_places(self.failed, index)
         if pick is not None:
             yield from regrasped(self.failed, pick, self.cause.kind)
+            yield from self._grasped_anew(pick)
+
+    def _grasped_anew(self, pick: int) -> Iterator[Correction]:
+        """What a level hand has taken out of somewhere is set down and grasped from above, where
+        that hand has no room.
+        """
+        level = self.actions[pick].pose is GraspPose.HORIZONTAL
+        name = self.acted
+        if not (level and self.is_full and name) or self.action.safe:
+            return
+        if not relocations(self.actions, name):
+            _, down = set_aside(self.failed, name)
+            above = replace(self.actions[pick], pose=GraspPose.VERTICAL)
+            anew = (*self.actions[: pick + 1], down, above, *self.actions[pick + 1 :])
+            yield Correction(anew, f"{name} is set down and grasped from above")
+
+    def _is_furniture_alone(self) -> bool:
+        """Whether only what cannot be moved is in the way."""
+        named = [name for name in self._culprits() if name in self.scene.infos]
+        return bool(named) and not any(self.scene.infos[name].movable for name in named)
 
     def _of_articulation(self) -> Iterator[Correction]:
         part = self.scene.part(self.action.target)

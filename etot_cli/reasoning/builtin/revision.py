@@ -157,7 +157,9 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
     """
     for index, action in enumerate(actions):
         again = [(other.verb, other.target) for other in actions[index : index + 3 : 2]]
-        if again == 2 * [(Verb.PICK_UP, action.target)] and actions[index + 1].safe:
+        waits = again == 2 * [(Verb.PICK_UP, action.target)] and actions[index + 1].safe
+        poses = {action.pose, actions[index + 2].pose if waits else None} - {None}
+        if waits and len(poses) < 2:  # else it is grasped anew
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:

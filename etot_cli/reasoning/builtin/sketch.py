@@ -190,6 +190,9 @@ class Sketch:
         while current != self._held:
             if current in self._moved:
                 relation, place = self._moved[current]
+                if relation is Relation.ON and owner_of(place) in self.scene.states:
+                    current = owner_of(place)  # it is in what that is in
+                    continue
                 around = place if relation is Relation.INSIDE else None
             else:
                 around = self.scene.states[current].inside

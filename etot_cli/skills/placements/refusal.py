@@ -78,7 +78,13 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
 def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:
     """Movable objects that may be in the way, and fastened ones; what stands there first."""
     name = request.attached.name
-    there = relief(belief, request.support, {name, *request.absent}).occupants()
+    there: list[str] = []
+    while more := [
+        other
+        for other in relief(belief, request.support, {name, *request.absent, *there}).occupants()
+        if other not in there
+    ]:
+        there += more  # of a stack only the top is seen from above
     met = tally.blockers.most(excluding=[name])
     own = (name, request.support.owner)
     found = [one for one in dict.fromkeys([*there, *met]) if one not in own]
