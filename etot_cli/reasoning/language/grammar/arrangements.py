@@ -337,6 +337,13 @@ SWAP = either(
     ),
     sequence(verbs.SWAP, THINGS, optional("around, round, over"), build=SwapClause),
     sequence(
+        verbs.WANTED,
+        "the (positions|places) of",
+        THINGS,
+        "[to be] (exchanged|swapped|switched)",
+        build=SwapClause,
+    ),
+    sequence(
         optional(f"have, let, make, can, could, may, {verbs.WANT}"),
         THINGS,
         verbs.CHANGE_PLACES,

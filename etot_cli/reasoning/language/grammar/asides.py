@@ -24,7 +24,14 @@ from etot_cli.reasoning.language.grammar.remarks import (
     is_warning,
     told_of_thing,
 )
-from etot_cli.reasoning.language.grammar.text import COLON, COMMA, sentences_of, spaced, words_in
+from etot_cli.reasoning.language.grammar.text import (
+    COLON,
+    COMMA,
+    QUESTION,
+    sentences_of,
+    spaced,
+    words_in,
+)
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -162,7 +169,8 @@ def _as_told(aside: _Clause, part: _Parted) -> str:
 
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
-    clauses = list(_clauses(" ".join(words_in(sentence)).replace(COLON, COMMA)))
+    said = (word for word in words_in(sentence) if word != QUESTION)
+    clauses = list(_clauses(" ".join(said).replace(COLON, COMMA)))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)

@@ -160,7 +160,8 @@ _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.B
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     """What "arrange everything so that …" asks for stands behind it."""
     vague = np.head in DESK_NOUNS or matches_any(np.head, THING_NOUNS)
-    return EnsureClause(said) if vague and len(np.words) == 1 and not np.modifiers else None
+    plain = (np.pronoun == "it" or (vague and len(np.words) == 1)) and not np.modifiers
+    return EnsureClause(said) if plain else None
 
 
 _ALL_SO = sequence(

@@ -108,7 +108,7 @@ _CLITICS = (
     (r"\blemme\b", "let me"),
     (r"\bwanna\b", "want to"),
     (r"\bgotta\b", "have to"),
-    (r"(?<=\w) \+ (?=\w)", " and "),
+    (r"(?<=\w) (?:\+|n|'n'?) (?=\w)", " and "),
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= been\b)", " has"),

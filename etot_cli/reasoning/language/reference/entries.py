@@ -202,7 +202,9 @@ class Entry:
 
     def has_word(self, word: str) -> bool:
         """Whether a word is one of its own, apart from number."""
-        return matches_any(word, self.own)
+        return matches_any(word, self.own) or (
+            word.endswith("en") and word.removesuffix("en") in self.own  # of wood, "wooden"
+        )
 
     def has_color(self, color: str) -> bool:
         """Whether it is of a basic colour, or is called by a word for it."""

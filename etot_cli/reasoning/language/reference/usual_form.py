@@ -137,6 +137,8 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         noun = (*whole.words[:-1], singular(whole.words[-1]))
         among = quantity_of(whole.determiner).count or 0
         modifiers = (*whole.modifiers, *rest)
+        if noun[-1] in MASS_NOUNS and phrase.determiner == "the":
+            phrase = replace(phrase, determiner="the 1")  # "the smaller of the two fruits"
         if one in LEVELS:
             # Of two open drawers the lower one may be the middle one of three.
             told, modifiers = told[:-1], (Modifier(Prep.SIDE, words=(LEVELS[one],)), *modifiers)

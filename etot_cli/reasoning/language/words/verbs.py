@@ -137,7 +137,8 @@ RELATIONS = """
 WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
-    i d like, (can|could|may|might) (i|we) have, let us have, (would|is) it [be] possible to have,
+    i d like, (can|could|may|might) (i|we) (have|get), let us have,
+    (would|is) it [be] possible to have,
     (i|we) would rather (have|see),
     what (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """
