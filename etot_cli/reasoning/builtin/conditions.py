@@ -90,11 +90,14 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
-        ReferenceProblem: one object is to be at two places.
+        ReferenceProblem: one object is to be at two places, or on or in itself.
     """
     wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
     implied: list[_Atom] = []
+    for name in places:
+        if name in map(owner_of, _around(name, places, scene)):
+            raise ReferenceProblem(name, "it would be on or in itself by way of others")
     for name, own in places.items():
         for atom in dict.fromkeys(own) if len({*own}) > 1 else ():
             others = [a for a in own if a != atom and a not in implied]

@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
     things_in,
 )
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
@@ -291,12 +292,23 @@ def remove(context: Context, clause: RemoveClause) -> None:
         return  # "put the pen in the cup to free the tray"
     if is_off_desk(context, things):
         discourse.swept |= {*themes}
+    if clause.stacked and len(themes) > 1:
+        # Of two that are to be taken apart the lower one stays.
+        upon = [i for i in themes if _stands_upon(context, i, themes)]
+        themes = upon or themes
     for index in themes if clause.source is None else ():
         choose_from_somewhere(context, index, stacked=clause.stacked)
     discourse.last_places = context.source(themes)
     for place in discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _stands_upon(context: Context, index: int, others: Sequence[int]) -> bool:
+    """Whether a thing stands on one of some others."""
+    below = {thing.name for thing in context.discourse.things(*others)}
+    things = context.discourse.things(index)
+    return any(carriers(context.scene, thing.name) & (below - {thing.name}) for thing in things)
 
 
 def _shared(

@@ -204,6 +204,7 @@ PUT = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
+    sequence(verbs.PUT, THINGS, "aside, to one side", build=lambda things: put_to(things, DOWN)),
     sequence(
         ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
     ),

@@ -153,13 +153,14 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
 
 
 _EACH = phrase("each, both, all")
-_TO_BE = f"to (be|end up|go|stand|sit|lie), {verbs.DONE}"
-_TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie), {verbs.DONE}, {verbs.BE_PUT}")
+_TO_BE = f"to (be|end up|go|stand|sit|lie|stay|remain), {verbs.DONE}"
+_TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     """What "arrange everything so that …" asks for stands behind it."""
-    vague = np.head in DESK_NOUNS or matches_any(np.head, THING_NOUNS)
+    general = (*THING_NOUNS, "stack", "tower", "pile")
+    vague = np.head in DESK_NOUNS or matches_any(np.head, general)
     plain = (np.pronoun == "it" or (vague and len(np.words) == 1)) and not np.modifiers
     return EnsureClause(said) if plain else None
 

@@ -214,6 +214,11 @@ def normalized(text: str) -> str:
 
 
 _PADDING = (
+    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
+    (r"\bhidden (?=(?:in|inside|behind) )", ""),
+    (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
+    (r"\bone (?:beside|next to) the other\b", "next to each other"),
+    (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
     # What alone "needs to go" there says nothing of what is there.
     (
         r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "

@@ -87,7 +87,10 @@ ENSURE = """
     (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
-ARRANGE = "(arrange|organize|organise|tidy|tidy up|clean up|set|set up|lay|prepare|sort)"
+ARRANGE = """
+    (arrange|rearrange|reverse|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
+    lay|prepare|sort)
+"""
 NOTHING_IS = """
     nothing (should|must|may|can|is to|has to) (be|stay|remain)
     [left|lying|standing|sitting] (in|on),
