@@ -1344,6 +1344,7 @@ def kids_room() -> SceneState:
         item("crayon", "pen", (0.30, 0.15), size=(0.015, 0.1, 0.015), color="pink"),
     )  # fmt: skip
 
+
 def block_lab() -> SceneState:
     """Blocks and bowls of their colours, two blocks of one colour, a tray, a cup."""
     return scene(
@@ -1359,6 +1360,7 @@ def block_lab() -> SceneState:
         item("white_tray", "box", (0.44, -0.35), size=(0.24, 0.18, 0.02), color="white"),
         cup("purple_cup", (0.40, 0.39), size=(0.09, 0.09, 0.1), color="purple"),
     )  # fmt: skip
+
 
 def cup_lab() -> SceneState:
     """Three cups in a row, cans on a tray, a bowl in a microwave."""
@@ -1380,6 +1382,7 @@ def cup_lab() -> SceneState:
              on="microwave", inside="microwave"),
     )  # fmt: skip
 
+
 def hobby_bench() -> SceneState:
     """Paints, brushes, a locomotive on a mat, a chest with an open drawer."""
     return scene(
@@ -1400,6 +1403,7 @@ def hobby_bench() -> SceneState:
              on="cutting_mat"),
         item("parts_bin", "bowl", (0.63, 0.02), size=(0.18, 0.18, 0.08), color="orange"),
     )  # fmt: skip
+
 
 def bagel_counter() -> SceneState:
     """A bowl in a microwave, fruit and a bagel, a plate."""

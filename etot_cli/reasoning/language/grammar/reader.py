@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.asides import SAYS_NOTHING
 from etot_cli.reasoning.language.grammar.input import Input, TooManyReadings
+from etot_cli.reasoning.language.grammar.normalizing import normalized
 from etot_cli.reasoning.language.grammar.sentences import readings
 from etot_cli.reasoning.language.grammar.spelling import (
     Correction,
@@ -21,7 +22,6 @@ from etot_cli.reasoning.language.grammar.text import (
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
-    normalized,
     sentences_of,
     spaced,
     words_in,

@@ -9,8 +9,8 @@ from functools import lru_cache
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.language.grammar.normalizing import normalized
 from etot_cli.reasoning.language.grammar.spelling import is_english
-from etot_cli.reasoning.language.grammar.text import normalized
 from etot_cli.reasoning.language.words.categories import (
     CATEGORIES,
     OF_A_SORT,

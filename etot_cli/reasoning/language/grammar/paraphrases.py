@@ -1,0 +1,258 @@
+"""Ways of speaking, put into the plain ones that the grammar knows, in order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.verbs import PAST
+
+HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
+_WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
+_NOTHING_ELSE = re.compile(
+    rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
+)
+"""Behind the things it stands for what is said of them behind their place."""
+_ALL_NAMED = re.compile(
+    r"(^|[.;\n]\s*)([^:.;\n]+): "
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
+    r" (?=(?:in|on|into|onto|to)\b)"
+)
+"""What a list before a colon names, all of it."""
+_MAY_GO = re.compile(
+    r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
+)
+"""A request in the words of a question."""
+_STATES = (
+    r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
+    r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
+    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine)"
+    r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
+)
+"""What "the door's" is followed by where it is no possessive."""
+_SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
+_ALL_DONE = re.compile(
+    r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
+    r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
+)
+"""After what is asked for, "once everything is in" is about that."""
+_DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
+_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
+_LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
+_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
+_PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
+
+_CLITICS = (
+    # As people type who leave apostrophes out; "its" and "ill" are words of their own.
+    (r"\b(that|there|what|where|who)s\b", r"\1's"),
+    (rf"\bits (?={_STATES})|\bits (?=a\b|the\b)", "it's "),
+    (r"\b(do|does|did|is|are|was|has|have|should|could|would|must|need)nt\b", r"\1n't"),
+    (r"\b(can|won)t\b", r"\1't"),
+    (r"\b(i)(m|ve)\b", r"\1'\2"),
+    (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
+    (r"\bu\b", "you"),
+    (r"\bw/?(?= (?:the|a|my|it|that|this|all|both)\b)", "with"),
+    (
+        r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
+        r" what (?=(?:is|are)\b)",
+        r"\1 that ",
+    ),
+    (r"\bfor me (?=(?:out|off|from|on|in|into|onto|to|and)\b)", ""),
+    (r"\bgimme\b", "give me"),
+    (r"\blemme\b", "let me"),
+    (r"\bwanna\b", "want to"),
+    (r"\bgotta\b", "have to"),
+    (r"(?<=\w) (?:\+|n|'n'?) (?=\w)", " and "),
+    (r"\bwon't\b", "will not"),
+    (r"'s got\b", " has"),
+    (r"(?<=\w)'s(?= been\b)", " has"),
+    (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
+    (r"\blet's\b", "let us"),
+    (r"\b(?:don't|dont)\b", "do not"),
+    (r"\bdoesn't\b", "does not"),
+    (r"\bdidn't\b", "did not"),
+    (r"\b(is|are|was|were|has|have|should|must|would|could|need)n't\b", r"\1 not"),
+    (r"\b(?:can't|cannot)\b", "can not"),
+    (r"'d(?= better\b)", " had"),
+    (r"\b(i|it|that|we|you|they)'d\b", r"\1 would"),
+    (r"\bi'm\b", "i am"),
+    (r"\b(i|you|we)'ll\b", r"\1 will"),
+    (r"\b(i|you|we|they)'ve\b", r"\1 have"),
+    (r"\b(you|we|they)'re\b", r"\1 are"),
+    (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
+    (r"(?<=\w)'s\b", " 's"),
+    (r"(?<=s)'(?=\s)", " 's"),
+)
+
+
+_DID = re.compile(
+    rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
+    r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
+)
+_WISHED = re.compile(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
+
+
+def _as_asked(wish: re.Match[str]) -> str:
+    """What is wished for in the past tense ("it would be nice if you took it and closed …")."""
+    asked = _DID.sub(lambda said: f"{said[1] or said[3]}{PAST[said[2] or said[4]]}", wish[0])
+    return re.sub(r"\bif you (?!(?:would|could|can|will)\b)", "if you would ", asked)
+
+
+def _in_turn(said: re.Match[str]) -> str:
+    """What goes "on" where something else went "off" of, or "in" where it went "out of"."""
+    away, where, joint, other, back = said.groups()
+    if {"lid", "cover", "cap"} & {*other.split()}:
+        return said[0]  # it goes on what was taken
+    place = {("off", "on"): f"on {where}", ("out of", "in"): f"in {where}"}.get((away, back), back)
+    return f"{away} {where}{joint} {other} {place}"
+
+
+_PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    *_CLITICS,
+    (_WISHED, _as_asked),
+    (r"\band/or\b", "or"),
+    (rf"\b(left|right|top|bottom|front|back|upper|lower)[{HYPHENS} ]most\b", r"\1most"),
+    (rf"\b(left|right)(?:[{HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
+    (r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", ""),
+    (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
+    (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
+    (r"\bnothing but\b", "only"),
+    (r"\bnothing (?:more|besides)\b", "nothing else"),
+    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+    (_MAY_GO, r"\1\2 should go"),
+    (r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " "),
+    (r"(?<=\w) please(?=, )", ""),
+    (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW})", r"the only \1 that is "),
+    (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
+    (r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it"),
+    (
+        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {_WHERE}|[,.;!?]|$)",
+        r"\1 in it",
+    ),
+    (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
+    (rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={_NAMED})", r"\1\2 "),
+    (r"\b(left|right) from (?=(?:the|my|that|this|it)\b)", r"\1 of "),
+    (r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be "),
+    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
+    (r"\bhidden (?=(?:in|inside|behind) )", ""),
+    (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
+    (r"\bone (?:beside|next to) the other\b", "next to each other"),
+    (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
+    # What alone "needs to go" there says nothing of what is there.
+    (
+        r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "
+        r"(?=(?:in|on|into|onto|to)\b)",
+        r"\1put just \2 ",
+    ),
+    (
+        r"(,?)(?: and)? (?:once|when|as soon as) (?:it is|they are) "
+        r"(?:there|in there|inside|in place),? "
+        rf"(?=(?:please )?(?:{_DOING})\b)",
+        r"\1 then ",
+    ),
+    (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
+    (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
+    (r"\bup (?=with\b)", ""),
+    (r"(^|[.;,] )only then (?=\w)", r"\1then "),
+    (
+        r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
+        r"(two|three|four|five)\b(?! \w+s\b)",
+        r"the \1 of the \3 \2s",
+    ),
+    (r"\b(mrs?|ms|dr)\. ", r"\1 "),
+    (
+        r"\b(?:(?:my|our|the) )?(?:gran(?:ny|dma|dpa|d)?|grand(?:mother|father)|mum|mom|dad|sister|"
+        r"brother|mother|father|wife|husband|teacher|nurse|guest|boss) 's (?=\w+)",
+        "my ",
+    ),
+    (r"\b(is|are) (open|closed|shut) again(?=,| and|[.;])", r"\1 \2"),
+    (
+        r"\b(?:everything|anything|all things|the things) (?:(?:that )?(?:you|one|i|we) can "
+        r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
+        "all the writing utensils",
+    ),
+    (
+        r"(^|[.;,] )((?:i |we )?need (?:the|my|our|a) [^,.;]*?), (?:it is|they are) "
+        r"((?:in|on|next to|beside|behind) [^,.;]*)(?=[,.;])",
+        r"\1\2 that is \3",
+    ),
+    # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
+    (
+        r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+?)((?: first)?(?:,? and|,)(?: then)?) "
+        r"((?:(?:put|place) )?[^.,;]*?) (on|in)(?=[,.;!?]| and\b|$)",
+        _in_turn,
+    ),
+    # What stands beside a place and says nothing of it: "back out of", "there on the table"
+    (r"\bback (?=(?:out of|off) )", ""),
+    (r"\bup(?: there)? (?=in its place\b)", ""),
+    (r"\b(?:up|down|over) there, (?=(?:on|in|next to) )", ""),
+    (
+        r"(?<!in )(?<!on )(?<!is )(?<!are )(?<!from )(?<!of )\b(?:here|there) "
+        r"(?=(?:on|in) (?:the|my|our)\b)",
+        "",
+    ),
+    (
+        r"\b(?:to|in|on|at) (?:a|some) (?:spot|place|position|location) "
+        r"(?=(?:between|next to|beside|near|behind|in front of|on|in|(?:to the )?(?:left|right) of)"
+        r"\b)",
+        "",
+    ),
+    (
+        r"(^|[.;,] )((?:just |please )*(?:open|close|shut) [^.;,]*?) over there(?=[.;,!?]|$)",
+        r"\1\2",
+    ),
+    (r"\b(first|second|third|fourth) (drawer|shelf|board|level) down\b", r"\1 \2 from the top"),
+    (
+        r"(?<!is )(?<!are )(?<!was )(?<!were )\balready (?=(?:in|on|inside) (?:the|my|it|there)\b)",
+        "",
+    ),
+    (r", (?:you choose|i do not (?:care|mind)|it does not matter) which(?: one)?(?=[,.;!?]|$)", ""),
+    (
+        r"\b((?:belongs?|goes|go|lives?) [^.;]*?), (?:so |and |please )*put (?:it|them) away"
+        r"(?=[.;!?]|$)",
+        r"\1",
+    ),
+    # "Everything in the box or in the bin" is everything in either.
+    (
+        r"\b(everything|all) (?:(?:that|which) is )?(in|on|from) ((?:the|my) (?:\w+ ){0,2}\w+) "
+        r"(?:and|or) (in|on|from) (?=(?:the|my)\b)",
+        r"\1 \2 \3 and everything \4 ",
+    ),
+    (rf"\bthe (?:piece|item) of (?=(?:{'|'.join(CATEGORIES)})\b)", "the 1 "),
+    (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
+    (rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 "),
+    (r"\bback down (?=(?:on|onto)\b)", "down "),
+    (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
+    (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
+    (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
+    (rf"(?<!is )(?<!are )\b{_ABOUT}", "that are loose"),
+    (_ALL_DONE, r"\1 all of that \2 \3"),
+    (r", (?:all|everything) (?:but|except(?: for)?) ", ", except "),
+    (r"\b(out of|from|off) there\b", r"\1 it"),
+    (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
+    (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
+    (
+        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*)\?",
+        r"look at \1,",
+    ),
+    (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
+    (r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3"),
+    (_NOTHING_ELSE, r"\1 \2, and nothing else"),
+    (r",\s*(?:please\s*,|right (?=at\b))", ", "),
+    (rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1"),
+    # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
+    (rf"\b{_PIECES} (?=(?:{'|'.join(CATEGORIES)})\b)", ""),
+    (rf"\b([a-z])[{HYPHENS}](?=[a-z]{{3}})", r"\1"),  # "t-shirt", "x-ray"
+    (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
+    (r"&", " and "),
+    (r"[-=]+>|\N{RIGHTWARDS ARROW}", " to "),
+)
+
+
+def in_plain_words(text: str) -> str:
+    """Text in lower case with what may be said in several ways said in one."""
+    for said, plain in _PARAPHRASES:
+        text = re.sub(said, plain, text)
+    return text
