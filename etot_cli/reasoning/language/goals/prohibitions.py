@@ -135,7 +135,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     ways = [
         is_open(context.scene, p) or (is_closed(context.scene, p) and Keep.CLOSED) for p in parts
     ]
-    if clause.avoid is Avoid.MOVE and all(moving.get(t) for t in things) and all(ways):
+    touching = clause.avoid in (Avoid.TOUCH, Avoid.MOVE)
+    if touching and all(moving.get(t) for t in things) and all(ways):
         for part, way in zip(parts, ways, strict=True):
             keep = Keep.OPEN if way is True else Keep.CLOSED
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))

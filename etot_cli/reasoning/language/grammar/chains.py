@@ -28,7 +28,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import (
+    BESIDES_SO,
+    OF_SEVERAL,
+    OPEN_OR_CLOSED,
+    SHUT,
+    states,
+)
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -38,7 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutClause,
     Things,
 )
-from etot_cli.reasoning.language.grammar.taking import is_emptying
+from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
@@ -77,6 +83,7 @@ _SO = sequence(
 JOINED = either(
     joint("and", either(COMMA, LIST), LEFT_SO),
     joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
+    joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
@@ -104,6 +111,7 @@ JOINED = either(
         ),
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
     joint("and", COMMA, timed(_SO)),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(

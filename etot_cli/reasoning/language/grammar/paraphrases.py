@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -28,7 +28,7 @@ _MAY_GO = re.compile(
 _STATES = (
     r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
-    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine)"
+    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead)"
     r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
@@ -43,6 +43,8 @@ _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
+
+_COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 _CLITICS = (
     # As people type who leave apostrophes out; "its" and "ill" are words of their own.
@@ -67,7 +69,7 @@ _CLITICS = (
     (r"(?<=\w) (?:\+|n|'n'?) (?=\w)", " and "),
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
-    (r"(?<=\w)'s(?= been\b)", " has"),
+    (r"(?<=\w)'s(?= (?:been|gone)\b)", " has"),
     (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
@@ -112,6 +114,25 @@ def _in_turn(said: re.Match[str]) -> str:
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     *_CLITICS,
     (_WISHED, _as_asked),
+    (
+        r",? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
+        r"(?: please)?)(?:\?|(?=[.!]*$))",
+        ".",
+    ),
+    (
+        r"\bi need (it|them|this|that) (?=(?:in a|later|soon|tomorrow|tonight|again)\b)",
+        r"i will need \1 ",
+    ),
+    (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    (r"\b((?:tidy|clean|clear) up) a (?:little|bit)\b", r"\1"),
+    (r"\b(is|are) (?:up|down|over) (?=(?:on|in) (?:the|my|our)\b)", r"\1 "),
+    (r"(^|[.;!?] )(?=(?:need|want|have|going) to [^.,;]*, (?:so|please|can|could)\b)", r"\1i "),
+    (r"\binside (?=with (?:the|my|our)\b)", "in "),
+    (
+        rf"\bthe ((?:{_COMPARED}) (?:{'|'.join(CATEGORIES)}))\b(?! (?:ones|things)\b)",
+        r"the 1 \1",
+    ),
+    (r"(\b(?:no|nothing|neither) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
     (r"\band/or\b", "or"),
     (rf"\b(left|right|top|bottom|front|back|upper|lower)[{HYPHENS} ]most\b", r"\1most"),
     (rf"\b(left|right)(?:[{HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
@@ -227,7 +248,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
     (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
-    (rf"(?<!is )(?<!are )\b{_ABOUT}", "that are loose"),
+    (rf"(?<!is )(?<!are )(?<!is just )(?<!are just )\b{_ABOUT}", "that are loose"),
     (_ALL_DONE, r"\1 all of that \2 \3"),
     (r", (?:all|everything) (?:but|except(?: for)?) ", ", except "),
     (r"\b(out of|from|off) there\b", r"\1 it"),

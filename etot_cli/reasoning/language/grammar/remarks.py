@@ -46,6 +46,7 @@ _HAPPENED = re.compile(
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
     r"|^will [^~]* (?:myself|ourselves)$"
+    r"|^keeps? (?:losing|forgetting|dropping|misplacing|missing|knocking|bumping|tripping)\b"
     r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
     r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|gave|sent|"

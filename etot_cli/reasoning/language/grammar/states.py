@@ -173,6 +173,17 @@ _ALL_SO = sequence(
 )
 
 
+BESIDES_SO = sequence(
+    "with",
+    NP_LIST,
+    silent(optional("[still|left] (lying|standing|sitting|resting)")),
+    _ALL_SO,
+    silent(optional("instead")),
+    build=lambda nps, said: _ensured(*said(nps)),
+)
+"""What is said of other things behind what is asked for (", with the cup on the desk")."""
+
+
 def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
     """What "go" or "belong" somewhere are several things."""
     odd = clause is not None and disagrees(clause.states[0].subjects, verb)

@@ -220,6 +220,11 @@ EMPTY = either(
     sequence(verbs.NOTHING_IS, ALL_THINGS, silent(optional(small_words.ANY_MORE)), build=emptied),
 )
 
+IS_EMPTY = sequence(
+    ALL_THINGS, verbs.BE, silent(optional("then, all")), manner.EMPTIED, build=emptied
+)
+"""What something is done for ("so that the box is empty")."""
+
 
 def _lidded(lids: Things) -> PutClause | None:
     """What was filled gets its lid ("put the lid on")."""

@@ -246,7 +246,8 @@ def _says_several(asked: Asked) -> bool:
         return False
     lone = (
         asked.role is Role.THEME
-        and not (phrase.modifiers or phrase.without or matches_any(words[-1], THING_NOUNS))
+        and not (phrase.modifiers or phrase.without or phrase.loose)
+        and not matches_any(words[-1], THING_NOUNS)
         and len(words) == len(match.entries) == 1
         and is_object(match.entries[0])
     )

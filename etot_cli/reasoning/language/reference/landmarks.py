@@ -128,6 +128,8 @@ def related(
         return [thing for thing in things if thing in order[: count or 1]], []
     else:
         chosen = order if plainly or prep not in (Prep.NEAR, Prep.NEXT_TO) else order[:1]
+        straight = [t for t in chosen if space.is_straight(prep, t, landmark_things, scene)]
+        chosen = straight if straight[1:] or (straight and quantity.every) else chosen
         chosen = [thing for thing in things if thing in chosen]
     others = [thing for thing in order if thing not in chosen]
     if chosen and prep in space.RELATIONS and (others or not plainly):

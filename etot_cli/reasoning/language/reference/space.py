@@ -241,6 +241,19 @@ def is_plainly(prep: Prep, thing: Thing, landmarks: Sequence[Thing], scene: Scen
     return holds(Whereabouts(relation, names), thing.name, scene)
 
 
+def is_straight(prep: Prep, thing: Thing, marks: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether what is before or behind a piece of furniture is not off to its side."""
+    fixed = [m for m in marks if m.name in scene.infos and not scene.infos[m.name].movable]
+    if prep not in (Prep.FRONT, Prep.BEHIND) or thing.name not in scene.infos:
+        return False
+    across = np.array([-scene.forward[1], scene.forward[0]])
+    return any(
+        abs(to_the_left(thing, scene) - to_the_left(mark, scene))
+        <= outline_of(mark.name, scene).extent(across)
+        for mark in fixed
+    )
+
+
 def ranked(
     prep: Prep, things: Iterable[Thing], landmarks: Sequence[Thing], scene: SceneState
 ) -> list[tuple[float, Thing]]:

@@ -84,7 +84,8 @@ WISH_IF = f"({WOULD_BE_NICE}) if, (i|we) wish [that]"
 """Before how things are to be."""
 FRAMES = f"""
     ({WISH_IF}) you (would|could|can|might), {GREETINGS}, actually, go, go and, go ahead and,
-    (can|could|would|will) (you|u), (can|could|will) i ask you to,
+    (can|could|would|will) (you|u),
+    (can|could|will|may|might) i [please] (ask|trouble|bother) you to,
     (would|will) you be able to, could you possibly,
     [is there] any (chance|way) [that] you (can|could|would),
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
@@ -96,7 +97,7 @@ FRAMES = f"""
     (how|what) about, why do not you, i (wonder|was wondering) if you (could|would),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
-    i ask you to, your job is, it is time to,
+    i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,
     mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
@@ -119,6 +120,9 @@ REMARKS = """
     (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
     (has|have|needs|need) to (move|go),
     (is|are) (fine|good|ok|okay|alright),
+    (has|have) gone (cold|warm|stale|soft|hard|bad|off|dry|flat|mouldy),
+    (is|are) (dead|blunt|dull|dusty|sticky|greasy|cracked|chipped|leaking|unwashed),
+    (is|are) [just] (lying|standing|sitting) (around|about),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned),
