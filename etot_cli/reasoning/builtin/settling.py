@@ -51,7 +51,8 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
                 steps.append(Put((step.what,), (place,), poses=step.poses, removal=True))
             continue
         if isinstance(step, Put) and step.removal:
-            last = [i for i in step.what if not _is_moved(goal, i, later)]
+            held = {s.what for s in later if isinstance(s, Pick)}
+            last = [i for i in step.what if not (i in held or _is_moved(goal, i, later))]
             before = goal.steps[:index]
             there = [i for i in last if not any(_moves(other, i) for other in before)]
             _check_removal(goal, there, scene)
@@ -84,7 +85,8 @@ def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneS
     names = _named(goal, (referent,))
     around = set[str]().union(*(bearers(scene, name) for name in names if name in scene.states))
     for step in later:
-        if isinstance(step, Put) and names & _named(goal, step.what):
+        what = step.what if isinstance(step, Put) else ()
+        if names & _named(goal, (step.what,) if isinstance(step, Pick) else what):
             return False
         if not isinstance(step, Open) and around & _named(goal, referents_of(step)):
             return True
@@ -99,7 +101,7 @@ def _goes_back(goal: Goal, referent: int, at: int, scene: SceneState) -> bool:
     moves = [
         step for step in goal.steps if isinstance(step, Put) and names & _named(goal, step.what)
     ]
-    if moves[0] is not goal.steps[at]:
+    if moves[0] is not goal.steps[at] or not moves[1:]:
         return False
     states = [scene.states[name] for name in names if name in scene.states]
     # What is inside something is on its floor, too.
