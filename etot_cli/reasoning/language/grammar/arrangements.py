@@ -349,6 +349,13 @@ SWAP = either(
         verbs.CHANGE_PLACES,
         build=SwapClause,
     ),
+    sequence(
+        noun_phrase,
+        verbs.CHANGE_PLACES,
+        "with",
+        noun_phrase,
+        build=lambda one, other: SwapClause(Things((one, other))),
+    ),
     sequence(verbs.SET_DOWN, _IN_ITS_PLACE, "and", _IN_ITS_PLACE, build=_exchanged),
     sequence(
         verbs.SET_DOWN,

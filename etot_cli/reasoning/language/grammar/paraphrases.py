@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 from etot_cli.reasoning.language.words.verbs import PAST
 
@@ -124,6 +125,23 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"i will need \1 ",
     ),
     (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    # What is stacked goes on what was put down just before, not beside it.
+    (
+        r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
+        r"(?:and |then )*(?:stack|pile) (?:the|my) [^.,;]*? (?:on|onto))(?: top of)? it\b",
+        r"\1 \2",
+    ),
+    (
+        r"\b((?:clear|empty|tidy) (?:the|my) [^.,;:]*?[,;:.] (?:and |then )*"
+        r"(?:(?:put|move|bring) )?)"
+        r"(?:what|whatever|everything|all)(?: that)? is (?:still )?there\b",
+        r"\1everything from it",
+    ),
+    (
+        rf"((?:^|[.;] )open (?:the|my) [^.,;]*?), (?!(?:and|then|{'|'.join(VERB_WORDS)})\b)"
+        r"([^.,;]*?) (in|inside)(?=,? (?:and )?(?:close|shut)\b)",
+        r"\1, put \2 \3",
+    ),
     (r"\b((?:tidy|clean|clear) up) a (?:little|bit)\b", r"\1"),
     (r"\b(is|are) (?:up|down|over) (?=(?:on|in) (?:the|my|our)\b)", r"\1 "),
     (r"(^|[.;!?] )(?=(?:need|want|have|going) to [^.,;]*, (?:so|please|can|could)\b)", r"\1i "),
