@@ -80,10 +80,14 @@ _SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
 )
-JOINED = either(
-    joint("and", either(COMMA, LIST), LEFT_SO),
+WITH_MORE_SO = either(
     joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
+)
+"""How other things are to be besides ("…, with the door closed")."""
+JOINED = either(
+    joint("and", either(COMMA, LIST), LEFT_SO),
+    WITH_MORE_SO,
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.chains import (
     CHAIN,
     GOES_ON,
     JOINED,
+    WITH_MORE_SO,
     Joined,
     chained,
     joint,
@@ -70,7 +71,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import EMPTY, emptied
+from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -87,7 +88,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     shared_out,
 )
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import small_words, verbs
 
 
 def _verbless(
@@ -142,7 +143,7 @@ IN_THE_END = either(
     plain(
         either(
             sequence(STATE, build=lambda state: EnsureClause((state,))),
-            sequence(ALL_THINGS, verbs.BE, manner.EMPTIED, build=emptied),
+            IS_EMPTY,
             BOTH_ARE,
             TOLD_APART,
         )
@@ -264,7 +265,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence(
         f"{small_words.TASK}, {small_words.END_STATE}",
         IN_THE_END,
-        some(joint("and", LIST, IN_THE_END), most=6),
+        some(either(joint("and", LIST, IN_THE_END), WITH_MORE_SO), most=6),
         build=chained,
     ),
     sequence(
