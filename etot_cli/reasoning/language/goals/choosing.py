@@ -71,9 +71,10 @@ def note_described(context: Context, group: PutGroup, places: Sequence[Place]) -
         near = [item for item in phrase.modifiers if item.prep in _BESIDE and not item.denied]
         if len(near) != 1 or near != [*phrase.modifiers]:
             continue
-        alone = things_in(
-            context.phrases.meaning(replace(phrase, modifiers=()), Role.THEME).options
-        )
+        alone: list[Thing] = []
+        with suppress(ReferenceProblem):  # "the tool behind the tin" is one of several tools
+            whole = replace(phrase, modifiers=())
+            alone = [*things_in(context.phrases.meaning(whole, Role.THEME).options)]
         if len(alone) == 1:
             at = context.discourse.things(*(p.where for p in places if p.where is not None))
             if any(touches(alone[0], place, context.scene) for place in at):

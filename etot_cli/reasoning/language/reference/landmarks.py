@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
@@ -27,6 +29,9 @@ ROUGHLY = ", though only roughly"
 """How a note ends about what stands to a landmark as is said, but not by the definition."""
 EQUAL = 1e-6
 """Distances that differ by no more, which is rounding, leave the choice open [m]."""
+
+AS_NEAR = 0.01
+"""What is farther by less is as near to the eye, and to a camera that measures to 5-10 mm [m]."""
 
 
 def related(
@@ -91,6 +96,8 @@ def related(
     borne = any(space.rests_on(m, thing, scene) for m in landmark_things for thing in supports)
     if prep in space.RELATIONS and borne and not (plainly or modifier.denied):
         return [], []  # "the table next to the phone" on a table says where on that
+    if prep is Prep.NEXT_TO and count == len(plainly) == 1 and quantity.definite:
+        _check_nearer(plainly[0], fitting, landmark_things[0], scene, text)
     fitting = plainly or fitting
     if modifier.denied:
         # "What is not on the tray" is no tray, either, nor in a bowl that is on it.
@@ -139,6 +146,21 @@ def related(
         roughly = "" if plainly else ROUGHLY
         notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
     return chosen, others if plainly else []
+
+
+def _check_nearer(
+    nearest: Thing, fitting: Sequence[Thing], mark: Thing, scene: SceneState, text: str
+) -> None:
+    """Whether what by its definition is next to a landmark is nearer to that than all others.
+
+    Raises:
+        AmbiguousReference: by so little that nobody would tell them apart so.
+    """
+    near = space.gap(nearest, mark, scene) + AS_NEAR
+    aside = [thing for thing in fitting if not space.carries(thing, mark, scene)]
+    also = [thing for thing in aside if space.gap(thing, mark, scene) < near]
+    if also[1:]:
+        raise AmbiguousReference(text, [thing.name for thing in also])
 
 
 def _has_owner(thing: Thing, scene: SceneState) -> bool:
