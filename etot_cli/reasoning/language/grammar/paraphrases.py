@@ -45,6 +45,8 @@ _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
+_SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
+_TABLE = r"(?:table|desk|bench|counter|workbench|worktop|tabletop)"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 _CLITICS = (
@@ -125,6 +127,14 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"i will need \1 ",
     ),
     (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    # "From the right to the left" is about the sides of the table.
+    (
+        rf"\b(?:away )?from the {_SIDE}(?: of the {_TABLE})?"
+        r"((?:,? and (?:then )?(?:put|place|bring|move|set|lay) (?:it|them))?) (?:over )?"
+        rf"(?:to|on|onto|at) the {_SIDE}(?: of the {_TABLE})?"
+        r"(?=[.,;!?]|$| and\b| then\b)",
+        r"on the \1 side of the table\2 to the \3 side of the table",
+    ),
     # What is stacked goes on what was put down just before, not beside it.
     (
         r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
