@@ -1,4 +1,4 @@
-"""Twelve random problems: the given plan is carried out and one is found, or there is none."""
+"""Thirteen random problems: the given plan is carried out and one is found, or there is none."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from tests.measure.check_random import try_problem
 
 SOLVABLE = (
     ("into", 0), ("into", 3), ("stack", 1), ("drawer", 8), ("handles", 2), ("order", 1),
-    ("relocation", 1), ("surfaces", 3), ("nesting", 3), ("lids", 1),
+    ("relocation", 1), ("surfaces", 3), ("nesting", 3), ("lids", 1), ("stack", 4),
 )  # fmt: skip
-"""Cheap ones of ten families."""
+"""Cheap ones of ten families; of stacks one that is lifted off, too."""
 INFEASIBLE = (0, 1)
 """Seeds: too wide for the hand, too large for the mouth."""
 LIMIT_S = 60.0

@@ -80,9 +80,14 @@ def _filled_elsewhere(name: str, actions: Sequence[Action], start: SceneState) -
     """Where a vessel was at the start that a branch brings elsewhere to put something into it; none
     where it stood on the desk.
     """
-    if not any(action.verb in PUTS and owner_of(action.target) == name for action in actions):
-        return []
+    filling = [
+        held
+        for held, action, _ in in_hand(actions, start.holding)
+        if action.verb is Verb.PUT_INTO and owner_of(action.target) == name
+    ]
     state = start.states[name]
+    if not filling or {*filling} & {*map(owner_of, state.on)}:
+        return []  # what is put into it is what it stood on
     if state.inside is not None:
         return [(Relation.INSIDE, container_address(start, state.inside) or state.inside, ())]
     return [(Relation.ON, address, ()) for address in state.on[:1] if address != DESK]
