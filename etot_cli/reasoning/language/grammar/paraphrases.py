@@ -73,6 +73,7 @@ _CLITICS = (
     (r"\bwon't\b", "will not"),
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= (?:been|gone)\b)", " has"),
+    (r"(?<=\w)'s(?= (?:getting|looking)\b)", " is"),
     (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
@@ -127,6 +128,52 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"i will need \1 ",
     ),
     (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    (
+        r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
+        rf"(?=on(?:to)? (?:the|my) {_TABLE})",
+        r"\1",
+    ),
+    (
+        r"\b((?:what|whatever|everything|all)(?: that)? is (?:in|on)) there "
+        r"(?=(?:on|in|into|onto|goes|to)\b)",
+        r"\1 it ",
+    ),
+    (
+        r"((?:^|[.;] )(?:shift|move|put) [^.,;:]*?) a (?:little )?bit: (?=put (?:it|them)\b)",
+        r"\1: ",
+    ),
+    (r"^((?:let us |please |(?:can|could) you )?(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
+    (
+        r"\bpass ((?:the|my) [^.,;]*?) (?:down |over |up )?"
+        r"(?=(?:from (?:the|my) [^.,;]*? )?(?:onto|into) )",
+        r"put \1 ",
+    ),
+    (r"\b(like|love|prefer) for (?=(?:the|my|both|all) )", r"\1 "),
+    (r"\b(standing|lying|sitting) over (?=(?:on|in|next|by) )", r"\1 "),
+    (r"\b(once|after|when) you (?:have )?got (it|them) out\b", r"\1 you have taken \2 out"),
+    (r"\b(bring|get) (?:me|us) (?=(?:the|my) [^.,;]*? (?:onto|into) )", r"\1 "),
+    (
+        r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) (?:afterwards|(?:at|in) the end)\b",
+        r"\1 should be \2 in the end",
+    ),
+    (
+        r"\bthe (left|right) corner,? (?:at|on|in|to|towards) the (front|back|rear)"
+        r"(?: (?:side|end))?\b",
+        r"the \2 \1 corner",
+    ),
+    (
+        r"\bthe (front|back|rear) corner,? (?:at|on|in|to|towards) the (left|right)(?: side)?\b",
+        r"the \1 \2 corner",
+    ),
+    (
+        r"\b(in|at|to|into) the corner,? (?:at|on|in) the "
+        r"((?:front|back|rear)(?: (?:left|right))?)\b",
+        r"\1 the \2 corner",
+    ),
+    (
+        r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
+        r"in the \2 \1 part",
+    ),
     # "From the right to the left" is about the sides of the table.
     (
         rf"\b(?:away )?from the {_SIDE}(?: of the {_TABLE})?"

@@ -40,11 +40,12 @@ _PERSON = re.compile(
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
     r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
-    r"|(?:do|will) not (?:need|use|miss))\b"
+    r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?)\b"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
     r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
+    r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
     r"|^will [^~]* (?:myself|ourselves)$"
     r"|^keeps? (?:losing|forgetting|dropping|misplacing|missing|knocking|bumping|tripping)\b"
     r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
@@ -133,7 +134,7 @@ _SO_NOTHING = re.compile(
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
     r"|(?:nobody|no one) [^~]+"
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
-    r"|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
+    r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
 _OR_WILL = re.compile(rf"^(?:{PEOPLE}|it|they) \w+")
 _COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")

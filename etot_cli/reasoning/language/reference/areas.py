@@ -40,7 +40,7 @@ def in_area(
     if modifier.denied:
         return [thing for thing in things if thing not in fitting]
     many = len(things) if count is None and not nearest else count or 1
-    if nearest or (len(things) == 1 and things[0].name != DESK):
+    if nearest:
         fitting = things
     if not fitting:
         names = ", ".join(thing.address for thing in things)

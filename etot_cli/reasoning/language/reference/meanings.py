@@ -282,11 +282,12 @@ class Meanings:
 
     def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
         """Whether "the big one" would tell one thing by its size or side of which there is one, or
-        "the one on the desk" what but told by its place where something else is.
+        "the red one" and "the one on the desk" what but told where something else is or was.
         """
         words = phrase.words
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
-        told = told or (bool(phrase.modifiers) and self.discourse.is_landmark(noun or ""))
+        by_more = bool(phrase.modifiers) or any(map(is_descriptive, words[:-1]))
+        told = told or (by_more and self.discourse.is_landmark(noun or ""))
         if phrase.head != "one" or not told or noun is None:
             return False
         every = replace(phrase, determiner="all", words=("ones",), modifiers=())

@@ -123,6 +123,8 @@ REMARKS = """
     (has|have) gone (cold|warm|stale|soft|hard|bad|off|dry|flat|mouldy),
     (is|are) (dead|blunt|dull|dusty|sticky|greasy|cracked|chipped|leaking|unwashed),
     (is|are) [just] (lying|standing|sitting) (around|about),
+    (is|are) getting (warm|cold|wet|dry|dirty|dusty|stale|soft|old),
+    (needs|need|has|have) to (stay|be kept|keep|remain) (warm|cold|cool|dry|fresh|clean|safe),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned),
