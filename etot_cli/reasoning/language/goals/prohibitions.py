@@ -198,6 +198,10 @@ def check_alone(
                 desk = (context.places.on_the_desk(),)
                 for index in rest:
                     add_put(context, (index,), desk, Grouping.ANY, removal=True)
+                # Nobody spoke of them: "the other ones" may be told a place yet.
+                discourse = context.discourse
+                discourse.put -= {*rest}
+                discourse.mentions = [m for m in discourse.mentions if m.referent not in rest]
                 if alone:
                     names = ", ".join(alone)
                     context.discourse.notes.append(f"{phrase.text!r}: {names} goes to the desk")
