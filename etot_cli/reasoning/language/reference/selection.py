@@ -170,7 +170,10 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
             if state.inside is None and state.on and DESK not in state.on and info.movable:
                 why = f"say whether {thing.name} is meant, too: it lies on {state.on[0]}"
                 raise ReferenceProblem(word, why, 3)
-            return state.inside is None and DESK in state.on
+            bears = bool(contents(scene, thing.name)) or any(
+                is_on(scene, name, thing.name) for name in scene.states
+            )  # what holds other things is put away itself
+            return state.inside is None and DESK in state.on and not bears
         case _:
             return state.toppled
 
