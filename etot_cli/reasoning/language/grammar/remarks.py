@@ -121,7 +121,12 @@ _PREDICATE = re.compile(
     r"(?= |$)"
 )
 _TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
-_BELONGS = re.compile(rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$")
+_NO_PLACE = re.compile(
+    rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
+    r"|^(?:is|are) getting \w+$"
+    r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
+    r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
+)
 _TELLING = (
     word_set("full free clear ready") | set(STATES) | set(LEVELS) | set(SIDES) | set(NUMBERS)
     | set(THING_NOUNS) | _REFERRING
@@ -245,7 +250,7 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
     predicate = _TOO_SO.sub("is so", predicate)
-    if _BELONGS.match(predicate):
+    if _NO_PLACE.match(predicate):
         return True
     found = _PREDICATE.match(predicate)
     if not found:
