@@ -26,6 +26,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
+from etot_cli.reasoning.language.grammar.passives import (
+    ALSO_DONE,
+    BEFORE_PLACED,
+    THEN_PLACED,
+    goes_on,
+)
 from etot_cli.reasoning.language.grammar.past import EARLIER
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, OPEN_OR_CLOSED, SHUT, states
@@ -85,6 +91,8 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     joint("emptied", LIST, PLACED),
+    joint("passive", timed(THEN_PLACED, ALSO_DONE)),
+    joint("passive, then", timed(BEFORE_PLACED)),
     joint(
         # "…, but first the cup on the tray"
         "and",
@@ -153,6 +161,9 @@ def then_done(clause: Reading) -> Reading:
     return (first, *clause[1:])
 
 
+_LATER = frozenset({"then", "counted", "passive, then"})
+
+
 def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
     before = done[-1].clause
@@ -174,6 +185,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):
             return None  # behind another verb that may be said of this, too
+        if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
+            return None
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if said == "mere and":
@@ -184,7 +197,7 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         if said == "after":
             done = (*clause, *then_done(done))
         else:
-            done = (*done, *(then_done(clause) if said in ("then", "counted") else clause))
+            done = (*done, *(then_done(clause) if said in _LATER else clause))
         if said == "counted":
             done = (*done[:-1], replace(done[-1], far_fetched=1))
     return done

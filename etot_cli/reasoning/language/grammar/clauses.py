@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
+from etot_cli.reasoning.language.grammar.passives import PASSIVE
 from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
@@ -208,7 +209,7 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO, PASSIVE),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

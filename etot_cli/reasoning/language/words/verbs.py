@@ -104,6 +104,8 @@ _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
 """
+BROUGHT = f"{_BROUGHT}, stood, positioned, returned"
+"""What was taken from one place is then, to another one."""
 _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
@@ -130,6 +132,16 @@ OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
 """Verbs that are not said of one thing."""
 BELONG = f"{MODAL}, (is|are) (kept|stored)"
 """Behind a thing, where something is its place."""
+TO_BE_DONE = f"({_MUST}) {_SIMPLY} (be|get), (can|could|may|might) {_SIMPLY} be"
+"""Before what is done with a thing, in the passive."""
+WERE_DONE = "is, are, was, were, (could|would|can|should) be"
+TAKEN_AWAY = """
+    removed, extracted, withdrawn,
+    (taken|lifted|pulled|moved|cleared|got|gotten|brought) (out|away),
+    (taken|lifted|got|gotten|brought) (off|down)
+"""
+TAKEN_FROM = "taken, lifted, pulled, moved, cleared, brought, got, gotten"
+TAKEN_UP = "picked up, lifted up, grabbed, fetched, retrieved, collected"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 RELATIONS = """
