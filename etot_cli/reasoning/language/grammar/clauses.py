@@ -10,6 +10,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
     NEITHER,
@@ -209,7 +210,18 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO, PASSIVE),
+        *(
+            KEEP_STILL,
+            KEEP_OUT,
+            AGAIN,
+            FILL,
+            HAND_OVER,
+            WISHED,
+            TOLD_APART,
+            BOTH_SO,
+            PASSIVE,
+            SET_TO_STATE,
+        ),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

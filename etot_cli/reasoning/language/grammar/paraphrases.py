@@ -248,6 +248,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
     (r"&", " and "),
     (r"[-=]+>|\N{RIGHTWARDS ARROW}", " to "),
+    (r"\s*=\s*(?=\w)", ": "),
 )
 
 

@@ -6,8 +6,15 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, some
-from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.states import PREDICATE, STATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
@@ -48,6 +55,12 @@ def _all_of_it(
     return EnsureClause(known) if several else None
 
 
+def _as_well(said: tuple[EnsureClause, ...]) -> EnsureClause | None:
+    """What is said of the same things, beside how others are to be."""
+    states = tuple(state for clause in said for state in clause.states)
+    return EnsureClause(states) if len(said) > 1 else None
+
+
 _SO = either(PREDICATE, phrase(manner.EMPTIED, _EMPTY))
 _HAS = sequence(
     "contain[s], hold[s], has, have",
@@ -78,6 +91,15 @@ _SUBJECT = either(
     sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
 )
 BOTH_ARE = sequence(NP_LIST, _IS, _MORE, _WITH_IT, build=_all_of_it)
+_IS_SO = either(
+    sequence(STATE, build=lambda state: EnsureClause((state,))),
+    sequence(
+        NP_LIST,
+        verbs.BE,
+        phrase(manner.EMPTIED, _EMPTY),
+        build=lambda nps, empty: EnsureClause(tuple(_of(nps, empty))),
+    ),
+)
 BOTH_LEFT_SO = sequence(NP_LIST, _SO, _MORE, _WITH_IT, build=_all_of_it)
 """The same as it is told how things are in the end, and without a verb."""
 BOTH_SO = either(
@@ -91,5 +113,14 @@ BOTH_SO = either(
         build=_all_of_it,
     ),
     sequence(verbs.ENSURE, NP_LIST, either(_IS, _HAS), _MORE, _WITH_IT, build=_all_of_it),
+    sequence(
+        verbs.ENSURE,
+        separated(
+            either(BOTH_ARE, _IS_SO),
+            sequence(LIST, optional("that")),
+            most=4,
+        ),
+        build=_as_well,
+    ),
 )
 """How the same things are to be in two ways."""

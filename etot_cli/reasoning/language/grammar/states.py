@@ -137,7 +137,12 @@ _NOT_FALLING = sequence(
     noun_phrase,
     build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
-STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds, has, have"))
+STATE = either(
+    being(f"{verbs.BE}, {verbs.LIES}"),
+    _STAYS,
+    _NOT_FALLING,
+    _contains("contains, holds, has, have"),
+)
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 

@@ -82,6 +82,11 @@ MAKE_ROOM = "mak(e|ing) [some|more|enough|a little] (room|space) (in|on|for)"
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
+SET_TO = """
+    set[ting], return[ing], bring[ing], switch[ing], restor(e|ing), chang(e|ing), mov(e|ing),
+    put[ting], get[ting]
+"""
+"""Before what is brought to a state."""
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
@@ -171,6 +176,7 @@ BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s],
     (is|are|be) left (lying|standing|sitting)
 """
+LIES = "lie[s], stand[s], sit[s], rest[s]"
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
