@@ -38,6 +38,11 @@ _ALL_DONE = re.compile(
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
 """After what is asked for, "once everything is in" is about that."""
+_BESIDE = (
+    r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
+)
+_SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
+_NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
@@ -119,6 +124,17 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
     (r"\bnothing but\b", "only"),
+    (
+        rf"[,.;]? \(?(?:(?:final|exact|target|its) )?(?:position|location|placement) ?: ?"
+        rf"(?={_BESIDE})",
+        ", ",
+    ),
+    # "All three, the cup, the mug and the plate, in the box"
+    (
+        rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
+        rf"(?:(?:,| -) (?={_WHERE})|(?=[.;!]|$))",
+        r"\1 things, \2, ",
+    ),
     (r"\bnothing (?:more|besides)\b", "nothing else"),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (_MAY_GO, r"\1\2 should go"),
