@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
     NounPhrase,
+    PickClause,
     PutClause,
     Things,
 )
@@ -85,6 +86,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    joint("purpose", small_words.PURPOSE, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
@@ -187,6 +189,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # behind another verb that may be said of this, too
         if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
             return None
+        before = done[-1].clause
+        if said == "purpose" and isinstance(before, PickClause) and before.wanted:
+            return None  # "I want the box to have the cup in it" does not ask for the box
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if said == "mere and":

@@ -100,7 +100,8 @@ _STAYS = sequence(
 )
 
 
-def _contains(verb: str) -> Parser:
+def containing(verb: str) -> Parser:
+    """What is in or on something, by a verb for that."""
     return sequence(
         noun_phrase,
         verb,
@@ -141,7 +142,7 @@ STATE = either(
     being(f"{verbs.BE}, {verbs.LIES}"),
     _STAYS,
     _NOT_FALLING,
-    _contains("contains, holds, has, have"),
+    containing("contains, holds, has, have"),
 )
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
@@ -275,20 +276,17 @@ ENSURE = either(
     ),
     sequence(
         # "The tray should have the cup in it and the box the plate"
-        _contains(verbs.CONTAIN),
+        containing(verbs.CONTAIN),
         some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
         build=lambda first, more: EnsureClause((first, *more)),
     ),
     sequence(
         verbs.WANTED,
-        noun_phrase,
-        "to (contain|hold|have)",
-        NP_LIST,
-        optional("in it"),
-        build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
+        containing("to (contain|hold|have)"),
+        build=lambda state: EnsureClause((state,)),
     ),
     valued(
-        either(sequence(optional("let"), _STAYS), _NOT_FALLING, _contains(verbs.CONTAIN)),
+        either(sequence(optional("let"), _STAYS), _NOT_FALLING, containing(verbs.CONTAIN)),
         lambda state: EnsureClause((state,)),
     ),
     quiet(

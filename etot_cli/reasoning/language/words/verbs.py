@@ -185,6 +185,10 @@ NOT_BE = """
     (does|do) not (belong|go)
 """
 CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
+CONTAINED = """
+    had, contained, held, has, contains, holds, could (have|contain|hold),
+    (was|were|is) holding
+"""
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
