@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.passives import (
     goes_on,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OF_SEVERAL, OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax import (
@@ -49,6 +50,7 @@ from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
 """Readings with what joins them."""
@@ -63,6 +65,12 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
 def once_more(things: Things) -> AgainClause | None:
     """Of which the same is asked for as before."""
     return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
+
+
+def _another(things: Things) -> AgainClause | None:
+    """What comes second; "the apple on the plate" rather goes there."""
+    placed = any(item.prep in (Prep.IN, Prep.ON) for np in things.phrases for item in np.modifiers)
+    return None if placed else once_more(things)
 
 
 def _also(things: Things) -> AgainClause:
@@ -143,8 +151,8 @@ JOINED = either(
         "then",
         LIST,
         after("first"),
-        plain(sequence(THINGS, build=once_more)),
-        small_words.COUNTED,
+        either(plain(sequence(THINGS, build=_another)), plain(VERBLESS)),
+        f"{small_words.COUNTED}, after that, afterward, later",
     ),
     joint(
         "then",
