@@ -23,22 +23,46 @@ from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, is_descript
 _ITS = "(the|its|their|an|a)"
 _STATE = "(state|position)"
 _IN_STATE = sequence(OPEN_OR_CLOSED, _STATE)
+_FINAL = optional("final, end, desired, required, target, resulting, wanted")
+_STATE_OF = "state, position, status"
+_ITS_STATE = either(
+    sequence(optional("the"), _FINAL, noun_phrase, _STATE_OF),
+    sequence(noun_phrase, "'s", _FINAL, _STATE_OF),
+    sequence(optional("the"), _FINAL, _STATE_OF, "of, for", noun_phrase),
+)
+
+
+def _so(np: NounPhrase, word: str) -> EnsureClause:
+    """How one thing is to be."""
+    return EnsureClause((State((_the(np),), word=word),))
+
+
+def _the(np: NounPhrase) -> NounPhrase:
+    """With the article that tables leave out."""
+    return np if np.determiner or np.owner else replace(np, determiner="the")
+
+
+_TO_STATE = either(
+    sequence("[back] to be, [back] to, to ~colon, ~colon", OPEN_OR_CLOSED),
+    sequence(f"[back] (to|into|in) {_ITS}, [back] (to|into)", _IN_STATE),
+)
 SET_TO_STATE = quiet(
     either(
         sequence(
             verbs.SET_TO,
             separated(
-                sequence(
-                    NP_LIST,
-                    either(
-                        sequence("[back] to be, [back] to, to ~colon, ~colon", OPEN_OR_CLOSED),
-                        sequence(f"[back] (to|into|in) {_ITS}, [back] (to|into)", _IN_STATE),
-                    ),
-                    build=lambda nps, word: State(nps, word=word),
-                ),
+                sequence(NP_LIST, _TO_STATE, build=lambda nps, word: State(nps, word=word)),
                 LIST,
             ),
             build=EnsureClause,
+        ),
+        sequence(verbs.SET_TO, _ITS_STATE, "to", OPEN_OR_CLOSED, build=_so),
+        *(
+            sequence(NP_LIST, *said, build=lambda nps, word: EnsureClause((State(nps, word=word),)))
+            for said in (
+                (verbs.TO_BE_DONE, f"[then] ({verbs.SET_TO_BE})", _TO_STATE),
+                (verbs.MODAL, f"in {_ITS}", _IN_STATE),
+            )
         ),
         sequence(
             verbs.KEEP,
@@ -50,17 +74,6 @@ SET_TO_STATE = quiet(
     )
 )
 """What is to be brought to a state ("return the drawer to the closed state")."""
-_FINAL = optional("final, end, desired, required, target, resulting, wanted")
-_STATE_OF = "state, position, status"
-
-
-def _so(np: NounPhrase, word: str) -> EnsureClause:
-    """How one thing is to be; tables have no articles."""
-    return EnsureClause((State((_the(np),), word=word),))
-
-
-def _the(np: NounPhrase) -> NounPhrase:
-    return np if np.determiner or np.owner else replace(np, determiner="the")
 
 
 def _each(kind: NounPhrase, items: tuple[tuple[NounPhrase, str], ...]) -> EnsureClause | None:
@@ -74,6 +87,7 @@ _WHICH = {*LEVELS, *SIDES}
 
 
 def _of(kind: NounPhrase, np: NounPhrase) -> NounPhrase:
+    """A thing of a kind where only what tells it from the others is said ("top" of "drawers")."""
     told = np.words and all(w in _WHICH or is_descriptive(w) for w in np.words)
     words = (*np.words, *kind.words[:-1], singular(kind.head)) if told else np.words
     return _the(replace(np, words=words, text=" ".join(words) if told else np.text))
@@ -83,14 +97,7 @@ _ARE = either(COMMA, "is, should be, must be, to be")
 _ROWS = separated(sequence(noun_phrase, optional(_ARE), OPEN_OR_CLOSED), LIST)
 STATE_NAMED = quiet(
     either(
-        *(
-            sequence(*said, _ARE, OPEN_OR_CLOSED, build=_so)
-            for said in (
-                (optional("the"), _FINAL, noun_phrase, _STATE_OF),
-                (noun_phrase, "'s", _FINAL, _STATE_OF),
-                (optional("the"), _FINAL, _STATE_OF, "of, for", noun_phrase),
-            )
-        ),
+        sequence(_ITS_STATE, _ARE, OPEN_OR_CLOSED, build=_so),
         sequence(
             NP_LIST,
             COLON,

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, STATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     Destination,
     EnsureClause,
     NounPhrase,
@@ -23,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import contents_of
+from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -56,9 +58,24 @@ def _all_of_it(
 
 
 def _as_well(said: tuple[EnsureClause, ...]) -> EnsureClause | None:
-    """What is said of the same things, beside how others are to be."""
+    """What is said of the same things, beside how others are to be. What is taken out may be what
+    goes elsewhere, and a door is closed behind it; nothing goes into what is to be empty.
+    """
     states = tuple(state for clause in said for state in clause.states)
-    return EnsureClause(states) if len(said) > 1 else None
+    emptied = {np.head for state in states for np in _emptied(state)}
+    filled = (np for state in states for item in state.destinations for np in item.targets)
+    if not said[1:] or (emptied and any(np.pronoun or np.head in emptied for np in filled)):
+        return None
+    done = states
+    if emptied:
+        done = tuple(sorted(states, key=lambda state: (not _emptied(state), bool(state.word))))
+    return None if done != states and [*pronouns(states)] else EnsureClause(done)
+
+
+def _emptied(state: State) -> list[NounPhrase]:
+    """What is to be empty."""
+    held = (item for np in state.subjects for item in np.modifiers if item.words == CLEARED)
+    return [np for item in held for np in item.phrases]
 
 
 _SO = either(PREDICATE, phrase(manner.EMPTIED, _EMPTY))

@@ -87,6 +87,7 @@ SET_TO = """
     put[ting], get[ting]
 """
 """Before what is brought to a state."""
+SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
