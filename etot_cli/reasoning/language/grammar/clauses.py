@@ -10,7 +10,6 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
     NEITHER,
@@ -42,7 +41,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
-from etot_cli.reasoning.language.grammar.passives import PASSIVE
 from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
@@ -210,18 +208,7 @@ _ELSEWHERE = sequence(
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(
-            KEEP_STILL,
-            KEEP_OUT,
-            AGAIN,
-            FILL,
-            HAND_OVER,
-            WISHED,
-            TOLD_APART,
-            BOTH_SO,
-            PASSIVE,
-            SET_TO_STATE,
-        ),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

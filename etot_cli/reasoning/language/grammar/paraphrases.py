@@ -156,6 +156,12 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
     (r"\bone (?:beside|next to) the other\b", "next to each other"),
     (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
+    # What "should first be taken out", and put elsewhere then
+    (
+        r"^((?:the|my|our|both|all)\b[^.;!?,]*? (?:should|must|has to|have to|needs? to|"
+        r"is to|are to)) first (?=be\b)",
+        r"first, \1 ",
+    ),
     # What alone "needs to go" there says nothing of what is there.
     (
         r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "

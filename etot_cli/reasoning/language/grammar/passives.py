@@ -20,9 +20,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.states import being
+from etot_cli.reasoning.language.grammar.states import STATE, being
 from etot_cli.reasoning.language.grammar.syntax import (
-    UNSAID,
     Destination,
     EnsureClause,
     NounPhrase,
@@ -33,7 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE, is_emptying
-from etot_cli.reasoning.language.grammar.trees import pronouns
+from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -41,6 +40,7 @@ _TAKEN = either(
     sequence(verbs.TAKEN_AWAY, optional(SOURCE, None), build=lambda source: (False, source)),
     sequence(verbs.TAKEN_FROM, SOURCE, build=lambda source: (False, source)),
     sequence(verbs.TAKEN_UP, optional(SOURCE, None), build=lambda source: (True, source)),
+    phrase("lifted, grasped, gripped", (True, None)),
 )
 
 
@@ -54,6 +54,7 @@ PASSIVE = sequence(
         sequence(ALL_THINGS, verbs.TO_BE_DONE),
         sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
         sequence(verbs.CAN, ALL_THINGS, "[please] be"),
+        sequence(verbs.ENSURE, ALL_THINGS, "is, are, get[s], (has|have) been"),
         sequence(small_words.WISH_IF, EMPTY_WORDS, ALL_THINGS, verbs.WERE_DONE),
     ),
     _TAKEN,
@@ -61,7 +62,7 @@ PASSIVE = sequence(
 )
 """What is to be taken from somewhere."""
 _ON = sequence(
-    after("be", "were", *words_of((verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP))),
+    after("be", "is", "were", *words_of((verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP))),
     silent(either(LIST, sequence(optional(phrase("~comma")), THEN))),
 )
 """Behind what is to be taken, in the passive."""
@@ -74,6 +75,7 @@ def _put_on(where: tuple[Destination, ...]) -> PutClause:
 THEN_PLACED = sequence(
     _ON,
     optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    EMPTY_WORDS,
     verbs.BROUGHT,
     DESTINATIONS,
     build=_put_on,
@@ -91,6 +93,7 @@ ALSO_DONE = sequence(
             being(verbs.WERE),
             build=lambda state: EnsureClause((state,)),
         ),
+        sequence("that", STATE, build=lambda state: EnsureClause((state,))),
     ),
 )
 """What else is to be done, the verb left out ("…, the pen taken out of it"), or wished."""

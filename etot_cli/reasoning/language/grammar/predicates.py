@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
@@ -32,11 +33,15 @@ _EMPTY = "empty"
 _THERE = {"in it": Toward.INSIDE, "inside": Toward.INSIDE, "on it": Toward.ON, "": Toward.INSIDE}
 
 
-def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> list[State | None]:
+def _empty(nps: tuple[NounPhrase, ...]) -> list[State]:
+    down = (Destination(Toward.HERE, word="down"),)
+    return [State((contents_of(np, Prep.FROM),), down) for np in nps]
+
+
+def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> Sequence[State | None]:
     """What a predicate says of its subjects."""
     if predicate == _EMPTY:
-        down = (Destination(Toward.HERE, word="down"),)
-        return [State((contents_of(np, Prep.FROM),), down) for np in nps]
+        return _empty(nps)
     match predicate:
         case ("has", held, where):
             return [State(held, (Destination(_THERE[where], (np,)),)) for np in nps[:1]]
@@ -113,8 +118,8 @@ _IS_SO = either(
     sequence(
         NP_LIST,
         verbs.BE,
-        phrase(manner.EMPTIED, _EMPTY),
-        build=lambda nps, empty: EnsureClause(tuple(_of(nps, empty))),
+        manner.EMPTIED,
+        build=lambda nps: EnsureClause(tuple(_empty(nps))),
     ),
 )
 BOTH_LEFT_SO = sequence(NP_LIST, _SO, _MORE, _WITH_IT, build=_all_of_it)

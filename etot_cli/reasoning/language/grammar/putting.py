@@ -43,7 +43,6 @@ from etot_cli.reasoning.language.grammar.successions import (
     put_in_turn,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
-    UNSAID,
     Beside,
     Destination,
     NounPhrase,
@@ -55,6 +54,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
+from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.grammar.word_order import (
     ALONG_WITH,
     BROUGHT,

@@ -29,10 +29,6 @@ class Modifier:
     """Where on the desk."""
 
 
-UNSAID = "it or them"
-"""The pronoun of what is left out behind a verb ("take the cup out and place on the tray")."""
-
-
 @dataclass(frozen=True, slots=True)
 class NounPhrase:
     """Determiner, words (the last one is the head), modifiers; or a pronoun.

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
+from etot_cli.reasoning.language.grammar.passives import PASSIVE
 from etot_cli.reasoning.language.grammar.states import PREDICATE, being, containing, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
@@ -41,6 +42,7 @@ def _wanted_in_hand(things: Things) -> PickClause | None:
 
 
 WANTED = either(
+    PASSIVE,
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
         DESTINATIONS,

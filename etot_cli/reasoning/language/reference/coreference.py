@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import UNSAID
+from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.modified import names_of_things
