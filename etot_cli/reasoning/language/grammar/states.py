@@ -100,15 +100,16 @@ _STAYS = sequence(
 )
 
 
+_THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
+
+
+def _holds(np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward) -> State:
+    return State(held, (Destination(toward, (np,)),))
+
+
 def containing(verb: str) -> Parser:
     """What is in or on something, by a verb for that."""
-    return sequence(
-        noun_phrase,
-        verb,
-        NP_LIST,
-        optional(either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON)), None),
-        build=lambda np, held, toward: State(held, (Destination(toward or Toward.INSIDE, (np,)),)),
-    )
+    return sequence(noun_phrase, verb, NP_LIST, optional(_THEREIN, Toward.INSIDE), build=_holds)
 
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
@@ -286,7 +287,12 @@ ENSURE = either(
         build=lambda state: EnsureClause((state,)),
     ),
     valued(
-        either(sequence(optional("let"), _STAYS), _NOT_FALLING, containing(verbs.CONTAIN)),
+        either(
+            sequence(optional("let"), _STAYS),
+            _NOT_FALLING,
+            containing(verbs.CONTAIN),
+            sequence(noun_phrase, verbs.END_WITH, NP_LIST, _THEREIN, build=_holds),
+        ),
         lambda state: EnsureClause((state,)),
     ),
     quiet(

@@ -140,7 +140,8 @@ SOMEBODY_LEFT = f"""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
 SAME_AGAIN = """
-    do the same [thing] (with|for|to), [and] so (do|does|should|must), as (do|does),
+    do [exactly|just] the same [thing] (with|for|to), ditto (with|for),
+    [and] so (do|does|should|must), as (do|does),
     the same [thing] (goes|applies|holds) for, likewise [for|with], [the] same [thing] (with|for),
     (do|treat) likewise (with|for), repeat [(this|that|it)] (with|for)
 """

@@ -185,7 +185,8 @@ NOT_BE = """
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
-CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
+CONTAIN = f"({_MUST}) (contain|hold|have|end up (containing|holding)), keep[s]"
+END_WITH = f"({_MUST}) end [up] with"
 CONTAINED = """
     had, contained, held, has, contains, holds, could (have|contain|hold),
     (was|were|is) holding
