@@ -42,6 +42,8 @@ def _without(out: Modifier, rest: Reading) -> Reading | None:
     tray, the cup on it").
     """
     (first, *more) = out.phrases
+    if first.pronoun == "it":
+        return None  # "not it would be nice if …" leaves nothing out
 
     def told(np: NounPhrase) -> NounPhrase:
         upon = (

@@ -26,7 +26,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
+from etot_cli.reasoning.language.grammar.passives import (
+    ALSO_DONE,
+    BEFORE_PLACED,
+    THEN_PLACED,
+    goes_on,
+)
 from etot_cli.reasoning.language.grammar.past import EARLIER
+from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import (
     BESIDES_SO,
@@ -41,6 +48,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     EnsureClause,
     NounPhrase,
+    PickClause,
     PutClause,
     Things,
 )
@@ -48,6 +56,7 @@ from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
 """Readings with what joins them."""
@@ -62,6 +71,12 @@ def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
 def once_more(things: Things) -> AgainClause | None:
     """Of which the same is asked for as before."""
     return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
+
+
+def _another(things: Things) -> AgainClause | None:
+    """What comes second; "the apple on the plate" rather goes there."""
+    placed = any(item.prep in (Prep.IN, Prep.ON) for np in things.phrases for item in np.modifiers)
+    return None if placed else once_more(things)
 
 
 def _also(things: Things) -> AgainClause:
@@ -90,12 +105,15 @@ JOINED = either(
     WITH_MORE_SO,
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    joint("purpose", small_words.PURPOSE, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
     joint("emptied", LIST, PLACED),
+    joint("passive", timed(THEN_PLACED, ALSO_DONE)),
+    joint("passive, then", timed(BEFORE_PLACED)),
     joint(
         # "…, but first the cup on the tray"
         "and",
@@ -145,8 +163,8 @@ JOINED = either(
         "then",
         LIST,
         after("first"),
-        plain(sequence(THINGS, build=once_more)),
-        small_words.COUNTED,
+        either(plain(sequence(THINGS, build=_another)), plain(VERBLESS)),
+        f"{small_words.COUNTED}, after that, afterward, later",
     ),
     joint(
         "then",
@@ -163,6 +181,9 @@ def then_done(clause: Reading) -> Reading:
     if first.order is Order.SAID:
         first = replace(first, order=Order.THEN)
     return (first, *clause[1:])
+
+
+_LATER = frozenset({"then", "counted", "passive, then"})
 
 
 def _maybe_denied(done: Reading, clause: Reading) -> Reading:
@@ -186,6 +207,11 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):
             return None  # behind another verb that may be said of this, too
+        if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
+            return None
+        before = done[-1].clause
+        if said == "purpose" and isinstance(before, PickClause) and before.wanted:
+            return None  # "I want the box to have the cup in it" does not ask for the box
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
         if said == "mere and":
@@ -196,7 +222,7 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         if said == "after":
             done = (*clause, *then_done(done))
         else:
-            done = (*done, *(then_done(clause) if said in ("then", "counted") else clause))
+            done = (*done, *(then_done(clause) if said in _LATER else clause))
         if said == "counted":
             done = (*done[:-1], replace(done[-1], far_fetched=1))
     return done

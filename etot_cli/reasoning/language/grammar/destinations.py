@@ -302,4 +302,15 @@ _directed = either(
     sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),
     _to,
 )
+_directed = either(
+    _directed,
+    sequence(
+        # "Out of the box and onto the table, somewhere left of the cup"
+        _directed,
+        OPTIONAL_COMMA,
+        optional(places.SOMEWHERE),
+        BESIDES,
+        build=lambda surface, found: replace(surface, beside=found),
+    ),
+)
 DIRECTED = sequence(optional(small_words.EITHER), separated(_directed, small_words.OR, most=5))

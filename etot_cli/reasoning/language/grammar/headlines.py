@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -110,6 +111,7 @@ LEFT_SO = Rule(
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
         UNTOUCHED,
         BOTH_LEFT_SO,
+        STATE_NAMED,
     )
 )
 """How something is to be in the end ("drawer shut")."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -106,6 +107,7 @@ _BY_HANDLE = either(
 )
 MOVE = either(
     _PLAIN_MOVE,
+    SET_TO_STATE,
     quiet(_BY_HANDLE),
     *(
         sequence(THINGS, said, build=lambda things, opens=opens: MoveClause(things, opens))

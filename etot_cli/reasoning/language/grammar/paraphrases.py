@@ -39,6 +39,11 @@ _ALL_DONE = re.compile(
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
 """After what is asked for, "once everything is in" is about that."""
+_BESIDE = (
+    r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
+)
+_SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
+_NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
@@ -215,6 +220,17 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
     (r"\bnothing but\b", "only"),
+    (
+        rf"[,.;]? \(?(?:(?:final|exact|target|its) )?(?:position|location|placement) ?: ?"
+        rf"(?={_BESIDE})",
+        ", ",
+    ),
+    # "All three, the cup, the mug and the plate, in the box"
+    (
+        rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
+        rf"(?:(?:,| -) (?={_WHERE})|(?=[.;!]|$))",
+        r"\1 things, \2, ",
+    ),
     (r"\bnothing (?:more|besides)\b", "nothing else"),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (_MAY_GO, r"\1\2 should go"),
@@ -236,6 +252,12 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
     (r"\bone (?:beside|next to) the other\b", "next to each other"),
     (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
+    # What "should first be taken out", and put elsewhere then
+    (
+        r"^((?:the|my|our|both|all)\b[^.;!?,]*? (?:should|must|has to|have to|needs? to|"
+        r"is to|are to)) first (?=be\b)",
+        r"first, \1 ",
+    ),
     # What alone "needs to go" there says nothing of what is there.
     (
         r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "
@@ -344,6 +366,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
     (r"&", " and "),
     (r"[-=]+>|\N{RIGHTWARDS ARROW}", " to "),
+    (r"\s*=\s*(?=\w)", ": "),
 )
 
 

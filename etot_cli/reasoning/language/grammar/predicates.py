@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, some
-from etot_cli.reasoning.language.grammar.states import PREDICATE, state_of
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.states import PREDICATE, STATE, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
+    CLEARED,
     Destination,
     EnsureClause,
     NounPhrase,
@@ -16,6 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import contents_of
+from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -23,11 +33,15 @@ _EMPTY = "empty"
 _THERE = {"in it": Toward.INSIDE, "inside": Toward.INSIDE, "on it": Toward.ON, "": Toward.INSIDE}
 
 
-def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> list[State | None]:
+def _empty(nps: tuple[NounPhrase, ...]) -> list[State]:
+    down = (Destination(Toward.HERE, word="down"),)
+    return [State((contents_of(np, Prep.FROM),), down) for np in nps]
+
+
+def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> Sequence[State | None]:
     """What a predicate says of its subjects."""
     if predicate == _EMPTY:
-        down = (Destination(Toward.HERE, word="down"),)
-        return [State((contents_of(np, Prep.FROM),), down) for np in nps]
+        return _empty(nps)
     match predicate:
         case ("has", held, where):
             return [State(held, (Destination(_THERE[where], (np,)),)) for np in nps[:1]]
@@ -46,6 +60,27 @@ def _all_of_it(
     known = tuple(state for state in states if state is not None)
     several = len(said) > 1 and len(known) == len(states) and alone
     return EnsureClause(known) if several else None
+
+
+def _as_well(said: tuple[EnsureClause, ...]) -> EnsureClause | None:
+    """What is said of the same things, beside how others are to be. What is taken out may be what
+    goes elsewhere, and a door is closed behind it; nothing goes into what is to be empty.
+    """
+    states = tuple(state for clause in said for state in clause.states)
+    emptied = {np.head for state in states for np in _emptied(state)}
+    filled = (np for state in states for item in state.destinations for np in item.targets)
+    if not said[1:] or (emptied and any(np.pronoun or np.head in emptied for np in filled)):
+        return None
+    done = states
+    if emptied:
+        done = tuple(sorted(states, key=lambda state: (not _emptied(state), bool(state.word))))
+    return None if done != states and [*pronouns(states)] else EnsureClause(done)
+
+
+def _emptied(state: State) -> list[NounPhrase]:
+    """What is to be empty."""
+    held = (item for np in state.subjects for item in np.modifiers if item.words == CLEARED)
+    return [np for item in held for np in item.phrases]
 
 
 _SO = either(PREDICATE, phrase(manner.EMPTIED, _EMPTY))
@@ -78,6 +113,15 @@ _SUBJECT = either(
     sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
 )
 BOTH_ARE = sequence(NP_LIST, _IS, _MORE, _WITH_IT, build=_all_of_it)
+_IS_SO = either(
+    sequence(STATE, build=lambda state: EnsureClause((state,))),
+    sequence(
+        NP_LIST,
+        verbs.BE,
+        manner.EMPTIED,
+        build=lambda nps: EnsureClause(tuple(_empty(nps))),
+    ),
+)
 BOTH_LEFT_SO = sequence(NP_LIST, _SO, _MORE, _WITH_IT, build=_all_of_it)
 """The same as it is told how things are in the end, and without a verb."""
 BOTH_SO = either(
@@ -91,5 +135,14 @@ BOTH_SO = either(
         build=_all_of_it,
     ),
     sequence(verbs.ENSURE, NP_LIST, either(_IS, _HAS), _MORE, _WITH_IT, build=_all_of_it),
+    sequence(
+        verbs.ENSURE,
+        separated(
+            either(BOTH_ARE, _IS_SO),
+            sequence(LIST, optional("that")),
+            most=4,
+        ),
+        build=_as_well,
+    ),
 )
 """How the same things are to be in two ways."""

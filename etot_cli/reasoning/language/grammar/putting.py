@@ -54,6 +54,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
+from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.grammar.word_order import (
     ALONG_WITH,
     BROUGHT,
@@ -290,7 +291,7 @@ PUT = either(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
         either(INTO, ONTO),
-        build=lambda where: put_to(Things((NounPhrase(pronoun="it", text="it"),)), (where,)),
+        build=lambda where: put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),

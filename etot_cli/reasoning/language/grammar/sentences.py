@@ -212,7 +212,7 @@ _WITH_MORE_BEFORE_IT = either(
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(verbs.STACK, NAMED, COMMA, PLACED, build=each_sorted),
-    sequence("[let us] (start|begin) with", NAMED, COMMA, CHAIN, build=about),
+    sequence("[let us] (start|begin) with", NAMED, _AND, CHAIN, build=about),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
     sequence(
         verbs.TIDY,

@@ -100,14 +100,16 @@ _STAYS = sequence(
 )
 
 
-def _contains(verb: str) -> Parser:
-    return sequence(
-        noun_phrase,
-        verb,
-        NP_LIST,
-        optional(either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON)), None),
-        build=lambda np, held, toward: State(held, (Destination(toward or Toward.INSIDE, (np,)),)),
-    )
+_THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
+
+
+def _holds(np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward) -> State:
+    return State(held, (Destination(toward, (np,)),))
+
+
+def containing(verb: str) -> Parser:
+    """What is in or on something, by a verb for that."""
+    return sequence(noun_phrase, verb, NP_LIST, optional(_THEREIN, Toward.INSIDE), build=_holds)
 
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
@@ -137,7 +139,12 @@ _NOT_FALLING = sequence(
     noun_phrase,
     build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
-STATE = either(being(verbs.BE), _STAYS, _NOT_FALLING, _contains("contains, holds, has, have"))
+STATE = either(
+    being(f"{verbs.BE}, {verbs.LIES}"),
+    _STAYS,
+    _NOT_FALLING,
+    containing("contains, holds, has, have"),
+)
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
@@ -281,20 +288,22 @@ ENSURE = either(
     ),
     sequence(
         # "The tray should have the cup in it and the box the plate"
-        _contains(verbs.CONTAIN),
+        containing(verbs.CONTAIN),
         some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
         build=lambda first, more: EnsureClause((first, *more)),
     ),
     sequence(
         verbs.WANTED,
-        noun_phrase,
-        "to (contain|hold|have)",
-        NP_LIST,
-        optional("in it"),
-        build=lambda np, held: EnsureClause((State(held, (Destination(Toward.INSIDE, (np,)),)),)),
+        containing("to (contain|hold|have)"),
+        build=lambda state: EnsureClause((state,)),
     ),
     valued(
-        either(sequence(optional("let"), _STAYS), _NOT_FALLING, _contains(verbs.CONTAIN)),
+        either(
+            sequence(optional("let"), _STAYS),
+            _NOT_FALLING,
+            containing(verbs.CONTAIN),
+            sequence(noun_phrase, verbs.END_WITH, NP_LIST, _THEREIN, build=_holds),
+        ),
         lambda state: EnsureClause((state,)),
     ),
     quiet(

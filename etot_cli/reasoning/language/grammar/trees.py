@@ -8,6 +8,8 @@ from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.words.places import Prep
 
 _CONTRASTS = (Prep.CONTRAST, Prep.EXCEPT)
+UNSAID = "it or them"
+"""The pronoun of what is left out behind a verb ("take the cup out and place on the tray")."""
 
 
 def nodes(tree: object) -> Iterator[object]:

@@ -15,7 +15,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import PREDICATE, being, state_of
+from etot_cli.reasoning.language.grammar.passives import PASSIVE
+from etot_cli.reasoning.language.grammar.states import PREDICATE, being, containing, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     Destination,
@@ -41,6 +42,7 @@ def _wanted_in_hand(things: Things) -> PickClause | None:
 
 
 WANTED = either(
+    PASSIVE,
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
         DESTINATIONS,
@@ -73,16 +75,17 @@ WANTED = either(
         verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
     ),
 )
+_WERE_SO = either(being(verbs.WERE), containing(verbs.CONTAINED))
 WISHED = sequence(
     small_words.WISH_IF,
     EMPTY_WORDS,
-    being(verbs.WERE),
+    _WERE_SO,
     some(
         sequence(
             LIST,
             optional("if, that"),
             either(
-                being(verbs.WERE),
+                _WERE_SO,
                 # "… and the vase on the plate": the verb is left out.
                 sequence(NP_LIST, PREDICATE, build=state_of),
             ),

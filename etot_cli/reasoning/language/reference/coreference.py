@@ -7,6 +7,7 @@ from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.modified import names_of_things
@@ -16,6 +17,7 @@ from etot_cli.reasoning.language.reference.spoken_of import (
     are_several,
     clauses_of,
     fits,
+    left_unsaid,
     mentioned_in,
     openable,
 )
@@ -53,6 +55,8 @@ def antecedents(
         AmbiguousReference: several things are as likely to be meant.
         ReferenceProblem: nothing before it fits.
     """
+    if pronoun == UNSAID:
+        pronoun = left_unsaid(discourse, text)
     if pronoun in PLURAL_PRONOUNS:
         found = _plural(discourse, role, text)
         if not found:

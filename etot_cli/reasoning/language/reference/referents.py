@@ -25,6 +25,9 @@ from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, i
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
+_BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two")
+"""Of two things of a sort; where there are more, of those that were spoken of."""
+
 
 class Referents(Meanings):
     """Turns phrases into referents of a discourse, which grows."""
@@ -78,7 +81,15 @@ class Referents(Meanings):
         if holder is not None:
             self.discourse.mention_again(holder, role)
             return (holder,)
-        resolved = self._by_now(phrase, role)
+        try:
+            resolved = self._by_now(phrase, role)
+        except ReferenceProblem:
+            found = self._two_spoken_of(phrase, role, excluded)
+            if not found:
+                raise
+            for index in found:
+                self.discourse.mention_again(index, role)
+            return found
         if role is Role.THEME and not phrase.modifiers and phrase.words[-1:] == (resolved.noun,):
             resolved = self._as_before(resolved)
         whole = phrase.words[-1:] == ("everything",) or phrase.text.startswith("what")
@@ -173,6 +184,26 @@ class Referents(Meanings):
             len(option) == 1 and can_be(option[0], role, self.scene) for option in things
         )
         return spoken if both and not set(spoken) & set(excluded) else ()
+
+    def _two_spoken_of(
+        self, phrase: NounPhrase, role: Role, excluded: Sequence[int]
+    ) -> tuple[int, ...]:
+        """The two of more things of a sort that were spoken of, for "both drawers"."""
+        if phrase.modifiers or phrase.determiner not in _BOTH:
+            return ()
+        fitting: set[Thing] = set()
+        with suppress(ReferenceProblem):
+            options = self.meaning(replace(phrase, determiner="all"), role).options
+            fitting = {thing for option in options for thing in option}
+        spoken: dict[Thing, int] = {}
+        for mention in self.discourse.mentions:
+            options = self.discourse.referents[mention.referent].options
+            found = {*things_in(options)} & fitting
+            if found and (len(options) > 1 or len(options[0]) > 1):
+                return ()
+            spoken |= dict.fromkeys(found, mention.referent)
+        two = len(spoken) == 2 and not {*spoken.values()} & {*excluded}
+        return tuple(spoken.values()) if two else ()
 
     def _note_where_they_are(self, phrase: NounPhrase, role: Role, themes: Sequence[int]) -> None:
         """What things stand on or lie in is none of the others that they go to ("the other plate"),

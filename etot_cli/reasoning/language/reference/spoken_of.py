@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.roles import Role, can_be
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 
 TARGETS = (Role.SURFACE, Role.CONTAINER, Role.PLACE)
@@ -73,3 +74,21 @@ def are_several(discourse: Discourse, referent: int) -> bool:
 def fits(discourse: Discourse, referent: int, role: Role) -> bool:
     """Whether a referent may stand for something that can play a role."""
     return any(can_be(thing, role, discourse.scene) for thing in discourse.things(referent))
+
+
+def left_unsaid(discourse: Discourse, text: str) -> str:
+    """The pronoun for what is left out behind a verb: what was acted on last, be it several things.
+
+    Raises:
+        AmbiguousReference: something was emptied, and may be meant as well as what was in it.
+    """
+    said = [mention for mention in discourse.mentions if mention.role is Role.THEME]
+    latest = [mention for mention in said if mention.clause == said[-1].clause]
+    named = [discourse.referents[mention.referent].text for mention in latest]
+    if any(name.startswith(("everything in ", "everything on ")) for name in named):
+        raise AmbiguousReference(text, [*named, *(name.split(maxsplit=2)[2] for name in named)])
+    several = len({mention.referent for mention in latest}) > 1 or any(
+        mention.several or (are_several(discourse, mention.referent) and not mention.whatever)
+        for mention in latest
+    )
+    return "them" if several else "it"

@@ -146,8 +146,10 @@ SOMEBODY_LEFT = f"""
 DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
 """Before such a thing."""
 SAME_AGAIN = """
-    do the same (with|for|to), [and] so (do|does|should|must), as (do|does),
-    the same (goes|applies|holds) for, likewise [for|with], same (with|for)
+    do [exactly|just] the same [thing] (with|for|to), ditto (with|for),
+    [and] so (do|does|should|must), as (do|does),
+    the same [thing] (goes|applies|holds) for, likewise [for|with], [the] same [thing] (with|for),
+    (do|treat) likewise (with|for), repeat [(this|that|it)] (with|for)
 """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"
@@ -191,7 +193,8 @@ INSTEAD = "instead, instead of (it|them|that|those)"
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
-JOINTS = "but, ~comma and, ~comma but, to, in order to, so as to, by, ~comma so"
+JOINTS = "but, ~comma and, ~comma but, by, ~comma so"
+PURPOSE = "to, in order to, so as to"
 THEN_JOINTS = """
     [and] when (that is|you have) done [that], [and] once that is done,
     [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],

@@ -82,6 +82,12 @@ MAKE_ROOM = "mak(e|ing) [some|more|enough|a little] (room|space) (in|on|for)"
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
 PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
+SET_TO = """
+    set[ting], return[ing], bring[ing], switch[ing], restor(e|ing), chang(e|ing), mov(e|ing),
+    put[ting], get[ting]
+"""
+"""Before what is brought to a state."""
+SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
@@ -104,6 +110,8 @@ _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
 """
+BROUGHT = f"{_BROUGHT}, stood, positioned, returned"
+"""What was taken from one place is then, to another one."""
 _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
@@ -130,6 +138,16 @@ OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
 """Verbs that are not said of one thing."""
 BELONG = f"{MODAL}, (is|are) (kept|stored)"
 """Behind a thing, where something is its place."""
+TO_BE_DONE = f"({_MUST}) {_SIMPLY} (be|get), (can|could|may|might) {_SIMPLY} be"
+"""Before what is done with a thing, in the passive."""
+WERE_DONE = "is, are, was, were, (could|would|can|should) be"
+TAKEN_AWAY = """
+    removed, extracted, withdrawn,
+    (taken|lifted|pulled|moved|cleared|got|gotten|brought) (out|away),
+    (taken|lifted|got|gotten|brought) (off|down)
+"""
+TAKEN_FROM = "taken, lifted, pulled, moved, cleared, brought, got, gotten"
+TAKEN_UP = "picked up, lifted up, grabbed, fetched, retrieved, collected"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 RELATIONS = """
@@ -159,6 +177,7 @@ BE = """
     is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s],
     (is|are|be) left (lying|standing|sitting)
 """
+LIES = "lie[s], stand[s], sit[s], rest[s]"
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
@@ -166,7 +185,12 @@ NOT_BE = """
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
-CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
+CONTAIN = f"({_MUST}) (contain|hold|have|end up (containing|holding)), keep[s]"
+END_WITH = f"({_MUST}) end [up] with"
+CONTAINED = """
+    had, contained, held, has, contains, holds, could (have|contain|hold),
+    (was|were|is) holding
+"""
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"

@@ -1,0 +1,106 @@
+"""Rules for what is to be done, put in the passive ("the cup should be removed from the shelf")."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import (
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+    THEN,
+    after,
+)
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.states import STATE, being
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    EnsureClause,
+    NounPhrase,
+    PickClause,
+    PutClause,
+    RemoveClause,
+    Things,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.taking import SOURCE, is_emptying
+from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
+from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.patterns import words_of
+
+_TAKEN = either(
+    sequence(verbs.TAKEN_AWAY, optional(SOURCE, None), build=lambda source: (False, source)),
+    sequence(verbs.TAKEN_FROM, SOURCE, build=lambda source: (False, source)),
+    sequence(verbs.TAKEN_UP, optional(SOURCE, None), build=lambda source: (True, source)),
+    phrase("lifted, grasped, gripped", (True, None)),
+)
+
+
+def _taken(things: Things, said: tuple[bool, Any]) -> PickClause | RemoveClause:
+    up, source = said
+    return PickClause(things.taken_from(source)) if up else RemoveClause(things, source)
+
+
+PASSIVE = sequence(
+    either(
+        sequence(ALL_THINGS, verbs.TO_BE_DONE),
+        sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+        sequence(verbs.CAN, ALL_THINGS, "[please] be"),
+        sequence(verbs.ENSURE, ALL_THINGS, "is, are, get[s], (has|have) been"),
+        sequence(small_words.WISH_IF, EMPTY_WORDS, ALL_THINGS, verbs.WERE_DONE),
+    ),
+    _TAKEN,
+    build=_taken,
+)
+"""What is to be taken from somewhere."""
+_ON = sequence(
+    after("be", "is", "were", *words_of((verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP))),
+    silent(either(LIST, sequence(optional(phrase("~comma")), THEN))),
+)
+"""Behind what is to be taken, in the passive."""
+
+
+def _put_on(where: tuple[Destination, ...]) -> PutClause:
+    return put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), where)
+
+
+THEN_PLACED = sequence(
+    _ON,
+    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    EMPTY_WORDS,
+    verbs.BROUGHT,
+    DESTINATIONS,
+    build=_put_on,
+)
+"""Where what was taken goes then ("… and placed on the tray")."""
+BEFORE_PLACED = sequence(OPTIONAL_COMMA, "before being", verbs.BROUGHT, DESTINATIONS, build=_put_on)
+ALSO_DONE = sequence(
+    _ON,
+    either(
+        sequence(ALL_THINGS, _TAKEN, build=_taken),
+        sequence(ALL_THINGS, verbs.BROUGHT, DESTINATIONS, build=put_to),
+        sequence(
+            after("if"),
+            optional("if, that"),
+            being(verbs.WERE),
+            build=lambda state: EnsureClause((state,)),
+        ),
+        sequence("that", STATE, build=lambda state: EnsureClause((state,))),
+    ),
+)
+"""What else is to be done, the verb left out ("…, the pen taken out of it"), or wished."""
+
+
+def goes_on(before: Any, clause: Any) -> bool:
+    """Whether a clause without its verb goes on what is asked for in the passive."""
+    unsaid = isinstance(clause, PutClause) and UNSAID in pronouns(clause)
+    taken = isinstance(before, PickClause | RemoveClause) and not is_emptying(before)
+    return taken or not unsaid
