@@ -144,7 +144,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 it ",
     ),
     (
-        r"((?:^|[.;] )(?:shift|move|put) [^.,;:]*?) a (?:little )?bit: (?=put (?:it|them)\b)",
+        r"\b((?:shift|move|put) [^.,;:]*?) a (?:little )?bit: (?=put (?:it|them)\b)",
         r"\1: ",
     ),
     (r"^((?:let us |please |(?:can|could) you )?(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
@@ -200,7 +200,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1everything from it",
     ),
     (
-        rf"((?:^|[.;] )open (?:the|my) [^.,;]*?), (?!(?:and|then|{'|'.join(VERB_WORDS)})\b)"
+        rf"\b(open (?:the|my) [^.,;]*?), (?!(?:and|then|{'|'.join(VERB_WORDS)})\b)"
         r"([^.,;]*?) (in|inside)(?=,? (?:and )?(?:close|shut)\b)",
         r"\1, put \2 \3",
     ),
