@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
-from etot_cli.reasoning.language.reference.space import carries
+from etot_cli.reasoning.language.reference.space import below, carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
 from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color, head_of
 
@@ -50,15 +50,25 @@ def tower(context: Context, clause: TowerClause) -> None:
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
     bottom = indices[0]
+    if clause.stays:
+        _stays(context, things, text)
     if places:
         context.steps.append(Put((indices[0],), places))
-        under = places[0].where
-        if len(things) == 1 and len(places) == 1 and under is not None:
-            bottom = under
-    for (below, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
-        place = _upon(context, lower, upper, below, inside=clause.nested)
+        foot = places[0].where
+        if len(things) == 1 and len(places) == 1 and foot is not None:
+            bottom = foot
+    for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
+        place = _upon(context, lower, upper, under, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _stays(context: Context, things: Sequence[Thing], text: str) -> None:
+    """The lowest of some things must not be moved."""
+    lowest, *others = things
+    if {thing.name for thing in others} & below(lowest, context.scene):
+        raise ReferenceProblem(text, f"{lowest.name} lies on another one, and can not stay", 3)
+    context.constraints.append(Constraint(Keep.UNMOVED, (lowest.name,)))
 
 
 def _parts(
@@ -190,7 +200,9 @@ def _upward(
 
 
 def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing:
+    alone = not (phrase.determiner or phrase.is_elliptic or phrase.modifiers)
     told = phrase.words[:-1] if phrase.is_elliptic and not phrase.modifiers else ()
+    told = phrase.words if alone else told
     if told and all(word in SIZES for word in told):
         found = select(told, (), list(things), 1, context.scene, phrase.text)
     else:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import takewhile
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
+from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import (
@@ -71,6 +71,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     PICK,
     REMOVE,
 )
+from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category

@@ -283,6 +283,8 @@ class TowerClause:
     top: NounPhrase | None = None
     base: tuple[Destination, ...] = ()
     """What the bottom one goes on, where it is not to stay."""
+    stays: bool = False
+    """The bottom one was said to stay where it is."""
     nested: bool = False
     """They are to be inside each other."""
     whole: Things | None = None

@@ -204,7 +204,9 @@ REORIENT = """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
-OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
+A_TOWER = "(a|one) [single] (tower|stack|pile)"
+OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"
+FORM_A_TOWER = f"({_MUST}|can|could|may) (form|make [up]|become|be) {A_TOWER}"
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
     (swap|exchange|switch|trade|change) [the] (places|positions) of

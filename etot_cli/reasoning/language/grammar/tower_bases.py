@@ -1,0 +1,81 @@
+"""Rules for towers that are told upon a base, one layer upon the other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    optional,
+    quiet,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+    TowerClause,
+)
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
+
+_BASE = sequence(
+    "us(e|ing), tak(e|ing), mak(e|ing), have, let, choose, keep",
+    noun_phrase,
+    manner.AS_BASE,
+    optional(f"(of|for) ({verbs.A_TOWER}|the (tower|stack|pile))"),
+)
+_PUT = f"{verbs.PUT}, {verbs.STACK}, go[es]"
+_NEXT = either(
+    sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA),
+    LIST,
+)
+_UPON = some(
+    sequence(_NEXT, optional(_PUT), noun_phrase, optional("goes"), manner.ATOP),
+    most=4,
+)
+_ON_IT = f"[right|directly] (on|onto|upon|on top of|over|above) it, on top, {manner.UPON_THAT}"
+
+
+def _layered(first: NounPhrase, second: NounPhrase, more: Any) -> TowerClause | None:
+    nps = (first, second, *more)
+    one_each = all(singular(np.head) == np.head for np in nps)
+    return TowerClause(Things(nps), upward=True) if one_each else None
+
+
+def _founded(base: NounPhrase, things: Things) -> TowerClause | None:
+    several = len(things.phrases) > 1 or singular(things.phrases[0].head) != things.phrases[0].head
+    where = Destination(Toward.ON, (base,))
+    return TowerClause(things, base=(where,)) if several and not things.either else None
+
+
+ON_A_BASE = quiet(
+    either(
+        sequence(
+            _BASE,
+            either(_NEXT, COMMA),
+            optional(_PUT),
+            noun_phrase,
+            optional("goes"),
+            _ON_IT,
+            _UPON,
+            build=_layered,
+        ),
+        sequence(_BASE, either(_NEXT, COMMA), verbs.STACK, THINGS, _ON_IT, build=_founded),
+    )
+)
+"""Something is the base of a tower, and what goes on it is told from there up."""
+ONE_ON_THE_OTHER = sequence(
+    optional("first"),
+    noun_phrase,
+    places.ONTO,
+    noun_phrase,
+    some(sequence(_NEXT, noun_phrase, f"{manner.ATOP}, {manner.UPON_THAT}"), least=1, most=4),
+    build=lambda second, first, more: (first, second, *more),
+)
+"""The layers of a tower, from the bottom up."""
