@@ -31,6 +31,9 @@ median (docs/results.md), so two equal things of 50 mm differ by 0.6 mm in the m
 
 def tower(context: Context, clause: TowerClause) -> None:
     """Everything upon each other, from the bottom up; the bottom one stays where it is."""
+    if clause.reverses:
+        _reverse(context, clause)
+        return
     context.tell_others(clause.things, clause.base)
     text = clause.things.text
     # "Stack them: the red one, …": nothing was spoken of before
@@ -61,6 +64,27 @@ def tower(context: Context, clause: TowerClause) -> None:
         place = _upon(context, lower, upper, under, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _reverse(context: Context, clause: TowerClause) -> None:
+    """A stack the other way round, where it is."""
+    (said,) = clause.things.phrases
+    options = context.phrases.meaning(said, Role.ANY).options
+    if len(options) != 1 or len(options[0]) < 2:
+        raise ReferenceProblem(said.text, "say which stack", 2)
+    stack = options[0]
+    things = stack[::-1]
+    nouns = {head_of(context.scene.infos[t.name].label.replace(" ", "_")) for t in things}
+    for end, thing in ((clause.bottom, things[0]), (clause.top, things[-1])):
+        named = end.called(*nouns) if end and end.is_elliptic and len(nouns) == 1 else end
+        if end and named and _end(context, named, things) != thing:
+            raise ReferenceProblem(end.text, f"it is {thing.name} that is there then", 3)
+    indices = [context.single(thing, thing.name) for thing in things]
+    context.steps.append(Put((indices[0],), (context.home(stack[0]),)))
+    for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
+        place = _upon(context, lower, upper, under, inside=False)
+        context.steps.append(Put((above,), (place,)))
+    context.discourse.stacks[context.discourse.clause] = indices[0], indices[-1]
 
 
 def _stays(context: Context, things: Sequence[Thing], text: str) -> None:

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
     NEITHER,
     ONLY_THESE,
+    SIDE_BY_SIDE,
     bared,
     with_others,
 )
@@ -72,6 +73,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     REMOVE,
 )
 from etot_cli.reasoning.language.grammar.towers import TOWER
+from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
@@ -210,6 +212,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
+        *(SPREAD, REVERSED),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
@@ -228,6 +231,7 @@ CLAUSE = located(
             sequence(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
             ),
+            SIDE_BY_SIDE,
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

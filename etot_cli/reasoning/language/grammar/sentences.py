@@ -86,6 +86,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     one_of_them,
     shared_out,
 )
+from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
@@ -173,7 +174,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
-    sequence(plain(EMPTY), COLON, BARE_CHAIN, build=add),
+    sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
         noun_phrase,

@@ -30,6 +30,12 @@ UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that
 ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
 """Behind what comes on what was put on the base."""
 AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
+NOT_STACKED = """
+    [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
+    one another|the other[s]|any other [one]),
+    [but|and] not on [top of] (each other|one another)
+"""
+"""Behind where all of some things lie side by side."""
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
 """

@@ -69,6 +69,7 @@ REMOVE = """
     lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
+REVERSE = "revers(e|ing), invert[ing]"
 TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]"
 TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
@@ -88,7 +89,7 @@ ENSURE = """
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
-    (arrange|rearrange|reverse|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
+    (arrange|rearrange|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
     lay|prepare|sort)
 """
 NOTHING_IS = """
