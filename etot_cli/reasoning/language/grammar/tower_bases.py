@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, LIST_COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     either,
     optional,
     quiet,
@@ -24,12 +25,22 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 
-_BASE = sequence(
-    "us(e|ing), tak(e|ing), mak(e|ing), have, let, choose, keep",
-    noun_phrase,
-    manner.AS_BASE,
-    optional(f"(of|for) ({verbs.A_TOWER}|the (tower|stack|pile))"),
+_BASE = either(
+    sequence(
+        "us(e|ing), tak(e|ing), mak(e|ing), have, let, choose, keep",
+        noun_phrase,
+        manner.AS_BASE,
+        optional(f"(of|for) ({verbs.A_TOWER}|the (tower|stack|pile))"),
+    ),
+    sequence(f"(start|begin) ({verbs.A_TOWER}|the (tower|stack|pile)) (with|on|from)", noun_phrase),
+    sequence("(start|begin) with", noun_phrase, manner.AS_BASE),
 )
+
+
+def _then(parser: Parser) -> Parser:
+    return sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, parser)
+
+
 _PUT = f"{verbs.PUT}, {verbs.STACK}, go[es]"
 _NEXT = either(
     sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA),
@@ -70,6 +81,14 @@ ON_A_BASE = quiet(
     )
 )
 """Something is the base of a tower, and what goes on it is told from there up."""
+FIRST_TO_LAST = sequence(
+    "first",
+    noun_phrase,
+    some(either(sequence(LIST_COMMA, noun_phrase), _then(noun_phrase)), most=4),
+    _then(noun_phrase),
+    build=lambda first, more, last: (first, *more, last),
+)
+"""The layers of a tower in the order in which it is built."""
 ONE_ON_THE_OTHER = sequence(
     optional("first"),
     noun_phrase,

@@ -28,7 +28,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     TowerClause,
 )
-from etot_cli.reasoning.language.grammar.tower_bases import ON_A_BASE, ONE_ON_THE_OTHER
+from etot_cli.reasoning.language.grammar.tower_bases import (
+    FIRST_TO_LAST,
+    ON_A_BASE,
+    ONE_ON_THE_OTHER,
+)
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
@@ -166,6 +170,7 @@ _LAYERS = valued(
     either(
         sequence(_LAYER, _MORE_LAYERS, build=_rising),
         ONE_ON_THE_OTHER,
+        FIRST_TO_LAST,
         sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
         sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
     ),
@@ -201,6 +206,7 @@ _TOWER = either(
         either(
             sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
             sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
+            sequence(verbs.TURN_INTO, THINGS, f"(in|into) {verbs.A_TOWER}"),
             sequence(verbs.WANT, THINGS, "(stacked|piled) [up]", optional(manner.UPON_EACH_OTHER)),
         ),
         optional(_UPWARD, None),

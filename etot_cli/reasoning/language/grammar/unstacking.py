@@ -59,7 +59,7 @@ _APART = "tak(e|ing), break[ing], pull[ing]"
 UNSTACK = either(
     sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
     sequence(
-        verbs.UNSTACK,
+        f"{verbs.UNSTACK}, {verbs.DISMANTLE}",
         noun_phrase,
         build=lambda np: _taken_apart(Things((np,))) if _is_stack(np) else None,
     ),
@@ -82,7 +82,7 @@ _ITS_PARTS = either(
     sequence(optional("all, all of"), "them, its parts, everything", build=lambda: ("all", ())),
 )
 SPREAD = sequence(
-    f"{_APART}, {verbs.UNSTACK}",
+    f"{_APART}, {verbs.UNSTACK}, {verbs.DISMANTLE}",
     noun_phrase,
     optional("apart"),
     either(sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA), LIST),
@@ -118,8 +118,7 @@ def _turned_over(things: Things, ends: Any) -> TowerClause | None:
 
 _SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, {small_words.SO_THAT}"))
 REVERSED = sequence(
-    verbs.REVERSE,
-    optional("the order (of|in)"),
+    f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
     THINGS,
     optional(sequence(_SO, _ENDS), ()),
     build=_turned_over,

@@ -23,7 +23,7 @@ STATES = """
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
-    (in|into) a [vertical|single] (tower|stack|pile), onto each other
+    (in|into) (a|one) [vertical|single] (tower|stack|pile), onto each other
 """
 UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that|it)"
 """Behind what comes next in a tower."""

@@ -69,6 +69,7 @@ REMOVE = """
     lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
+DISMANTLE = "dismantl(e|ing), disassembl(e|ing), break[ing] up"
 REVERSE = "revers(e|ing), invert[ing]"
 TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]"
 TIDY = f"{TIDY_AWAY}, clear[ing]"
@@ -207,7 +208,11 @@ STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 A_TOWER = "(a|one) [single] (tower|stack|pile)"
 OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"
-FORM_A_TOWER = f"({_MUST}|can|could|may) (form|make [up]|become|be) {A_TOWER}"
+FORM_A_TOWER = f"""
+    ({_MUST}|can|could|may) (form|make [up]|become|be|(end up|be|stand) (in|as)) {A_TOWER}
+"""
+TURN_INTO = "turn[ing], mak(e|ing), arrang(e|ing), assembl(e|ing), combin(e|ing), form[ing]"
+"""Before things and what becomes of them."""
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
     (swap|exchange|switch|trade|change) [the] (places|positions) of
