@@ -42,6 +42,7 @@ _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
+_NO_MORE_SAID = r"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b|$)"
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
 _CLITICS = (
@@ -154,6 +155,12 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
+    (
+        r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
+        r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
+        rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
+        r"\1 is empty",
+    ),
     (r"\bup (?=with\b)", ""),
     (r"(^|[.;,] )only then (?=\w)", r"\1then "),
     (

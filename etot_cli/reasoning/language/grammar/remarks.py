@@ -121,8 +121,8 @@ _PREDICATE = re.compile(
 _TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _BELONGS = re.compile(rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$")
 _TELLING = (
-    word_set("full free clear ready") | set(STATES) | set(LEVELS) | set(SIDES) | set(NUMBERS)
-    | set(THING_NOUNS) | _REFERRING
+    word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
+    | set(NUMBERS) | set(THING_NOUNS) | _REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
 _GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")

@@ -74,6 +74,7 @@ from etot_cli.reasoning.language.grammar.taking import EMPTY, emptied
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
+    AS_IT_STANDS,
     MAKING_ROOM,
     NAMED,
     SAID,
@@ -183,7 +184,8 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=any_of_them,
     ),
-    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
+    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma [and]", CHAIN, build=add),
+    sequence(AS_IT_STANDS, "[~comma] [and] so", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
+    quiet,
     sequence,
     silent,
     spanned,
@@ -129,14 +130,57 @@ MAKING_ROOM = spanned(
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )
 """What something else is done for."""
-_ALREADY = sequence(
-    noun_phrase,
-    "is already, are already, 's already",
-    DESCRIBED,
-    build=lambda np, said: Things((np.told_by(said),)),
+
+
+def _holding(vessel: NounPhrase, content: NounPhrase) -> Things | None:
+    """A vessel by what is in it."""
+    named = vessel.words and not (vessel.modifiers or content.modifiers)
+    return Things((vessel.told_by(Modifier(Prep.CONTAINING, (content,))),)) if named else None
+
+
+def _stands_there(np: NounPhrase, said: Modifier) -> ReorientClause | None:
+    """What is in or on something; "the vase is off limits" is no such thing."""
+    there = said.prep in (Prep.IN, Prep.ON) and not said.denied
+    return ReorientClause(Things((np.told_by(said),)), only_named=True) if there else None
+
+
+_ALREADY = either(
+    sequence(
+        noun_phrase,
+        "is already, are already, 's already",
+        DESCRIBED,
+        build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
+    sequence(
+        noun_phrase, "[already] (has|holds) [already]", noun_phrase, "in it, inside", build=_holding
+    ),
+    sequence(
+        noun_phrase,
+        verbs.TAKEN_ALREADY,
+        build=lambda vessel: _holding(vessel, NounPhrase("an", ("object",), text="anything")),
+    ),
+    sequence(
+        "there (is|are) already, (i|we|you) already have",
+        noun_phrase,
+        "in, inside",
+        noun_phrase,
+        build=lambda content, vessel: _holding(vessel, content),
+    ),
 )
 AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
 """How things are by now, before what is asked for in that case."""
+AS_IT_STANDS = plain(
+    quiet(
+        sequence(
+            noun_phrase,
+            verbs.BE,
+            DESCRIBED,
+            build=_stands_there,
+        )
+    )
+)
+"""The same without a word for it, before "so"."""
 SAID = either(
     sequence(either(_STATED, _ALREADY), build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, _remark),

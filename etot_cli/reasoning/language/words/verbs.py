@@ -168,6 +168,10 @@ NOT_BE = """
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
+TAKEN_BY = "(is|are) [already|currently|now] (taken|occupied|used|filled|in use) by"
+TAKEN_ALREADY = "(is|are) [already|currently|now] (taken|occupied|in use|being used)"
+HOLDS = "already (holds|contains|has), (holds|contains|has) already"
+"""Between a vessel and what is in it by now."""
 CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
