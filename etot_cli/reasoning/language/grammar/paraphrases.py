@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.verbs import PAST
@@ -112,6 +113,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     *_CLITICS,
+    *OBSTACLES,
     (_WISHED, _as_asked),
     (r"\band/or\b", "or"),
     (rf"\b(left|right|top|bottom|front|back|upper|lower)[{HYPHENS} ]most\b", r"\1most"),

@@ -75,6 +75,7 @@ from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
     AS_IT_STANDS,
+    FREEING,
     MAKING_ROOM,
     NAMED,
     SAID,
@@ -209,7 +210,7 @@ _WITH_MORE_BEFORE_IT = either(
         sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
-    sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
+    sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

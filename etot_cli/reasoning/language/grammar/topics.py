@@ -132,6 +132,18 @@ MAKING_ROOM = spanned(
 """What something else is done for."""
 
 
+def _freed(said: str, things: Things) -> ReorientClause | None:
+    """A drawer or door that is freed by what is done next; a tray is rather cleared."""
+    joints = sum(JOINT_NOUNS.values(), ())
+    moving = all(np.words and matches_any(np.head, joints) for np in things.phrases)
+    return ReorientClause(things, only_named=True, remark=said) if moving else None
+
+
+FREEING = spanned(
+    sequence("free[ing] [up], unblock[ing], clear[ing] the way to", ALL_THINGS), _freed
+)
+
+
 def _holding(vessel: NounPhrase, content: NounPhrase) -> Things | None:
     """A vessel by what is in it."""
     named = vessel.words and not (vessel.modifiers or content.modifiers)

@@ -61,7 +61,7 @@ GET_OUT = f"""
     {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
 """
 """Said of what is taken out of something; who grabs a thing there holds it."""
-BRING = f"{GET_OUT}, grab[bing]"
+BRING = f"{GET_OUT}, grab[bing], lift[ing]"
 REMOVE = """
     remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] down, extract[ing],
     tak(e|ing) (out|off|away|down),

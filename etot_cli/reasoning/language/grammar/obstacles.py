@@ -1,0 +1,49 @@
+"""Ways of speaking of what stands in the way of a drawer or a door, put into plain ones.
+
+Whoever clears the way to it moves all that is blocking it, out of the way of it.
+"""
+
+from __future__ import annotations
+
+_WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
+_AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
+_ENDS = r"(?=[,.;!?]| (?:and|then|so)\b|$)"
+_BLOCKS = (
+    r"(?:(?:is |are )?(?:blocking|obstructing)|blocks|obstructs"
+    r"|(?:is |are |stands |sits )(?:standing |sitting |lying )?in the way of)"
+)
+_OPENS = r"(?:open|be opened|be pulled out)"
+_SOMETHING = r"(?:something|a thing|an object)"
+_THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
+OBSTACLES = (
+    (
+        rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",
+        "everything that is blocking ",
+    ),
+    (
+        rf"\bthe (thing|object) (?:that |which )?{_BLOCKS} (?={_WHAT})",
+        r"the \1 that is blocking ",
+    ),
+    (
+        rf"\b(that is blocking) ({_WHAT}) {_AWAY}{_ENDS}",
+        r"\1 \2 out of the way of \2",
+    ),
+    (
+        rf"\b(?:clear|free(?: up)?) the "
+        rf"(?:way to|path to|(?:space|area|spot|room) in front of) ({_WHAT}){_ENDS}",
+        r"move everything that is blocking \1 out of the way of \1",
+    ),
+    (
+        rf"(^|[.;] )({_WHAT}) (?:can not|will not|does not) {_OPENS} because {_SOMETHING} {_THERE}"
+        rf"[.;,](?: so)?(?: please)? (move|put|take|bring|place) "
+        rf"(?:(?:that|the)(?: thing| object)|that|it) "
+        rf"(?=(?:on|in|onto|into|to|next|beside|near|behind)\b)",
+        r"\1\3 the thing that is blocking \2 ",
+    ),
+    (
+        rf", but ({_WHAT}) (?:is|are) in the way(?: of it)?[,;.]? (?:so )?(?:please )?"
+        rf"(move|put|take|bring|place) (?:it|them) ",
+        r", but \2 \1 ",
+    ),
+)
+"""In order, before other ways of speaking."""
