@@ -298,7 +298,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
         upon = [i for i in themes if _stands_upon(context, i, themes)]
         themes = upon or themes
     if clause.source is None and clause.stacked:
-        themes = tuple(one for index in themes for one in choose_stacked(context, index))
+        themes = [one for index in themes for one in choose_stacked(context, index)]
     elif clause.source is None:
         for index in themes:
             choose_from_somewhere(context, index)

@@ -158,6 +158,12 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
     (
+        r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
+        r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
+        r"\1\2, so ",
+    ),
+    (r"(?<!that )(?<!which )\b(?=(?:nobody|no one) (?:uses|is using)\b)", "that "),
+    (
         r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
         r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
         rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",

@@ -74,9 +74,15 @@ def _all_of_any(np: NounPhrase) -> Things | None:
 
 
 def _remark(said: str, things: Things) -> ReorientClause | None:
-    """What is said of things and asked of none; "any cup is fine" leaves a choice open."""
+    """What is said of things and asked of none; "any cup is fine" leaves a choice open, and what is
+    "already used" is a vessel that something is in.
+    """
     open_choice = any(np.determiner in ("any", "either") for np in things.phrases)
-    return None if open_choice else ReorientClause(things, only_named=True, remark=said)
+    return (
+        None
+        if open_choice or said.endswith(" already used")
+        else ReorientClause(things, only_named=True, remark=said)
+    )
 
 
 _STATED = either(

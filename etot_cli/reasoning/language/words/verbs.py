@@ -169,7 +169,9 @@ NOT_BE = """
     (does|do) not (belong|go)
 """
 TAKEN_BY = "(is|are) [already|currently|now] (taken|occupied|used|filled|in use) by"
-TAKEN_ALREADY = "(is|are) [already|currently|now] (taken|occupied|in use|being used)"
+TAKEN_ALREADY = """
+    (is|are) [already|currently|now] (taken|occupied|in use|being used), (is|are) already used
+"""
 HOLDS = "already (holds|contains|has), (holds|contains|has) already"
 """Between a vessel and what is in it by now."""
 CONTAIN = f"({_MUST}) (contain|hold|have), keep[s]"
